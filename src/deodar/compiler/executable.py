@@ -1,0 +1,328 @@
+"""Executables of one model: compiled ahead of time, so that running never traces.
+
+One executable runs any number of steps: the numbers of steps and of records are arguments, not part of the program.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import time
+from collections.abc import Hashable, Sequence
+from typing import Any, cast
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from deodar.compiler import cache
+from deodar.compiler.plan import Leaf, Plan, plan
+from deodar.compiler.program import Port, Program, array_key, precision_context
+from deodar.errors import ModelError, ParameterError, Untrusted
+from deodar.model.check import check
+from deodar.model.document import Document
+from deodar.model.model import Model
+from deodar.numerics.axes import Axes, shape
+from deodar.parameters import leaves, resting, structure
+
+Tree = Any
+PRECISIONS = ("float32", "float64")
+MOST_KEPT = 16
+"""Executable sets that one model keeps; the oldest go first."""
+
+BUFFER_BYTES = 16 * 2**20
+"""Size of the buffer in which a chunk records."""
+
+
+@dc.dataclass(frozen=True)
+class Batch:
+    """How many copies run at once: points of a sweep and trials; None where there is no such axis."""
+
+    points: int | None = None
+    trials: int | None = None
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Leading axes of everything that is batched."""
+        return tuple(n for n in (self.points, self.trials) if n is not None)
+
+    @property
+    def size(self) -> int:
+        """Number of copies."""
+        return int(np.prod(self.shape, dtype=int))
+
+
+class Executable:
+    """The compiled functions of one document structure, precision and batch.
+
+    Attributes:
+        plan: the plan they compute.
+        traced: how many functions were traced so far; running does not change it.
+        compiled: how many of them were not found in the cache.
+        seconds: CPU time spent on planning, tracing and compiling.
+    """
+
+    def __init__(self, doc: Document, precision: str, batch: Batch, sweep: Sequence[Sequence[Leaf]]) -> None:
+        began = time.process_time()
+        self.precision = precision
+        self.batch = batch
+        self.sweep = tuple(tuple(s) for s in sweep)
+        self.plan: Plan = plan(doc, frozenset(leaf for leafs in self.sweep for leaf in leafs))
+        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep])
+        self.traced = 0
+        self.compiled = 0
+        self.seconds = 0.0
+        self._known: dict[Hashable, Any] = {}
+        values = self.values(doc)
+        p, u32 = self.program, jnp.uint32(0)
+        self._prepare = self._compile(p.prepare, values)
+        trials = np.zeros(batch.trials or 1, np.uint32)
+        self._init = self._compile(self._start, values, u32, trials)
+        self.seconds += time.process_time() - began
+
+    # -------------------------------------------------------------------------------- values
+
+    def place(self, leaf: Leaf) -> int:
+        """Place of a scalar leaf in the parameter vector."""
+        ident, path = leaf
+        g, r = self.plan.row[ident]
+        return self.plan.groups[g].offset[path] + r
+
+    def holds(self, leaf: Leaf) -> bool:
+        """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
+        g, _ = self.plan.row[leaf[0]]
+        group = self.plan.groups[g]
+        return leaf[1] in group.offset or leaf[1] in group.arrays
+
+    def values(self, doc: Document, swept: Sequence[Any] | None = None) -> Tree:
+        """The parameters of a document of this structure, on the host."""
+        vector = np.zeros(self.plan.size, self.program.dtype)
+        arrays: dict[str, np.ndarray] = {}
+        by = doc.by_id()
+        for g, group in enumerate(self.plan.groups):
+            columns = [{path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)} for n in group.nodes]
+            for path, offset in group.offset.items():
+                vector[offset : offset + group.rows] = [c[path] for c in columns]
+            for path in group.arrays:
+                arrays[array_key(g, path)] = np.stack([np.asarray(c[path], self.program.dtype) for c in columns])
+        points = self.batch.points or 1
+        if swept is None:
+            swept = [np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.program.sweep]
+        return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.program.dtype) for s in swept)}
+
+    # -------------------------------------------------------------------------------- functions
+
+    def prepare(self, values: Tree) -> Tree:
+        """Constants of the groups."""
+        return self.call(self._prepare, values)
+
+    def init(self, values: Tree, seed: int, trials: Sequence[int]) -> tuple[Tree, Tree]:
+        """State at the start and noise keys, for the given trials of a seed."""
+        return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
+
+    def chunk(self, ports: Sequence[Port]) -> tuple[Any, int]:
+        """The executable that steps and records, and how many records its buffer holds."""
+        key = ("chunk", tuple(ports))
+        if key not in self._known:
+            capacity = self.capacity(ports)
+            self._known[key] = (self._compile(lambda *a: self._chunk(ports, capacity, *a), *self._example()), capacity)
+        return self._known[key]
+
+    def reader(self, ports: Sequence[Port]) -> Any:
+        """The executable that reads ports of a state."""
+        key = ("read", tuple(ports))
+        if key not in self._known:
+            example = self._example()[:-1]
+            self._known[key] = self._compile(lambda *a: self._read(ports, *a), *example)
+        return self._known[key]
+
+    def call(self, executable: Any, *args: Any) -> Any:
+        """Run an executable in the precision it was compiled for."""
+        with precision_context(self.precision):
+            return executable(*args)
+
+    def port(self, ident: str, name: str) -> Port:
+        """A port of an element, as the program knows it."""
+        g, r = self.plan.row[ident]
+        return Port(g, r, name)
+
+    def axes(self, port: Port) -> Axes:
+        """Axes of a port."""
+        like = self.plan.groups[port.group].like
+        return like.outs[port.name] if port.name in like.outs else like.ins[port.name]
+
+    def capacity(self, ports: Sequence[Port]) -> int:
+        """How many records fit into the buffer of one chunk."""
+        cells = sum(int(np.prod(shape(self.axes(p)), dtype=int)) for p in ports) * self.batch.size
+        return max(1, min(16384, BUFFER_BYTES // max(1, cells * self.program.dtype.itemsize)))
+
+    # -------------------------------------------------------------------------------- traced
+
+    def _start(self, values: Tree, seed: Any, trials: Any) -> tuple[Tree, Tree]:
+        self.traced += 1
+        one = self.program.init
+        if self.batch.trials is not None:
+            many = jax.vmap(one, in_axes=(None, None, 0))
+        else:
+
+            def many(v: Tree, s: Any, t: Any) -> Any:
+                return one(v, s, t[0])
+
+        if self.batch.points is None:
+            return many(values | {"swept": ()}, seed, trials)
+        return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
+
+    def _chunk(
+        self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree, counts: Any
+    ) -> Any:
+        self.traced += 1
+
+        def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+            return self._run(ports, capacity, values, constants, state, keys, sensed, clock, counts)
+
+        return self._batched(one, values, constants, state, keys)
+
+    def _read(self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Any:
+        self.traced += 1
+
+        def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+            still = self.program.steady(values, constants, sensed)
+            return self.program.observe(ports, values, constants, state, keys, sensed, still, clock, clock["tick"])
+
+        return self._batched(one, values, constants, state, keys)
+
+    def _batched(self, one: Any, values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+        if self.batch.trials is not None:
+            one = jax.vmap(one, in_axes=(None, None, 0, 0))
+        if self.batch.points is None:
+            return one(values | {"swept": ()}, constants, state, keys)
+        rebuilt = [0 if swept else None for swept in self.program.rebuilt]
+        return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(values, constants, state, keys)
+
+    def _swept_axes(self, values: Tree) -> Tree:
+        return {"vector": None, "arrays": None, "swept": tuple(0 for _ in values["swept"])}
+
+    def _run(
+        self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree, counts: Any
+    ) -> Any:
+        """`head` steps, a record, then `every` steps and a record until there are `records`; without ports `head` steps."""
+        program = self.program
+        still = program.steady(values, constants, sensed)
+        head, every, records = counts["head"], counts["every"], counts["records"]
+
+        def steps(n: Any, tick: Any, state: Tree) -> tuple[Any, Tree]:
+            def body(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
+                tick, state = carry
+                new = program.step(values, constants, state, keys, sensed, still, clock, tick)
+                return tick + jnp.uint32(1), new
+
+            return lax.fori_loop(0, n, body, (tick, state))
+
+        if not ports:
+            tick, state = steps(head, clock["tick"], state)
+            return state, (), program.finite(state)
+        buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
+
+        def segment(r: Any, carry: Any) -> Any:
+            tick, state, buffers = carry
+            tick, state = steps(jnp.where(r == 0, head, every), tick, state)
+            seen = program.observe(ports, values, constants, state, keys, sensed, still, clock, tick)
+            return tick, state, tuple(lax.dynamic_update_index_in_dim(b, s, r, 0) for b, s in zip(buffers, seen, strict=True))
+
+        _, state, buffers = lax.fori_loop(0, records, segment, (clock["tick"], state, buffers))
+        return state, buffers, program.finite(state)
+
+    # -------------------------------------------------------------------------------- compiling
+
+    def _compile(self, function: Any, *args: Any) -> Any:
+        began = time.process_time()
+        before = self.traced
+        with precision_context(self.precision):
+            lowered = jax.jit(function).lower(*args)
+            executable, fresh = cache.compile(lowered)
+        self.traced = before + 1
+        self.compiled += fresh
+        self.seconds += time.process_time() - began
+        return executable
+
+    def _example(self) -> tuple[Any, ...]:
+        """Arguments of the shapes that running will use."""
+        if "example" not in self._known:
+            zero = np.zeros((), self.program.dtype)
+            vector = np.zeros(self.plan.size, self.program.dtype)
+            values = {
+                "vector": vector,
+                "arrays": self._zeros_arrays(),
+                "swept": tuple(np.zeros(self.batch.points or 1, self.program.dtype) for _ in self.sweep),
+            }
+            sensed = self.blind()
+            clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero}
+            counts = {"head": np.int32(0), "every": np.int32(0), "records": np.int32(0)}
+            trials = np.zeros(self.batch.trials or 1, np.uint32)
+            with precision_context(self.precision):
+                constants = jax.eval_shape(self.program.prepare, values)
+                state, keys = jax.eval_shape(self._start, values, np.uint32(0), trials)
+            self._known["example"] = (values, constants, state, keys, sensed, clock, counts)
+        return self._known["example"]
+
+    def _zeros_arrays(self) -> dict[str, np.ndarray]:
+        out: dict[str, np.ndarray] = {}
+        for g, group in enumerate(self.plan.groups):
+            for path, value, _ in leaves(group.like.element):
+                if path in group.arrays:
+                    out[array_key(g, path)] = np.zeros((group.rows, *np.shape(cast(Any, value))), self.program.dtype)
+        return out
+
+    def blind(self) -> dict[str, np.ndarray]:
+        """Readings of the sensors of a model that senses nothing: zeros."""
+        out: dict[str, np.ndarray] = {}
+        for ident in self.plan.sensors:
+            g, _ = self.plan.row[ident]
+            out[ident] = np.zeros(shape(self.plan.groups[g].like.outs["output"]), self.program.dtype)
+        return out
+
+
+def executable(
+    model: Model,
+    doc: Document | None = None,
+    precision: str = "float32",
+    batch: Batch | None = None,
+    sweep: Sequence[Sequence[Leaf]] = (),
+) -> Executable:
+    """The executable of a document, by default the model's present one; kept by the model, so that it compiles once."""
+    batch, doc = batch or Batch(), doc or model.document
+    if precision not in PRECISIONS:
+        raise ParameterError(f"precision is {precision!r}; it is float32 or float64")
+    require_trust(model, doc)
+    lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
+    neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
+    key = (signature(doc), precision, batch, tuple(map(tuple, sweep)), neutral)
+    if key not in model.programs:
+        problems = model.check() if doc is model.document else check(doc)
+        if problems:
+            raise ModelError(problems)
+        made = Executable(doc, precision, batch, sweep)
+        while len(model.programs) >= MOST_KEPT:
+            del model.programs[next(iter(model.programs))]
+        model.programs[key] = made
+    return model.programs[key]
+
+
+def signature(doc: Document) -> Hashable:
+    """What makes a new program when it changes: everything but names and the values of traced leaves."""
+    entries = tuple((e.id, e.every, structure(e.element)) for e in sorted(doc.entries, key=lambda e: e.id))
+    return (entries, tuple(sorted(dc.astuple(c) for c in doc.connections)))
+
+
+def require_trust(model: Model, doc: Document) -> None:
+    """Refuse to compile a document from elsewhere that names a function, until it is trusted."""
+    if model.trusted:
+        return
+    for e in doc.entries:
+        name = getattr(e.element, "function", None)
+        if name is not None:
+            raise Untrusted(
+                f"the document asks to run the function {name!r}",
+                where=e.path,
+                fix="If you trust it, load it with dd.load(file, trust=True), or on the command line with --trust",
+            )

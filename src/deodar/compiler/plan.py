@@ -1,0 +1,229 @@
+"""The plan between model and program: plain data without JAX, to be printed and tested.
+
+Nodes of equal structure are rows of one group, stacked on a leading axis. The schedule is a list of calls, and every sum
+of the graph a list of index arrays. A planner may replace the partition, or rewrite a plan into another one.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.elements.sensor import Sensor
+from deodar.errors import ModelError
+from deodar.model.document import Document
+from deodar.model.order import Role, order
+from deodar.model.resolve import Instant, Node, resolve
+from deodar.numerics.axes import Axes
+from deodar.parameters import Parameter, bind, leaves, resting, structure
+
+Leaf = tuple[str, str]
+"""Element id and path of a traced leaf inside the element."""
+
+
+@dc.dataclass
+class Group:
+    """Rows of equal structure.
+
+    Attributes:
+        nodes: the rows, in the order of their ids.
+        offset: for each scalar leaf, its place in the parameter vector (one entry a row).
+        arrays: paths of the leaves that are arrays.
+        cost: for each leaf, `live` or `rebuild`.
+        still: whether its outputs stay the same during a chunk.
+        noise: axes over which a row draws noise, or None.
+    """
+
+    nodes: list[Node]
+    offset: dict[str, int]
+    arrays: tuple[str, ...]
+    cost: dict[str, str]
+    still: bool
+    noise: Axes | None
+
+    @property
+    def like(self) -> Node:
+        """The row that stands for all."""
+        return self.nodes[0]
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(self.nodes)
+
+
+@dc.dataclass(frozen=True)
+class Call:
+    """One evaluation of a whole group."""
+
+    group: int
+    role: Role
+    instant: Instant
+
+
+@dc.dataclass
+class Read:
+    """Rows of one buffer that are added to rows of one port: a padded table, `rows x most`, of rows of the source.
+
+    Entries equal to the number of the source's rows stand for nothing. Each row sums in the order of the sources' ids.
+    """
+
+    source: tuple[int, str, Instant]
+    table: np.ndarray
+    whole: bool
+
+
+@dc.dataclass
+class Plan:
+    """What is computed, in which order, from what."""
+
+    groups: list[Group]
+    calls: list[Call]
+    reads: dict[tuple[int, str], list[Read]]
+    row: dict[str, tuple[int, int]]
+    sensors: dict[str, int]
+    size: int
+    ticks: int
+
+    def describe(self) -> str:
+        """The plan in words, one line a group and a call."""
+        lines = [f"{len(self.groups)} groups, {self.size} parameters, all parts meet every {self.ticks} ticks"]
+        for k, g in enumerate(self.groups):
+            names = ", ".join(n.path for n in g.nodes[:4]) + (", ..." if g.rows > 4 else "")
+            lines.append(f"group {k}: {g.rows} x {type(g.like.element).__name__} every {g.like.every}{' still' if g.still else ''}: {names}")
+        lines += [f"call: {c.role} of group {c.group} at t{' + dt' if c.instant else ''}" for c in self.calls]
+        return "\n".join(lines)
+
+    def needed(self, slots: Sequence[tuple[int, str]]) -> list[Call]:
+        """The output calls at time t that ports of groups depend on: (group, port), input ports included."""
+        want: set[int] = set()
+        todo: list[tuple[int, Sequence[str]]] = []
+        for g, port in slots:
+            like = self.groups[g].like
+            if port in like.outs:
+                todo.append((g, like.passes(port)))
+                want.add(g)
+            else:
+                todo.append((g, [port]))
+        done: set[tuple[int, str]] = set()
+        while todo:
+            g, ports = todo.pop()
+            for port in ports:
+                if (g, port) in done:
+                    continue
+                done.add((g, port))
+                for read in self.reads[g, port]:
+                    source = read.source[0]
+                    want.add(source)
+                    todo.append((source, [p for o in self.groups[source].like.outs for p in self.groups[source].like.passes(o)]))
+        return [c for c in self.calls if c.role == "output" and c.instant == 0 and c.group in want]
+
+
+def by_structure(node: Node, still: bool, neutral: frozenset[str]) -> Hashable:
+    """Rows that share one group: equal level, rate, structure and axes. A sensor stands alone: a world feeds it by name."""
+    alone = node.id if isinstance(node.element, Sensor) else ""
+    ins, outs = tuple(sorted(node.ins.items())), tuple(node.outs.items())
+    return (node.level, node.every, still, structure(node.element, neutral), ins, outs, alone)
+
+
+def plan(
+    doc: Document,
+    lifted: frozenset[Leaf] = frozenset(),
+    partition: Callable[[Node, bool, frozenset[str]], Hashable] = by_structure,
+) -> Plan:
+    """The plan of a document.
+
+    Args:
+        doc: a document without problems, else they are raised together.
+        lifted: leaves that are traced although they have their neutral value (because they are swept, or have left it once).
+        partition: which nodes share a group.
+    """
+    nodes, problems = resolve(doc)
+    acts, loops = order(nodes) if not problems else ([], [])
+    if problems or loops:
+        raise ModelError([*problems, *loops])
+    neutral = {n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes}
+    still = _still(nodes)
+    groups, row = _groups(nodes, neutral, still, partition)
+    size = _place(groups, neutral)
+    calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
+    reads = {(g, port): _reads(group, port, groups, row) for g, group in enumerate(groups) for port in group.like.reads}
+    sensors = {n.id: k for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if isinstance(n.element, Sensor))}
+    return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
+
+
+def _still(nodes: Sequence[Node]) -> dict[str, bool]:
+    by = {n.id: n for n in nodes}
+    known: dict[str, bool] = {}
+
+    def still(n: Node) -> bool:
+        if n.id not in known:
+            known[n.id] = False
+            alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
+            known[n.id] = alone and all(still(by[s[0]]) for slots in n.reads.values() for s in slots)
+        return known[n.id]
+
+    return {n.id: still(n) for n in nodes}
+
+
+def _groups(
+    nodes: Sequence[Node],
+    neutral: Mapping[str, frozenset[str]],
+    still: Mapping[str, bool],
+    partition: Callable[[Node, bool, frozenset[str]], Hashable],
+) -> tuple[list[Group], dict[str, tuple[int, int]]]:
+    keys: dict[Hashable, int] = {}
+    groups: list[Group] = []
+    row: dict[str, tuple[int, int]] = {}
+    for n in sorted(nodes, key=lambda n: n.id):  # by stored id: the order of declaration cannot matter
+        key = partition(n, still[n.id], neutral[n.id])
+        g = keys.setdefault(key, len(groups))
+        if g == len(groups):
+            # noise at its neutral strength 0 is left out of the program, unless that value may change
+            probe: Any = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
+            groups.append(Group([], {}, (), {}, still[n.id], probe.noise_axes()))
+        row[n.id] = (g, groups[g].rows)
+        groups[g].nodes.append(n)
+    return groups, row
+
+
+def _place(groups: Sequence[Group], neutral: Mapping[str, frozenset[str]]) -> int:
+    size = 0
+    for g in groups:
+        arrays: list[str] = []
+        for path, _, p in leaves(g.like.element):
+            if path in neutral[g.like.id]:
+                continue
+            g.cost[path] = cost(p)
+            if p.form == "array":
+                arrays.append(path)
+            else:
+                g.offset[path] = size
+                size += g.rows
+        g.arrays = tuple(arrays)
+    return size
+
+
+def cost(p: Parameter) -> str:
+    """What a change of a leaf costs; arrays are constants of `prepare`."""
+    return "rebuild" if p.form == "array" else p.cost
+
+
+def _reads(group: Group, port: str, groups: Sequence[Group], row: Mapping[str, tuple[int, int]]) -> list[Read]:
+    found: dict[tuple[int, str, Instant], list[list[int]]] = {}
+    for r, n in enumerate(group.nodes):
+        for ident, source_port, instant in sorted(n.reads[port]):
+            g, source_row = row[ident]
+            found.setdefault((g, source_port, instant), [[] for _ in group.nodes])[r].append(source_row)
+    out: list[Read] = []
+    for key in sorted(found):
+        rows, nothing = found[key], groups[key[0]].rows
+        most = max(len(r) for r in rows)
+        table = np.full((group.rows, most), nothing, np.int32)
+        for r, sources in enumerate(rows):
+            table[r, : len(sources)] = sources
+        out.append(Read(key, table, bool((table < nothing).all())))
+    return out

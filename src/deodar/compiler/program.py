@@ -1,0 +1,279 @@
+"""The program: pure functions of arrays that compute a plan.
+
+Elements see one copy of themselves. Rows of a group, trials and points of a sweep are `vmap`s around them; rates are
+`lax.cond`s whose predicate is never batched (under `vmap` a batched predicate would compute both branches in every step).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses as dc
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array, lax
+
+from deodar.compiler.plan import Call, Group, Plan, Read
+from deodar.element import Setting, Time
+from deodar.numerics.axes import shape
+from deodar.numerics.noise import element_key, normal
+from deodar.parameters import bind
+
+Buffers = dict[tuple[int, str, int], Any]
+Tree = Any
+
+
+@dc.dataclass(frozen=True)
+class Port:
+    """A port of a row of a group, to be read: output port, or input port (then the sum that arrives there)."""
+
+    group: int
+    row: int
+    name: str
+
+
+class _NotHere:
+    """Stands for a live parameter inside `prepare`, which must not use one: any arithmetic with it raises."""
+
+    def __repr__(self) -> str:
+        return "a live parameter (prepare may use only what rebuilds)"
+
+
+def precision_context(precision: str) -> contextlib.AbstractContextManager[Any]:
+    """JAX's 64-bit mode for this thread and this block only; no global flag is touched."""
+    return jax.enable_x64(True) if precision == "float64" else contextlib.nullcontext()
+
+
+class Program:
+    """The functions of one plan in one precision.
+
+    Arguments they share:
+        values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value for each sweep).
+        constants: what `prepare` made of them, one entry a group.
+        state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible).
+        keys: noise keys of the noisy groups.
+        sensed: readings of the sensors.
+        clock: `tick` (uint32), `start` and `rest` (document time at the tick, in two parts), `dt`.
+    """
+
+    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = ()) -> None:
+        self.plan = plan
+        self.precision = precision
+        self.dtype: Any = np.dtype(precision)
+        self.sweep = [tuple(s) for s in sweep]
+        self.settings = [Setting(g.like.ins, g.like.outs, self.dtype) for g in plan.groups]
+        self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
+        self.slow = [g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful]
+        self.still = [c for c in plan.calls if plan.groups[c.group].still]
+        self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
+        self.rebuilt = [self._swept_constants(group) for group in plan.groups]
+
+    # -------------------------------------------------------------------------------- prepare and init
+
+    def prepare(self, values: Tree) -> list[Any]:
+        """Constants of every group; with a sweep axis where a swept parameter rebuilds them."""
+        out: list[Any] = []
+        for g in range(len(self.plan.groups)):
+            if self.rebuilt[g]:
+                out.append(jax.vmap(lambda swept, g=g: self._prepared(g, values | {"swept": swept}))(values["swept"]))
+            else:
+                out.append(self._prepared(g, values | {"swept": ()}))
+        return out
+
+    def init(self, values: Tree, seed: Any, trial: Any) -> tuple[Tree, Tree]:
+        """State at the start, and the noise keys of a trial."""
+        groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
+        keys = {str(g): jnp.stack([element_key(seed, trial, np.uint32(_number(n.id))) for n in self.plan.groups[g].nodes]) for g in self.noisy}
+        return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}, keys
+
+    # -------------------------------------------------------------------------------- steps
+
+    def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:
+        """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
+        buffers: Buffers = {}
+        zero = jnp.zeros((), self.dtype)
+        time = Time(zero, zero, zero)
+        for call in self.still:
+            self._output(call, buffers, values, constants, {}, {}, sensed, time, jnp.uint32(0))
+        return buffers
+
+    def step(self, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any) -> Tree:
+        """The state at tick + 1: every output at t is read, then all new states are committed together."""
+        buffers, old = dict(still), state["groups"]
+        new, held = list(old), dict(state["held"])
+        for call in self.moving:
+            group = self.plan.groups[call.group]
+            time = self._time(clock, tick, group)
+            if call.role == "output":
+                shown = (new if call.instant else old)[call.group]
+                self._output(call, buffers, values, constants, shown, keys, sensed, time, tick)
+            else:
+                inputs = self._inputs(call.group, buffers)
+
+                def run(g: int = call.group, inputs: Any = inputs, time: Time = time) -> Any:
+                    return self._advance(g, values, constants, old[g], inputs, keys, time, tick)
+
+                new[call.group] = self._gated(call.group, run, old, held, tick)
+        return {"groups": new, "held": held}
+
+    def observe(
+        self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any
+    ) -> tuple[Array, ...]:
+        """Ports at the state's own time; connections that read `current` see that same state."""
+        buffers = dict(still)
+        for call in self.plan.needed([(p.group, p.name) for p in ports]):
+            if not self.plan.groups[call.group].still:
+                time = self._time(clock, tick, self.plan.groups[call.group])
+                self._output(call, buffers, values, constants, state["groups"][call.group], keys, sensed, time, tick, now=True)
+        return tuple(self._port(p, buffers) for p in ports)
+
+    def finite(self, state: Tree) -> list[Array]:
+        """For each group, which rows hold finite numbers only."""
+        out: list[Array] = []
+        for g, group in enumerate(self.plan.groups):
+            good = jnp.ones((group.rows,), bool)
+            for leaf in jax.tree.leaves(state["groups"][g]):
+                good = good & jnp.all(jnp.isfinite(leaf).reshape(group.rows, -1), axis=1)
+            out.append(good)
+        return out
+
+    # -------------------------------------------------------------------------------- one group
+
+    def _prepared(self, g: int, values: Tree) -> Any:
+        return self._each(g, lambda e, at: e.prepare(at), values, only="rebuild")
+
+    def _output(
+        self,
+        call: Call,
+        buffers: Buffers,
+        values: Tree,
+        constants: Tree,
+        shown: Any,
+        keys: Tree,
+        sensed: Tree,
+        time: Time,
+        tick: Any,
+        now: bool = False,
+    ) -> None:
+        g, group = call.group, self.plan.groups[call.group]
+        passed = {port for out in group.like.outs for port in group.like.passes(out)}
+        inputs = self._inputs(g, buffers, passed, now)
+        if group.like.id in self.plan.sensors:
+            inputs = {"sensed": jnp.asarray(sensed[group.like.id], self.dtype)[None]}
+        noise = None if group.like.element.stateful else self._noise(g, keys, tick)
+        out = self._each(g, lambda e, at, s, x, c, z: e.output(at, s, x, c, time, z), values, shown, inputs, constants[g], noise)
+        for port, axes in group.like.outs.items():
+            buffers[g, port, call.instant] = jnp.broadcast_to(jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes)))
+
+    def _advance(self, g: int, values: Tree, constants: Tree, state: Any, inputs: Any, keys: Tree, time: Time, tick: Any) -> Any:
+        noise = self._noise(g, keys, tick)
+        new = self._each(g, lambda e, at, s, x, c, z: e.advance(at, s, x, c, time, z), values, state, inputs, constants[g], noise)
+        return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, state)
+
+    def _gated(self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Any) -> Any:
+        """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks later."""
+        k = self.plan.groups[g].like.every
+        if k == 1:
+            return run()
+        coming = lax.cond(tick % jnp.uint32(k) == 0, run, lambda: held[str(g)])
+        held[str(g)] = coming
+        due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
+        return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
+
+    def _noise(self, g: int, keys: Tree, tick: Any) -> Any:
+        group = self.plan.groups[g]
+        if group.noise is None:
+            return None
+        cells = shape(group.noise)
+        own = tick // jnp.uint32(group.like.every)
+        return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
+
+    def _time(self, clock: Tree, tick: Any, group: Group) -> Time:
+        passed = (tick - clock["tick"]).astype(self.dtype) * clock["dt"]
+        return Time(clock["start"], clock["rest"] + passed, clock["dt"] * group.like.every)
+
+    def _inputs(self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False) -> dict[str, Any]:
+        ports = [p for p in self.plan.groups[g].like.reads if only is None or p in only]
+        return {p: self._sum(g, p, buffers, now) for p in ports}
+
+    def _sum(self, g: int, port: str, buffers: Buffers, now: bool) -> Any:
+        group = self.plan.groups[g]
+        total: Any = None
+        for read in self.plan.reads[g, port]:
+            source, source_port, instant = read.source
+            part = gather(buffers[source, source_port, 0 if now else instant], read)
+            total = part if total is None else total + part
+        if total is None:
+            total = jnp.zeros((group.rows, *shape(group.like.ins[port])), self.dtype)
+        return total
+
+    def _port(self, p: Port, buffers: Buffers) -> Array:
+        if p.name in self.plan.groups[p.group].like.outs:
+            return buffers[p.group, p.name, 0][p.row]
+        return self._sum(p.group, p.name, buffers, now=True)[p.row]
+
+    def _each(self, g: int, fn: Callable[..., Any], values: Tree, *args: Any, only: str = "") -> Any:
+        """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""
+        group, at = self.plan.groups[g], self.settings[g]
+        own = self._leaves(g, values)
+
+        def one(own: dict[str, Any], *args: Any) -> Any:
+            def value(path: str) -> Any:
+                if only and path in group.cost and group.cost[path] != only:
+                    return _NotHere()
+                return own.get(path)
+
+            return fn(bind(group.like.element, value), at, *args)
+
+        if group.rows == 1:
+            out = one(*jax.tree.map(lambda a: a[0], (own, *args)))
+            return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
+        return jax.vmap(one, axis_size=group.rows)(own, *args)
+
+    def _leaves(self, g: int, values: Tree) -> dict[str, Any]:
+        group = self.plan.groups[g]
+        out: dict[str, Any] = {}
+        for path, offset in group.offset.items():
+            leaf = values["vector"][offset : offset + group.rows]
+            for places, value in zip(self.sweep, values["swept"], strict=False):
+                for place in places:
+                    if offset <= place < offset + group.rows:
+                        leaf = leaf.at[place - offset].set(value)
+            out[path] = leaf
+        for path in group.arrays:
+            out[path] = values["arrays"][array_key(g, path)]
+        return out
+
+    def _swept_constants(self, group: Group) -> bool:
+        for path, offset in group.offset.items():
+            inside = any(offset <= place < offset + group.rows for places in self.sweep for place in places)
+            if inside and group.cost[path] == "rebuild":
+                return True
+        return False
+
+
+def array_key(g: int, path: str) -> str:
+    """Key of an array leaf among the values."""
+    return f"{g}:{path}"
+
+
+def gather(x: Any, read: Read) -> Any:
+    """Sum over the columns of the table of the rows they name; fixed order of summation."""
+    table = read.table
+    if table.shape[1] == 1 and read.whole:
+        same = x.shape[0] == table.shape[0] and np.array_equal(table[:, 0], np.arange(x.shape[0]))
+        return x if same else x[table[:, 0]]
+    if not read.whole:
+        x = jnp.concatenate([x, jnp.zeros((1, *x.shape[1:]), x.dtype)])
+    total = x[table[:, 0]]
+    for column in range(1, table.shape[1]):
+        total = total + x[table[:, column]]
+    return total
+
+
+def _number(ident: str) -> int:
+    """The id as the number that keys the noise; implicit nodes have none and draw none."""
+    return int(ident, 16)

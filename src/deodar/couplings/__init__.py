@@ -1,0 +1,1 @@
+"""Elements between elements: one file each; the folder is the registry."""

@@ -1,0 +1,111 @@
+"""Colour to space code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics import resampling
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.convolution import along
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+CHANNELS = 3
+
+
+@register
+@dataclass(frozen=True)
+class ColorSpace(Coupling):
+    """Hue and saturation of a picture as a space code over (place, hue): where which colour is, and how strongly.
+
+    Equation:
+        y(x, hue) = mean over the pixels p of the cell of S(p) * w(hue - H(p)), with hue H and saturation S of each pixel;
+        S counts as 0 where the value is below `darkest`; w is the two nearest hues, or exp(-d^2 / (2 sigma^2)).
+
+    Parameters:
+        axes: the picture's two dimensions (their sampling may be coarser than the picture's) and hue last; hue is periodic.
+        sigma: width of the code along hue, in units of the hue axis; 0: the hue itself (shared by its two neighbours).
+        darkest: value (largest channel, 0 to 1) below which a pixel has no colour: its saturation is mostly noise.
+
+    Ports:
+        input: picture over the same two dimensions and a last axis of three samples, the channels red, green and blue,
+            values 0 to 1.
+        output: over `axes`, 0 to 1.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 11 and the smoothing after it. Hue and
+        saturation: Smith (1978), Color gamut transform pairs, SIGGRAPH '78 (HSV).
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="two dimensions of the picture, then hue")] = ()
+    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, meaning="width of the code along hue")] = 0.0
+    darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no colour")] = 0.15
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        source = ins["input"]
+        if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 3:
+            yield "needs a picture (two dimensions and three channels) and gives two dimensions and hue"
+            return
+        if not self.axes[-1].periodic:
+            yield f"the hue axis {self.axes[-1].name!r} must be periodic: red lies on both sides of its ends"
+        for fine, coarse in zip(source[:2], self.axes[:2], strict=True):
+            if fine.name != coarse.name or not fine.fits(coarse):
+                yield f"axis {coarse.name!r} does not fit the picture's: {fine} there, {coarse} here"
+
+    def prepare(self, at: Setting) -> Any:
+        return [_cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        hue_axis = self.axes[-1]
+        turn, saturation, value = hue_saturation_value(inputs["input"])
+        saturation = jnp.where(value < self.darkest, 0.0, saturation)
+        distance = at.points(hue_axis) - hue_axis.lower - turn[..., None] * hue_axis.range
+        distance = distance - hue_axis.range * jnp.round(distance / hue_axis.range)
+        if isinstance(self.sigma, float):
+            code = jnp.maximum(0.0, 1.0 - jnp.abs(distance) / hue_axis.step)
+        else:
+            code = jnp.exp(-0.5 * (distance / self.sigma) ** 2)
+        y = saturation[..., None] * code
+        for d, weights in enumerate(constants):
+            y = along(weights, y, d)
+        return {"output": y}
+
+    @classmethod
+    def example(cls) -> ColorSpace:
+        axes = [Axis("x", 0, 4, 3), Axis("y", 0, 4, 3), Axis("hue", 0, 360, 6, periodic=True)]
+        return cls(axes, sigma=30.0, name="example")
+
+
+def hue_saturation_value(picture: Any) -> tuple[Any, Any, Any]:
+    """Hue (as a share of a turn, red 0), saturation and value of pixels with channels on the last axis."""
+    red, green, blue = picture[..., 0], picture[..., 1], picture[..., 2]
+    value = jnp.maximum(jnp.maximum(red, green), blue)
+    spread = value - jnp.minimum(jnp.minimum(red, green), blue)
+    safe = jnp.where(spread > 0, spread, 1.0)
+    sector = jnp.where(
+        value == red,
+        jnp.mod((green - blue) / safe, 6.0),
+        jnp.where(value == green, (blue - red) / safe + 2.0, (red - green) / safe + 4.0),
+    )
+    hue = jnp.where(spread > 0, sector / 6.0, 0.0)
+    saturation = jnp.where(value > 0, spread / jnp.where(value > 0, value, 1.0), 0.0)
+    return hue, saturation, value
+
+
+def _cells(fine: Axis, coarse: Axis, dtype: Any) -> Any:
+    """Mean over the pixels whose middle lies in a cell; a cell without a pixel takes the nearest."""
+    member = resampling.weights(coarse, fine.points, "nearest", dtype).T
+    count = jnp.sum(member, axis=1, keepdims=True)
+    nearest = resampling.weights(fine, coarse.points, "nearest", dtype)
+    return jnp.where(count > 0, member / jnp.maximum(count, 1.0), nearest)

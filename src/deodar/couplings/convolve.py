@@ -1,0 +1,49 @@
+"""Convolution with a kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics import interaction
+from deodar.numerics.axes import Axes
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Convolve(Coupling):
+    """Spreads the input to neighbouring places.
+
+    Equation:
+        y(x) = sum_k integral k(x - x') input(x') dx'
+
+    Parameters:
+        kernel: one kernel or several, summed.
+
+    Ports:
+        input: any axes.
+        output: the same axes.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 10.
+    """
+
+    kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
+
+    linear: ClassVar[bool] = True
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        for i, kernel in enumerate(self.kernel):
+            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
+
+    def prepare(self, at: Setting) -> Any:
+        return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": interaction.apply(self.kernel, at.ins["input"], constants["kernel"], inputs["input"])}

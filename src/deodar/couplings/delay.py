@@ -1,0 +1,50 @@
+"""The one-step register."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Delay(Element):
+    """Shows its input one step later; what a connection with `reads="delayed"` stands for.
+
+    Equation:
+        y(x, t + dt) = input(x, t)
+
+    Parameters:
+        axes: axes of the register.
+        initial: what it shows in the first step.
+
+    Ports:
+        input: over `axes`.
+        output: over `axes`.
+
+    Reference:
+        no reference
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the register")] = ()
+    initial: Annotated[float, Live(meaning="what it shows in the first step")] = 0.0
+
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def init(self, at: Setting) -> Arrays:
+        return {"held": at.full(tuple(self.axes), self.initial)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": state["held"]}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"held": inputs["input"]}

@@ -1,0 +1,65 @@
+"""Read-out of a peak's position."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class PeakPosition(Coupling):
+    """Where a peak stands: the mean of the axis weighted by the input, and how much input there is.
+
+    Equation:
+        N = integral f(x) dx; x_cmd = 1/N integral x f(x) dx where N > least, else `absent`; on a periodic axis the
+        direction of integral exp(2 pi i x / P) f(x) dx.
+
+    Parameters:
+        axis: the dimension read out; other axes of the source are integrated out.
+        least: N below which there is no peak; > 0.
+        absent: position while there is no peak.
+
+    Ports:
+        input: f, over the axis.
+        output: x_cmd, one number, in axis units.
+        strength: N, one number.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13.
+    """
+
+    axis: Annotated[Axis, Recompile(meaning="dimension read out")] = Axis("x", 0, 20, 21)
+    least: Annotated[float, Live("input x axis", lower=1e-9, meaning="integral below which there is no peak")] = 0.1
+    absent: Annotated[float, Live("axis", meaning="position while there is no peak")] = 0.0
+
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "strength": ("input",)}
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return (self.axis,)
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": (), "strength": ()}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        f, x = inputs["input"] * self.axis.step, at.points(self.axis)
+        n = jnp.sum(f)
+        there = n > self.least
+        if self.axis.periodic:
+            turn = 2 * math.pi / self.axis.range
+            angle = turn * (x - self.axis.lower)
+            sine, cosine = jnp.sum(jnp.sin(angle) * f), jnp.sum(jnp.cos(angle) * f)
+            sine, cosine = jnp.where(there, sine, 0.0), jnp.where(there, cosine, 1.0)
+            place = self.axis.lower + jnp.mod(jnp.arctan2(sine, cosine), 2 * math.pi) / turn
+        else:
+            place = jnp.sum(x * f) / jnp.where(there, n, 1.0)
+        return {"output": jnp.where(there, place, self.absent), "strength": n}

@@ -1,0 +1,69 @@
+"""Resampling."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics import resampling
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.convolution import along
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Resample(Coupling):
+    """The same dimensions on another grid, which may cover another part of them.
+
+    Equation:
+        y(x) = input(x), interpolated between samples; zero beyond the ends of an axis that is not periodic
+
+    Parameters:
+        axes: the same names in the same order, with the grid wanted.
+        interpolation: `linear` or `nearest`.
+
+    Ports:
+        input: axes of the same names in the same order.
+        output: over `axes`.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.3.
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="the grid wanted")] = ()
+    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS, meaning="between samples")] = "linear"
+
+    linear: ClassVar[bool] = True
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        there, here = [a.name for a in ins["input"]], [a.name for a in self.axes]
+        if there != here:
+            yield f"the source has the axes {there}, here are {here}; write Project to change dimensions"
+            return
+        for a, b in zip(ins["input"], self.axes, strict=True):
+            if a.periodic and not (b.periodic and a.fits(b)):
+                yield f"the periodic axis {a.name!r} has other bounds here: {a} at the source, {b} here"
+
+    def prepare(self, at: Setting) -> Any:
+        pairs = zip(at.ins["input"], self.axes, strict=True)
+        return [resampling.weights(a, b.points, self.interpolation, at.dtype) for a, b in pairs]
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        y = inputs["input"]
+        for d, weights in enumerate(constants):
+            y = along(weights, y, d)
+        return {"output": y}
+
+    @classmethod
+    def example(cls) -> Resample:
+        return cls([Axis("x", 0, 20, samples=31)], name="example")

@@ -1,0 +1,37 @@
+"""A sigmoid on a connection."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.sigmoids import _base
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Sigmoid(Coupling):
+    """Squashes a signal that is not yet an output: a sum, a sensor's reading.
+
+    Equation:
+        y(x) = g(input(x))
+
+    Parameters:
+        sigmoid: g.
+
+    Ports:
+        input: any axes.
+        output: the same axes.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 2 and the text before it.
+    """
+
+    sigmoid: Annotated[_base.Sigmoid, Recompile(meaning="g")] = Logistic()
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": self.sigmoid(inputs["input"])}

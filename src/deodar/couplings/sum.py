@@ -1,0 +1,34 @@
+"""The pointwise sum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Sum(Coupling):
+    """The sum of its connections as a signal of its own, for several targets or for one further coupling.
+
+    Equation:
+        y(x) = sum of all connections into input, at x
+
+    Parameters:
+        none.
+
+    Ports:
+        input: any axes; the first connection decides them.
+        output: the same axes.
+
+    Reference:
+        no reference
+    """
+
+    linear: ClassVar[bool] = True
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": inputs["input"]}

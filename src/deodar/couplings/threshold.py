@@ -1,0 +1,38 @@
+"""The threshold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.parameters import Live
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Threshold(Coupling):
+    """Lets through what exceeds a threshold, and nothing else.
+
+    Equation:
+        y(x) = input(x) where input(x) > level, else 0
+
+    Parameters:
+        level: the threshold, in units of the input. For all or nothing use the coupling `Sigmoid` with `Step`.
+
+    Ports:
+        input: any axes.
+        output: the same axes.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 12 (the thresholded sum).
+    """
+
+    level: Annotated[float, Live(meaning="the threshold")] = 0.5
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        x = inputs["input"]
+        return {"output": jnp.where(x > self.level, x, jnp.zeros_like(x))}

@@ -1,0 +1,66 @@
+"""The weighting function."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Weighting(Coupling):
+    """A strength that depends on place: a pre-shape, a ramp, a mask.
+
+    Equation:
+        y(x) = c(x) * input(x)
+
+    Parameters:
+        weights: c, one value for each sample of the axes (`Weighting.of(function, axes)` samples a function).
+        axes: axes of the weights; the input expands to them.
+
+    Ports:
+        input: over `axes`; missing axes expand.
+        output: over `axes`.
+
+    Shapes:
+        weights: the samples of `axes`, in their order.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 9.
+    """
+
+    weights: Annotated[ArrayLike, Rebuild(meaning="c at every sample")] = FrozenArray(np.ones(21))
+    axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = (Axis("x", 0, 20, 21),)
+
+    linear: ClassVar[bool] = True
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return tuple(self.axes)
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
+        if given != shape(self.axes):
+            yield f"weights has shape {list(given)}, its axes have {list(shape(self.axes))} samples"
+
+    def prepare(self, at: Setting) -> Any:
+        return {"weights": at.array(self.weights)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": constants["weights"] * inputs["input"]}
+
+    @classmethod
+    def of(cls, function: Any, axes: Any) -> Weighting:
+        """The weights of a function of the axes' values: `Weighting.of(lambda x: x / 100, [x])`."""
+        grids = np.meshgrid(*(a.points for a in axes), indexing="ij")
+        return cls(np.broadcast_to(np.asarray(function(*grids), float), shape(axes)), tuple(axes))

@@ -1,0 +1,63 @@
+"""Dense weights."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, Axis, cell, shape
+from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Weights(Coupling):
+    """A weight between every place of the source and every place of the target: a map that may be anything.
+
+    Equation:
+        y(x) = integral W(x, x') input(x') dx' (sum times the source's grid step)
+
+    Parameters:
+        weights: W, target samples first, then source samples; per unit of the source's axes.
+        axes: axes of the output; none: one number.
+
+    Ports:
+        input: any axes.
+        output: over `axes`.
+
+    Shapes:
+        weights: samples of `axes`, then samples of the input's axes.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 7.
+    """
+
+    weights: Annotated[ArrayLike, Rebuild(meaning="W, target samples first")] = FrozenArray(np.eye(21))
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("x", 0, 20, 21),)
+
+    linear: ClassVar[bool] = True
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
+        needed = shape(self.axes) + shape(ins["input"])
+        if given != needed:
+            yield f"weights has shape {list(given)}; target and source samples make {list(needed)}"
+
+    def prepare(self, at: Setting) -> Any:
+        return {"weights": at.array(self.weights) * cell(at.ins["input"])}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        x = inputs["input"]
+        return {"output": jnp.tensordot(constants["weights"], x, axes=x.ndim, precision="highest")}

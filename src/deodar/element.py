@@ -1,0 +1,155 @@
+"""The contract of elements and couplings: everything that stands in a model.
+
+An element sees one copy of itself: batches, trials, groups, rates and the working precision are the compiler's. Inside the
+compiled program its live and rebuild parameters are tracers, so that `self.tau` may be used in formulas as it stands.
+
+The laws that an element may rely on:
+
+* a step reads every output at time t, then commits all new states together;
+* all connections into one port are summed, in the port's axes;
+* `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to `output` and `advance`.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Self
+
+import jax.numpy as jnp
+
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import Part, Recompile
+
+Arrays = dict[str, Any]
+
+
+@dc.dataclass(frozen=True)
+class Time:
+    """Document time inside a step, kept in two parts so that long runs lose no digits.
+
+    `start` is the time of the chunk's first tick, rounded to the working precision; `rest` is what has passed since
+    and what the rounding left over; `dt` is the step of the element (of its own rate).
+    """
+
+    start: Any
+    rest: Any
+    dt: Any
+
+    def since(self, moment: Any) -> Any:
+        """Time passed since `moment` (negative before it), exact near it."""
+        return (self.start - moment) + self.rest
+
+    @property
+    def now(self) -> Any:
+        """The time itself, in the document's time unit."""
+        return self.start + self.rest
+
+
+@dc.dataclass(frozen=True)
+class Setting:
+    """Where an element stands: the axes at its ports, and the precision of the model."""
+
+    ins: Mapping[str, Axes]
+    outs: Mapping[str, Axes]
+    dtype: Any
+
+    def full(self, axes: Axes, value: Any) -> Any:
+        """An array over the axes, filled with one value."""
+        return jnp.full(shape(axes), value, self.dtype)
+
+    def array(self, values: Any) -> Any:
+        """The values as an array in the working precision."""
+        return jnp.asarray(getattr(values, "data", values), self.dtype)
+
+    def points(self, axis: Axis) -> Any:
+        """Values at the samples of an axis, in the working precision."""
+        return jnp.asarray(axis.points, self.dtype)
+
+
+@dc.dataclass(frozen=True)
+class Element(Part):
+    """Base of everything that stands in a model.
+
+    Class attributes:
+        inputs: names of the input ports.
+        direct: for each output port that passes inputs on in the same instant, which; ports not named show the state.
+        stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
+        linear: whether the default output is linear in the one input.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = dc.field(default="", kw_only=True)
+
+    inputs: ClassVar[tuple[str, ...]] = ("input",)
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    stateful: ClassVar[bool] = False
+    linear: ClassVar[bool] = False
+
+    # -------------------------------------------------------------------------------- on paper: axes and ports
+
+    def ports(self) -> tuple[str, ...]:
+        """Names of the input ports."""
+        return self.inputs
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        """Axes that an input port takes; None where it takes what comes (the first connection decides)."""
+        axes: Axes | None = getattr(self, "axes", None)
+        return axes
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        """Axes of every output port; the first is the default one. Elements that show only states ignore `ins`."""
+        raise NotImplementedError
+
+    def steady(self) -> bool:
+        """Whether outputs of a stateless element stay the same while its inputs and parameters do."""
+        return True
+
+    def noise_axes(self) -> Axes | None:
+        """Axes of the element's noise, or None where it has none now."""
+        return None
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        """What does not fit between the parameters and the axes at the ports; checked before compiling."""
+        return iter(())
+
+    # -------------------------------------------------------------------------------- in the compiled program
+
+    def init(self, at: Setting) -> Arrays:
+        """The state at the start."""
+        return {}
+
+    def prepare(self, at: Setting) -> Any:
+        """Constants that depend on axes and on parameters that rebuild."""
+        return {}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        """Every output port at time t."""
+        raise NotImplementedError
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        """The state at t + dt. `noise` holds standard normal deviates over `noise_axes`, or None."""
+        return state
+
+    @classmethod
+    def example(cls) -> Self:
+        """An instance that works on its own."""
+        if "axes" in (f.name for f in dc.fields(cls)):
+            return cls(name="example", axes=[Axis("x", 0, 20, samples=21)])  # type: ignore[call-arg]
+        return cls(name="example")
+
+
+@dc.dataclass(frozen=True)
+class Coupling(Element):
+    """An element between elements: its output follows its input in the same instant."""
+
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": ins["input"]}
+
+    @classmethod
+    def example(cls) -> Self:
+        return cls(name="example")

@@ -1,0 +1,88 @@
+"""Attractor dynamics for a motor variable."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Attractor(Element):
+    """A motor variable that is drawn to the place of a peak, and stays where it is without one.
+
+    Equation:
+        linear axis: tau dphi/dt = -phi integral f(x) dx + integral lambda(x) f(x) dx, with lambda(x) = gain x + offset;
+        periodic axis (period P, gain and offset not used): tau dphi/dt = P / (2 pi) integral sin(2 pi (x - phi) / P) f(x) dx.
+        f is the input; the integral of f decides how fast phi moves, and that it does not move without a peak.
+
+    Parameters:
+        axis: the dimension over which the input is defined.
+        tau: time scale: document time times the integral of the input, so that tau / integral f is the relaxation time.
+        initial: phi at the start.
+        gain: motor units per axis unit.
+        offset: motor value at axis value 0.
+        fastest: largest speed of phi, motor units per unit of the document's time; 0: no limit.
+
+    Ports:
+        input: f, over the axis; other axes of the source are integrated out.
+        output: phi, one number.
+
+    Reference:
+        Lomp et al. (2016), Front. Neurorobot. 10:14, eqs. 12-15; Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 9, with
+        the decay multiplied by the integral (as printed the attractor would not switch off with the peak). The periodic
+        form: Schöner, Dose & Engels (1995), Dynamics of behavior, Robot. Auton. Syst. 16, with the sine as force.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axis: Annotated[Axis, Recompile(meaning="dimension of the input")] = Axis("x", 0, 100, 101)
+    tau: Annotated[float, Live("time x input", lower=1e-6, meaning="time scale")] = 100.0
+    initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
+    gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
+    offset: Annotated[float, Live("motor", meaning="motor value at axis value 0")] = 0.0
+    fastest: Annotated[float, Live("motor/time", lower=0, neutral=0.0, meaning="largest speed; 0: no limit")] = 0.0
+
+    stateful: ClassVar[bool] = True
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return (self.axis,)
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": ()}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        if self.axis.periodic and (self.gain != 1.0 or self.offset != 0.0):
+            yield f"gain and offset have no meaning on the periodic axis {self.axis.name!r}"
+
+    def init(self, at: Setting) -> Arrays:
+        return {"phi": at.full((), self.initial)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": state["phi"]}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        phi, f, x = state["phi"], inputs["input"] * self.axis.step, at.points(self.axis)
+        if self.axis.periodic:
+            turn = 2 * math.pi / self.axis.range
+            rate = jnp.sum(jnp.sin(turn * (x - phi)) * f) / turn / self.tau
+        else:
+            rate = (jnp.sum((self.gain * x + self.offset) * f) - phi * jnp.sum(f)) / self.tau
+        if not isinstance(self.fastest, float):
+            rate = jnp.clip(rate, -self.fastest, self.fastest)
+        phi = phi + time.dt * rate
+        if self.axis.periodic:
+            phi = self.axis.lower + jnp.mod(phi - self.axis.lower, self.axis.range)
+        return {"phi": phi}
+
+    @classmethod
+    def example(cls) -> Attractor:
+        return cls("example", Axis("x", 0, 20, samples=21))

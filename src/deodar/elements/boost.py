@@ -1,0 +1,40 @@
+"""The homogeneous boost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.element import Setting
+from deodar.elements._stimulus import Stimulus
+from deodar.numerics.axes import shape
+from deodar.parameters import Live
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Boost(Stimulus):
+    """Homogeneous input that brings a field, or a node, closer to its detection instability.
+
+    Equation:
+        s(x) = amplitude
+
+    Parameters:
+        axes: where it is defined; none: a constant, which expands along the axes of any target.
+        amplitude: value everywhere.
+        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+
+    Ports:
+        output: over `axes`.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 7 (the boost of a field by a node).
+    """
+
+    amplitude: Annotated[float, Live("activation", meaning="value everywhere")] = 1.0
+
+    def pattern(self, at: Setting) -> Any:
+        return jnp.broadcast_to(jnp.asarray(self.amplitude, at.dtype), shape(self.axes))

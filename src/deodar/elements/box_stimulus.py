@@ -1,0 +1,52 @@
+"""The box stimulus."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.element import Setting
+from deodar.elements._stimulus import Stimulus
+from deodar.parameters import Live, PerAxis, per_axis
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class BoxStimulus(Stimulus):
+    """The same input everywhere in a region.
+
+    Equation:
+        s(x) = amplitude where |x_i - center_i| < width_i / 2 on every axis, else 0; a cell cut by the edge gets its share.
+
+    Parameters:
+        axes: where it is defined; none: a constant for a node.
+        center: middle of the region in axis units, one or one for each axis.
+        width: full width in axis units, one or one for each axis; > 0.
+        amplitude: value inside.
+        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+
+    Ports:
+        output: over `axes`.
+
+    Reference:
+        no reference
+    """
+
+    center: Annotated[PerAxis, Live("axis", meaning="middle of the region")] = 0.0
+    width: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="full width")] = 10.0
+    amplitude: Annotated[float, Live("activation", meaning="value inside")] = 1.0
+
+    def pattern(self, at: Setting) -> Any:
+        y = self.amplitude * jnp.ones((), at.dtype)
+        centers, widths = per_axis(self.center, self.axes), per_axis(self.width, self.axes)
+        for axis, center, width in zip(self.axes, centers, widths, strict=True):
+            distance = at.points(axis) - center
+            if axis.periodic:
+                distance = distance - axis.range * jnp.round(distance / axis.range)
+            upper = jnp.minimum(distance + axis.step / 2, width / 2)
+            lower = jnp.maximum(distance - axis.step / 2, -width / 2)
+            y = y[..., None] * jnp.maximum(0.0, upper - lower) / axis.step
+        return y

@@ -1,0 +1,110 @@
+"""The neural field, in any number of dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics import interaction
+from deodar.numerics import noise as noises
+from deodar.numerics.axes import Axes, Axis, cell
+from deodar.numerics.integrators import euler
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile, is_neutral, per_axis
+from deodar.registry import register
+
+MOST_AXES = 4
+
+
+@register
+@dataclass(frozen=True)
+class Field(Element):
+    """A dynamic neural field; without axes a dynamic neural node.
+
+    Equation:
+        tau du/dt = -u + h + s(x, t) + sum_k integral k(x - x') g(u(x')) dx' - c integral g(u) dx + q xi(x, t)
+
+    Parameters:
+        axes: the metric dimensions, none to four.
+        tau: time constant, in the document's time unit; > 0, and no shorter than the step.
+        resting_level: h, the attractor without input.
+        sigmoid: g, output as a function of activation.
+        kernel: interaction kernels; their sum is k. On a node their amplitudes are its self-excitation.
+        global_inhibition: c, on the integral of the output.
+        noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by the root of
+            the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) / tau.
+        noise_length: correlation length of the noise, in axis units, one or one for each axis; 0: white.
+
+    Ports:
+        input: s, the sum of all connections, over `axes`.
+        output: g(u), over `axes`.
+        activation: u, over `axes`.
+        interaction: the integrals, over `axes`.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 1, 3 and 17; Amari (1977), Biol. Cybern. 27.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
+    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant")] = 20.0
+    resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
+    sigmoid: Annotated[Sigmoid, Recompile(meaning="output function")] = Logistic()
+    kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()
+    global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the output")] = 0.0
+    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
+    noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, meaning="correlation length of the noise")] = 0.0
+
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        axes = tuple(self.axes)
+        return {"output": axes, "activation": axes, "interaction": axes}
+
+    def noise_axes(self) -> Axes | None:
+        return None if is_neutral(self.noise) else tuple(self.axes)
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        if len(self.axes) > MOST_AXES:
+            yield f"has {len(self.axes)} axes; a field has at most {MOST_AXES}"
+        for i, kernel in enumerate(self.kernel):
+            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(tuple(self.axes)))
+        lengths = [float(v) for v in per_axis(self.noise_length, self.axes)]
+        if any(lengths) and not all(lengths):
+            yield "noise_length is 0 on one axis and not on another; give all of them or none"
+
+    def init(self, at: Setting) -> Arrays:
+        return {"activation": at.full(tuple(self.axes), self.resting_level)}
+
+    def prepare(self, at: Setting) -> Any:
+        axes = tuple(self.axes)
+        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype)}
+        if not is_neutral(self.noise_length):
+            constants["noise"] = noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)
+        return constants
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        u = state["activation"]
+        g = self.sigmoid(u)
+        return {"output": g, "activation": u, "interaction": self._interaction(g, constants)}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        u, h, s = state["activation"], self.resting_level, inputs["input"]
+        rate = -u + h + s + self._interaction(self.sigmoid(u), constants)
+        return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
+
+    def _interaction(self, g: Any, constants: Any) -> Any:
+        axes = tuple(self.axes)
+        inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
+        return interaction.apply(self.kernel, axes, constants["kernel"], g) - inhibition
+
+    def _noise(self, deviates: Any, constants: Any) -> Any:
+        if deviates is None:
+            return None
+        return self.noise * noises.over(tuple(self.axes), deviates, constants.get("noise"))

@@ -1,0 +1,72 @@
+"""Noise as a source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics import noise as noises
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile, is_neutral, per_axis
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Noise(Element):
+    """Gaussian noise as an input of its own, for several targets at once or through a coupling.
+
+    Equation:
+        y(x, t_n) = q xi_n(x) / sqrt(dt): as input of a field it adds what the field's own `noise` of strength q adds,
+        q sqrt(dt) / tau xi_n in an Euler step.
+
+    Parameters:
+        axes: where it is defined; none: one number.
+        amplitude: q, strength; without `length` divided by the root of the cell's volume, else the standard deviation at
+            a point of the process that the stochastic Euler step adds.
+        length: correlation length in axis units, one or one for each axis; 0: white.
+
+    Ports:
+        output: over `axes`; drawn anew in every step of the element.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 16 and 17.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
+    amplitude: Annotated[float, Live("activation", lower=0, meaning="strength")] = 1.0
+    length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, meaning="correlation length")] = 0.0
+
+    inputs: ClassVar[tuple[str, ...]] = ()
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def steady(self) -> bool:
+        return False
+
+    def noise_axes(self) -> Axes | None:
+        return tuple(self.axes)
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        lengths = [float(v) for v in per_axis(self.length, self.axes)]
+        if any(lengths) and not all(lengths):
+            yield "length is 0 on one axis and not on another; give all of them or none"
+
+    def prepare(self, at: Setting) -> Any:
+        if is_neutral(self.length):
+            return {}
+        axes = tuple(self.axes)
+        return {"noise": noises.correlation(axes, per_axis(self.length, axes), at.dtype)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": self.amplitude / jnp.sqrt(time.dt) * self._over(noise, constants)}
+
+    def _over(self, deviates: Any, constants: Any) -> Any:
+        return noises.over(tuple(self.axes), deviates, constants.get("noise"))

@@ -1,0 +1,45 @@
+"""The sensor: where a world enters a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Sensor(Element):
+    """What a world senses, over axes that the model states. Which world provides it is chosen when the model is run.
+
+    Equation:
+        y(x, t) = what the world's sensor of this name reads
+
+    Parameters:
+        axes: axes of the reading; the world samples it for them.
+        sensor: name of the world's sensor.
+
+    Ports:
+        output: over `axes`.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the reading")] = ()
+    sensor: Annotated[str, Recompile(meaning="name of the world's sensor")] = "picture"
+
+    inputs: ClassVar[tuple[str, ...]] = ()
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": inputs["sensed"]}

@@ -1,0 +1,94 @@
+"""The document: an immutable description of an architecture."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping
+from typing import Any
+
+from deodar.element import Element
+from deodar.model.paths import Names, display
+
+VERSION = 1
+READS = ("", "previous", "current", "delayed")
+
+
+@dc.dataclass(frozen=True)
+class Entry:
+    """One element of a document.
+
+    `id` is its stored identity, `names` its path (groups, then its own name), `every` the number of ticks of its step.
+    """
+
+    id: str
+    names: Names
+    element: Element
+    every: int = 1
+
+    @property
+    def path(self) -> str:
+        """The path as text."""
+        return display(self.names)
+
+    @property
+    def group(self) -> Names:
+        """Names of the groups it stands in."""
+        return self.names[:-1]
+
+
+@dc.dataclass(frozen=True)
+class Connection:
+    """From an output port to an input port, elements by id. `reads` is empty where nothing was stated."""
+
+    source: str
+    source_port: str
+    target: str
+    target_port: str
+    reads: str = ""
+
+    @property
+    def ends(self) -> tuple[str, str, str, str]:
+        """What makes it the same connection, whatever it reads."""
+        return (self.source, self.source_port, self.target, self.target_port)
+
+
+@dc.dataclass(frozen=True)
+class Knob:
+    """A named parameter of the document that drives parameters of elements: (id, path inside the element)."""
+
+    name: str
+    value: float
+    links: tuple[tuple[str, str], ...] = ()
+
+
+@dc.dataclass(frozen=True)
+class Document:
+    """An architecture as data. Only `deodar.model.edit` makes new ones."""
+
+    name: str
+    entries: tuple[Entry, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    groups: tuple[Names, ...] = ()
+    knobs: tuple[Knob, ...] = ()
+    time_unit: str = "ms"
+    dt: float | None = None
+    t0: float = 0.0
+    notes: str = ""
+    layout: Mapping[str, Any] = dc.field(default_factory=dict[str, Any])
+
+    def by_id(self) -> dict[str, Entry]:
+        """Entries by id."""
+        return {e.id: e for e in self.entries}
+
+    def by_names(self) -> dict[Names, Entry]:
+        """Entries by path."""
+        return {e.names: e for e in self.entries}
+
+    def links(self) -> dict[tuple[str, str], str]:
+        """The document parameter that drives each linked parameter."""
+        return {link: knob.name for knob in self.knobs for link in knob.links}
+
+    @property
+    def step(self) -> float:
+        """Euler step where a run states none: the document's own, else 1."""
+        return 1.0 if self.dt is None else self.dt

@@ -1,0 +1,316 @@
+"""The operations that make a new document from a document. Nothing else does.
+
+Each is a pure function; ids survive rename, grouping and moves, a copy gets its own. `History` adds undo and redo.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from deodar.element import Element
+from deodar.errors import ModelError, ParameterError, UnknownName, did_you_mean
+from deodar.model import find
+from deodar.model.document import READS, Connection, Document, Entry, Knob
+from deodar.model.paths import Names, display, stored_id
+from deodar.parameters import get, leaves, parameter, parameters, replace
+
+TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
+
+
+def add(doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None) -> tuple[Document, Entry]:
+    """A document with one more element. Without a name it is called after what it follows: `u>Gain`, `u>Gain2`."""
+    if not isinstance(element, Element):
+        raise ModelError(f"{element!r} is no element", fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))")
+    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+        raise ParameterError(f"every is {every!r}; it is a whole number of ticks, at least 1", where=element.name)
+    taken = doc.by_names()
+    if element.name:
+        names = (*group, element.name)
+    else:
+        base = f"{after.names[-1] if after else ''}>{type(element).__name__}"
+        group = after.group if after and not group else group
+        names = (*group, _free(base, {n[-1] for n in taken if n[:-1] == group}))
+    _vacant(doc, names)
+    path = display(names)
+    entry = Entry(stored_id(path, (e.id for e in doc.entries)), names, dc.replace(element, name=names[-1]), every)
+    return dc.replace(doc, entries=(*doc.entries, entry), groups=_with_groups(doc.groups, [group])), entry
+
+
+def remove(doc: Document, ids: Iterable[str]) -> Document:
+    """A document without these elements, their connections and their links."""
+    gone = set(ids)
+    knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.knobs)
+    kept = tuple(c for c in doc.connections if not gone & {c.source, c.target})
+    return dc.replace(doc, entries=tuple(e for e in doc.entries if e.id not in gone), connections=kept, knobs=knobs)
+
+
+def remove_group(doc: Document, group: Names) -> Document:
+    """A document without a group and everything in it."""
+    doc = remove(doc, [e.id for e in doc.entries if e.names[: len(group)] == group])
+    return dc.replace(doc, groups=tuple(g for g in doc.groups if g[: len(group)] != group))
+
+
+def move(doc: Document, ident: str, names: Names) -> Document:
+    """A document in which an element stands under another path; its id stays."""
+    entry = doc.by_id()[ident]
+    if names == entry.names:
+        return doc
+    _vacant(doc, names)
+    moved = dc.replace(entry, names=names, element=dc.replace(entry.element, name=names[-1]))
+    groups = _with_groups(doc.groups, [names[:-1]])
+    return dc.replace(doc, entries=tuple(moved if e.id == ident else e for e in doc.entries), groups=groups)
+
+
+def move_group(doc: Document, group: Names, to: Names) -> Document:
+    """A document in which a group, with everything in it, stands under another path."""
+    if to[: len(group)] == group and to != group:
+        raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
+    inside = [e for e in doc.entries if e.names[: len(group)] == group]
+    others = {e.names for e in doc.entries} - {e.names for e in inside}
+    for e in inside:
+        if to + e.names[len(group) :] in others:
+            raise ModelError(f"there is already an element {display(to + e.names[len(group) :])!r}")
+    renamed = {e.id: to + e.names[len(group) :] for e in inside}
+    entries = tuple(
+        dc.replace(e, names=renamed[e.id], element=dc.replace(e.element, name=renamed[e.id][-1])) if e.id in renamed else e for e in doc.entries
+    )
+    groups = [to + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
+    return dc.replace(doc, entries=entries, groups=_with_groups((), [*groups, to]))
+
+
+def ungroup(doc: Document, group: Names) -> Document:
+    """A document in which a group's contents stand where the group stood."""
+    for e in [e for e in doc.entries if e.names[: len(group)] == group]:
+        doc = move(doc, e.id, group[:-1] + e.names[len(group) :])
+    groups = [group[:-1] + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
+    return dc.replace(doc, groups=_with_groups((), [g for g in groups if g]))
+
+
+def group(doc: Document, names: Names) -> Document:
+    """A document with an (empty) group."""
+    return dc.replace(doc, groups=_with_groups(doc.groups, [names]))
+
+
+def copy(doc: Document, ids: Iterable[str], place: Callable[[Names], Names]) -> Document:
+    """A document with copies of elements, each under `place(its path)`, and of the connections and links among them."""
+    return insert(doc, doc, place, set(ids))
+
+
+def insert(doc: Document, template: Document, place: Callable[[Names], Names], ids: set[str] | None = None) -> Document:
+    """A document with the elements of a template, copied: new ids, the same connections, and its document parameters."""
+    new: dict[str, str] = {}
+    for e in template.entries:
+        if ids is None or e.id in ids:
+            names = place(e.names)
+            doc, entry = add(doc, dc.replace(e.element, name=names[-1]), names[:-1], e.every)
+            new[e.id] = entry.id
+    for c in template.connections:
+        if c.source in new and c.target in new:
+            doc = dc.replace(doc, connections=(*doc.connections, dc.replace(c, source=new[c.source], target=new[c.target])))
+    for k in template.knobs:
+        links = tuple((new[i], leaf) for i, leaf in k.links if i in new)
+        if k.name not in [j.name for j in doc.knobs]:
+            doc = knob(doc, k.name, k.value) if links else doc
+        for i, leaf in links:
+            doc = link(doc, i, leaf, k.name)
+    groups = [place((*g, ""))[:-1] for g in template.groups] if ids is None else []
+    return dc.replace(doc, groups=_with_groups(doc.groups, [g for g in groups if g]))
+
+
+def connect(doc: Document, source: Entry, source_port: str, target: Entry, target_port: str, reads: str = "") -> Document:
+    """A document with one more connection. Empty ports mean the default ones: the output, the first input."""
+    outs, ins = find.outputs(source), target.element.ports()
+    if not ins:
+        raise ModelError(f"{target.path} has no input port", where=f"{source.path} -> {target.path}")
+    source_port, target_port = source_port or outs[0], target_port or ins[0]
+    if source_port not in outs:
+        what = "is an input port" if source_port in source.element.ports() else "is not there"
+        raise UnknownName(f"the output port {source_port!r} of {source.path} {what}", fix=did_you_mean(source_port, outs))
+    if target_port not in ins:
+        raise UnknownName(f"{target.path} has no input port {target_port!r}", fix=did_you_mean(target_port, ins))
+    if reads not in READS:
+        raise ParameterError(f"reads is {reads!r}; it is one of previous, current, delayed", where=f"{source.path} -> {target.path}")
+    new = Connection(source.id, source_port, target.id, target_port, reads)
+    if any(new.ends == c.ends for c in doc.connections):
+        raise ModelError(
+            f"{source.path}.{source_port} is already connected to {target.path}.{target_port}",
+            fix="To count it twice, put a Gain between them",
+        )
+    return dc.replace(doc, connections=(*doc.connections, new))
+
+
+def disconnect(doc: Document, source: str, source_port: str, target: str, target_port: str) -> Document:
+    """A document without one connection."""
+    ends = (source, source_port, target, target_port)
+    if all(c.ends != ends for c in doc.connections):
+        by = doc.by_id()
+        raise UnknownName(f"{by[source].path}.{source_port} is not connected to {by[target].path}.{target_port}")
+    return dc.replace(doc, connections=tuple(c for c in doc.connections if c.ends != ends))
+
+
+def put(doc: Document, ident: str, path: str, value: Any) -> Document:
+    """A document with another value of one parameter of an element, linked ones excepted."""
+    entry = doc.by_id()[ident]
+    if path.split(".")[0] == "name":
+        raise ParameterError("a name is changed by renaming the element", where=entry.path, fix="model.rename(path, name)")
+    for (i, leaf), name in doc.links().items():
+        if i == ident and (leaf == path or leaf.startswith(path + ".") or path.startswith(leaf + ".")):
+            raise ParameterError(
+                f"{entry.path}.{leaf} is driven by the document parameter {name!r}",
+                fix=f"Set {name!r} instead, or unlink {entry.path}.{leaf}",
+            )
+    return _put(doc, ident, path, value)
+
+
+def every(doc: Document, ident: str, ticks: int) -> Document:
+    """A document in which an element runs at another step."""
+    if isinstance(ticks, bool) or not isinstance(ticks, int) or ticks < 1:
+        raise ParameterError(f"every is {ticks!r}; it is a whole number of ticks, at least 1")
+    return dc.replace(doc, entries=tuple(dc.replace(e, every=ticks) if e.id == ident else e for e in doc.entries))
+
+
+def knob(doc: Document, name: str, value: float) -> Document:
+    """A document with a named parameter of its own, new or changed, and everything linked to it at that value."""
+    if isinstance(value, (bool, str)) or not math.isfinite(float(value)):
+        raise ParameterError(f"needs a finite number, not {value!r}", where=name)
+    if not name or name in [e.path for e in doc.entries]:
+        raise ModelError(f"a document parameter cannot be called {name!r}: {'an element is' if name else 'it needs a name'}")
+    links = next((k.links for k in doc.knobs if k.name == name), ())
+    for ident, leaf in links:
+        doc = _put(doc, ident, leaf, value)
+    new = Knob(name, float(value), links)
+    kept = tuple(new if k.name == name else k for k in doc.knobs)
+    return dc.replace(doc, knobs=kept if any(k.name == name for k in doc.knobs) else (*doc.knobs, new))
+
+
+def remove_knob(doc: Document, name: str) -> Document:
+    """A document without a document parameter; what it drove keeps its value."""
+    return dc.replace(doc, knobs=tuple(k for k in doc.knobs if k.name != name))
+
+
+def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
+    """A document in which a parameter of an element takes its value from a document parameter."""
+    entry = doc.by_id()[ident]
+    found = next((k for k in doc.knobs if k.name == name), None)
+    if found is None:
+        names = [k.name for k in doc.knobs]
+        raise UnknownName(f"there is no document parameter {name!r}", fix=did_you_mean(name, names) or "Make it: model.parameter(name, value)")
+    known = [path for path, _, p in leaves(entry.element) if p.form != "array"]
+    if leaf not in known:
+        raise ParameterError(
+            f"{entry.path}.{leaf} cannot be linked: it is not a number that can change while the model runs", fix=did_you_mean(leaf, known)
+        )
+    if (ident, leaf) in doc.links():
+        raise ModelError(f"{entry.path}.{leaf} is already linked to {doc.links()[ident, leaf]!r}", fix="Unlink it first")
+    doc = _put(doc, ident, leaf, found.value)
+    new = dc.replace(found, links=(*found.links, (ident, leaf)))
+    return dc.replace(doc, knobs=tuple(new if k.name == name else k for k in doc.knobs))
+
+
+def unlink(doc: Document, ident: str, leaf: str) -> Document:
+    """A document in which a parameter stands for itself again, at the value it had."""
+    knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x != (ident, leaf))) for k in doc.knobs)
+    return dc.replace(doc, knobs=knobs)
+
+
+def describe(doc: Document, **values: Any) -> Document:
+    """A document with other general properties: name, time_unit, dt, t0, notes."""
+    unit = values.get("time_unit", doc.time_unit)
+    if not isinstance(unit, str) or not TIME_UNIT.match(unit):
+        raise ParameterError(f"time_unit is {unit!r}", fix="Write us, ms, s, min, abstract, or for steps of your own: '1 = 64 ms'")
+    dt = values.get("dt", doc.dt)
+    if dt is not None and (isinstance(dt, (bool, str)) or not math.isfinite(dt) or dt <= 0):
+        raise ParameterError(f"dt is {dt!r}; it is a number above 0")
+    for key in ("dt", "t0"):
+        if values.get(key) is not None:
+            values[key] = float(values[key])
+    return dc.replace(doc, **values)
+
+
+def arrange(doc: Document, layout: Mapping[str, Any]) -> Document:
+    """A document with another layout (places of boxes, panels, pinned sliders); the science stays."""
+    return dc.replace(doc, layout=dict(layout))
+
+
+class History:
+    """Documents one after the other, with undo and redo."""
+
+    def __init__(self, document: Document) -> None:
+        self._past: list[Document] = []
+        self._future: list[Document] = []
+        self.document = document
+
+    def commit(self, document: Document) -> None:
+        """Take a new document; what was undone is forgotten."""
+        if document is self.document:
+            return
+        self._past.append(self.document)
+        self._future.clear()
+        self.document = document
+
+    def undo(self) -> bool:
+        """Back to the document before; False where there is none."""
+        if not self._past:
+            return False
+        self._future.append(self.document)
+        self.document = self._past.pop()
+        return True
+
+    def redo(self) -> bool:
+        """Forward again; False where nothing was undone."""
+        if not self._future:
+            return False
+        self._past.append(self.document)
+        self.document = self._future.pop()
+        return True
+
+
+def _put(doc: Document, ident: str, path: str, value: Any) -> Document:
+    entry = doc.by_id()[ident]
+    try:
+        parameter(type(entry.element), path.split(".")[0])
+        get(entry.element, path)
+        new = replace(entry.element, path, value)
+    except (ParameterError, UnknownName) as error:
+        problem = error.problems[0]
+        raise type(error)(problem.what, where=f"{entry.path}.{path}", fix=problem.fix) from None
+    return dc.replace(doc, entries=tuple(dc.replace(e, element=new) if e.id == ident else e for e in doc.entries))
+
+
+def _vacant(doc: Document, names: Names) -> None:
+    if any(not n for n in names):
+        raise ModelError("an element needs a name")
+    found = doc.by_names().get(names)
+    if found is not None:
+        raise ModelError(f"there is already an element {found.path!r}", fix="Give one of them another name")
+    if names in doc.groups:
+        raise ModelError(f"there is already a group {display(names)!r}", fix="Give one of them another name")
+    for k in range(1, len(names)):
+        if names[:k] in doc.by_names():
+            raise ModelError(f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group")
+    if display(names) in [k.name for k in doc.knobs]:
+        raise ModelError(f"a document parameter is called {display(names)!r}", fix="Give one of them another name")
+
+
+def _free(base: str, taken: set[str]) -> str:
+    name, n = base, 1
+    while name in taken:
+        n += 1
+        name = f"{base}{n}"
+    return name
+
+
+def _with_groups(groups: Iterable[Names], new: Iterable[Names]) -> tuple[Names, ...]:
+    out = list(groups)
+    for g in new:
+        out += [g[:k] for k in range(1, len(g) + 1) if g[:k] not in out]
+    return tuple(dict.fromkeys(out))
+
+
+def names_of(element: Element) -> list[str]:
+    """Names of the parameters of an element, for messages."""
+    return [p.name for p in parameters(type(element))]

@@ -1,0 +1,79 @@
+"""From a path to what it names: an element, a port, a parameter, a document parameter."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+
+from deodar.errors import UnknownName, did_you_mean
+from deodar.model.document import Document, Entry
+from deodar.model.paths import readings
+from deodar.parameters import leaves, parameters
+
+
+@dc.dataclass(frozen=True)
+class Target:
+    """What a parameter path names: a document parameter (`knob`), or a parameter of an element."""
+
+    entry: Entry | None
+    parameter: str
+    knob: str = ""
+
+
+def element(doc: Document, path: str) -> Entry:
+    """The element at a path; an unknown one is an error that suggests the nearest."""
+    by = doc.by_names()
+    found = [names for names, rest in readings(path, by) if not rest]
+    if not found:
+        raise UnknownName(f"there is no element {path!r}", fix=did_you_mean(path, [e.path for e in doc.entries]))
+    return by[found[0]]
+
+
+def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]:
+    """The element and the port that a path names; a path without a port means the default one."""
+    by = doc.by_names()
+    found = readings(path, by)
+    for names, rest in found:
+        entry = by[names]
+        known = readable(entry)
+        name = rest.strip('"') if rest else default
+        if name in known or not name:
+            return entry, name
+    if found:
+        names, rest = found[0]
+        entry = by[names]
+        if rest in [p.name for p in parameters(type(entry.element))]:
+            raise UnknownName(f"{path!r} is a parameter, not a port", fix=f"Ports of {entry.path}: {', '.join(readable(entry))}")
+        raise UnknownName(f"{entry.path} has no port {rest!r}", fix=did_you_mean(rest, readable(entry)))
+    ports = [f"{e.path}.{p}" for e in doc.entries for p in readable(e)]
+    raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, [*ports, *(e.path for e in doc.entries)]))
+
+
+def readable(entry: Entry) -> list[str]:
+    """Ports that can be read and recorded: outputs, then inputs."""
+    return [*outputs(entry), *entry.element.ports()]
+
+
+def outputs(entry: Entry) -> list[str]:
+    """Names of the output ports."""
+    element = entry.element
+    return list(element.outputs({port: () for port in element.ports()}))
+
+
+def target(doc: Document, path: str) -> Target:
+    """The parameter that a path names: `u.tau`, `u.kernel.0.sigma`, or the name of a document parameter."""
+    by = doc.by_names()
+    found = [(by[names], rest) for names, rest in readings(path, by) if rest]
+    for entry, rest in found:
+        inner = rest.replace('"', "")
+        if inner.split(".")[0] in [p.name for p in parameters(type(entry.element))]:
+            return Target(entry, inner)
+    if path in [k.name for k in doc.knobs]:
+        return Target(None, "", path)
+    if found:
+        entry, rest = found[0]
+        known = [p.name for p in parameters(type(entry.element)) if p.name != "name"]
+        if rest in readable(entry):
+            raise UnknownName(f"{path!r} is a port, not a parameter", fix=f"Parameters of {entry.path}: {', '.join(known)}")
+        raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, known))
+    everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [k.name for k in doc.knobs]
+    raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, everything))

@@ -1,0 +1,297 @@
+"""`Model`, the builder that a script holds: it replaces its immutable document through `edit`."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import sys
+from collections.abc import Hashable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from deodar.element import Element
+from deodar.errors import DeodarError, ModelError, Problem, UnknownName
+from deodar.model import edit, files, find
+from deodar.model.check import check
+from deodar.model.document import Document, Entry
+from deodar.model.paths import Names, display, readings, split
+from deodar.parameters import get
+
+
+@dc.dataclass(frozen=True)
+class Handle:
+    """An element of a model, or one of its ports: what `add` returns and `>>` connects."""
+
+    model: Model
+    id: str
+    port: str = ""
+
+    def __getitem__(self, port: str) -> Handle:
+        entry = self.model.entry(self.id)
+        if port not in find.readable(entry):
+            raise UnknownName(f"{entry.path} has no port {port!r}", fix=edit.did_you_mean(port, find.readable(entry)))
+        return Handle(self.model, self.id, port)
+
+    def __rshift__(self, other: Handle | Element) -> Handle:
+        target = other if isinstance(other, Handle) else self.model.add(other, after=self)
+        self.model.connect(self, target)
+        return target
+
+    @property
+    def path(self) -> str:
+        """The element's path now; it follows renames and moves."""
+        return self.model.entry(self.id).path
+
+    @property
+    def element(self) -> Element:
+        """The element as it now is."""
+        return self.model.entry(self.id).element
+
+    def __repr__(self) -> str:
+        return f"<{type(self.element).__name__} {self.path}{'.' + self.port if self.port else ''}>"
+
+
+class Model:
+    """An architecture being built.
+
+    Args:
+        name: name of the document.
+        time_unit: unit of all times: us, ms, s, min, abstract, or steps such as "1 = 64 ms".
+        dt: Euler step where a run states none.
+        document: start from this document instead of an empty one.
+        trusted: whether user functions named in the document may be imported and run.
+    """
+
+    def __init__(
+        self, name: str = "model", *, time_unit: str = "ms", dt: float | None = None, document: Document | None = None, trusted: bool = True
+    ) -> None:
+        doc = document if document is not None else edit.describe(Document(name), name=name, time_unit=time_unit, dt=dt)
+        self.history = edit.History(doc)
+        self.trusted = trusted
+        self.declared: dict[str, str] = {}
+        self.programs: dict[Hashable, Any] = {}
+
+    # -------------------------------------------------------------------------------- building
+
+    def add(self, element: Element, group: str = "", every: int = 1, after: Handle | None = None) -> Handle:
+        """Add an element and return its handle. `every` is the number of ticks of its own step."""
+        near = self.entry(after.id) if after is not None else None
+        doc, entry = edit.add(self.document, element, split(group) if group else (), every, near)
+        self.history.commit(doc)
+        self.declared[entry.id] = _caller()
+        return Handle(self, entry.id)
+
+    def connect(self, source: Handle | str, target: Handle | str, reads: str = "") -> None:
+        """Connect an output port to an input port; `reads` is previous (the default), current or delayed."""
+        a, b = self._end(source, "output"), self._end(target, "")
+        self.history.commit(edit.connect(self.document, *a, *b, reads))
+
+    def disconnect(self, source: Handle | str, target: Handle | str) -> None:
+        """Take a connection away."""
+        (a, a_port), (b, b_port) = self._end(source, "output"), self._end(target, "")
+        a_port, b_port = a_port or find.outputs(a)[0], b_port or b.element.ports()[0]
+        self.history.commit(edit.disconnect(self.document, a.id, a_port, b.id, b_port))
+
+    def remove(self, what: Handle | str) -> None:
+        """Take an element, or a group with everything in it, away."""
+        if isinstance(what, str) and split(what) in self.document.groups:
+            self.history.commit(edit.remove_group(self.document, split(what)))
+        else:
+            self.history.commit(edit.remove(self.document, [self._entry(what).id]))
+
+    def rename(self, what: Handle | str, name: str) -> None:
+        """Give an element, or a group, another name; its place stays."""
+        if isinstance(what, str) and split(what) in self.document.groups:
+            names = split(what)
+            self.history.commit(edit.move_group(self.document, names, (*names[:-1], name)))
+        else:
+            entry = self._entry(what)
+            self.history.commit(edit.move(self.document, entry.id, (*entry.group, name)))
+
+    def move(self, what: Handle | str, group: str) -> None:
+        """Put an element, or a group, into another group; "" is the top."""
+        to = split(group) if group else ()
+        if isinstance(what, str) and split(what) in self.document.groups:
+            names = split(what)
+            self.history.commit(edit.move_group(self.document, names, (*to, names[-1])))
+        else:
+            entry = self._entry(what)
+            self.history.commit(edit.move(self.document, entry.id, (*to, entry.names[-1])))
+
+    def group(self, path: str) -> None:
+        """Make a group."""
+        self.history.commit(edit.group(self.document, split(path)))
+
+    def ungroup(self, path: str) -> None:
+        """Put a group's contents where the group stands."""
+        self._group(path)
+        self.history.commit(edit.ungroup(self.document, split(path)))
+
+    def copy(self, group: str, to: str) -> None:
+        """Copy a group, with the connections and links inside it, under another path."""
+        names, target = self._group(group), split(to)
+        inside = [e.id for e in self.document.entries if e.names[: len(names)] == names]
+        self.history.commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
+
+    def insert(self, template: Model, group: str) -> None:
+        """Copy another model into this one, as a group."""
+        target = split(group)
+        self.history.commit(edit.insert(self.document, template.document, lambda n: target + n))
+
+    def set(self, path: str, value: Any) -> None:
+        """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`)."""
+        found = find.target(self.document, path)
+        if found.entry is None:
+            self.history.commit(edit.knob(self.document, found.knob, value))
+        else:
+            self.history.commit(edit.put(self.document, found.entry.id, found.parameter, value))
+
+    def get(self, path: str) -> Any:
+        """The value of a parameter."""
+        found = find.target(self.document, path)
+        if found.entry is None:
+            return next(k.value for k in self.document.knobs if k.name == found.knob)
+        return get(found.entry.element, found.parameter)
+
+    def every(self, what: Handle | str, ticks: int) -> None:
+        """Let an element run at a step of so many ticks."""
+        self.history.commit(edit.every(self.document, self._entry(what).id, ticks))
+
+    def parameter(self, name: str, value: float) -> None:
+        """A named parameter of the document: one knob for everything linked to it."""
+        self.history.commit(edit.knob(self.document, name, value))
+
+    def link(self, path: str, name: str) -> None:
+        """Let a document parameter drive a parameter of an element: `model.link("u.tau", "gain")`."""
+        found = find.target(self.document, path)
+        if found.entry is None:
+            raise UnknownName(f"{path!r} is itself a document parameter")
+        self.history.commit(edit.link(self.document, found.entry.id, found.parameter, name))
+
+    def unlink(self, path: str) -> None:
+        """Let a parameter stand for itself again."""
+        found = find.target(self.document, path)
+        if found.entry is not None:
+            self.history.commit(edit.unlink(self.document, found.entry.id, found.parameter))
+
+    def describe(self, **values: Any) -> None:
+        """Change general properties: name, time_unit, dt, t0, notes."""
+        self.history.commit(edit.describe(self.document, **values))
+
+    def undo(self) -> bool:
+        """Take the last change back; False where there is none."""
+        return self.history.undo()
+
+    def redo(self) -> bool:
+        """Make the change again that was taken back; False where there is none."""
+        return self.history.redo()
+
+    # -------------------------------------------------------------------------------- looking
+
+    @property
+    def document(self) -> Document:
+        """The immutable document as it now is."""
+        return self.history.document
+
+    @property
+    def name(self) -> str:
+        """Name of the document."""
+        return self.document.name
+
+    def entry(self, ident: str) -> Entry:
+        """The entry of an id."""
+        found = self.document.by_id().get(ident)
+        if found is None:
+            raise UnknownName(f"the element with the id {ident} was removed from the model")
+        return found
+
+    def __getitem__(self, path: str) -> Handle:
+        by = self.document.by_names()
+        for names, rest in readings(path, by):
+            if not rest:
+                return Handle(self, by[names].id)
+        entry, port = find.port(self.document, path)
+        return Handle(self, entry.id, port)
+
+    def __contains__(self, path: str) -> bool:
+        return any(not rest for _, rest in readings(path, self.document.by_names()))
+
+    def __iter__(self) -> Iterator[Handle]:
+        return iter([Handle(self, e.id) for e in self.document.entries])
+
+    def check(self) -> list[Problem]:
+        """Everything that is wrong, each with its path and the line that declared it; none means that it runs."""
+        where = {e.path: self.declared.get(e.id, "") for e in self.document.entries}
+        return [Problem(f"{p.where} ({where[p.where]})" if where.get(p.where) else p.where, p.what, p.fix) for p in check(self.document)]
+
+    def require(self) -> None:
+        """Raise with every problem, if there is any."""
+        problems = self.check()
+        if problems:
+            raise ModelError(problems)
+
+    def to_json(self) -> str:
+        """The document as JSON text (arrays by name only; `save` writes them beside it)."""
+        return files.dumps(self.document)[0]
+
+    def __repr__(self) -> str:
+        d = self.document
+        return f"<Model {d.name!r}: {len(d.entries)} elements, {len(d.connections)} connections>"
+
+    def _repr_html_(self) -> str:
+        by = self.document.by_id()
+        rows = "".join(
+            f"<tr><td>{_escape(e.path)}</td><td>{type(e.element).__name__}</td><td>"
+            + _escape(", ".join(by[c.source].path for c in self.document.connections if c.target == e.id))
+            + "</td></tr>"
+            for e in self.document.entries
+        )
+        head = "<tr><th>element</th><th>kind</th><th>reads from</th></tr>"
+        return f"<b>{_escape(self.name)}</b><table>{head}{rows}</table>"
+
+    # -------------------------------------------------------------------------------- inside
+
+    def _entry(self, what: Handle | str) -> Entry:
+        return find.element(self.document, what) if isinstance(what, str) else self.entry(what.id)
+
+    def _end(self, what: Handle | str, default: str) -> tuple[Entry, str]:
+        if isinstance(what, str):
+            return find.port(self.document, what, default)
+        if what.model is not self:
+            raise ModelError(f"{what!r} belongs to another model", fix="Add it to this one, or insert the other model as a group")
+        return self.entry(what.id), what.port
+
+    def _group(self, path: str) -> Names:
+        names = split(path)
+        if names not in self.document.groups:
+            raise UnknownName(f"there is no group {path!r}", fix=edit.did_you_mean(path, [display(g) for g in self.document.groups]))
+        return names
+
+
+def save(model: Model, path: str | Path, force: bool = False) -> None:
+    """Write a model as a document, its arrays first; refuses to replace a file unless `force`."""
+    files.save(model.document, path, force)
+
+
+def load(path: str | Path, trust: bool = False) -> Model:
+    """Read a document. `trust=True` allows it to import and run the functions it names.
+
+    Raises:
+        DocumentError: with every problem found, each with its path.
+    """
+    return Model(document=files.load(path), trusted=trust)
+
+
+def _caller() -> str:
+    """File and line outside this package that called."""
+    frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage]
+    own = str(Path(__file__).parent.parent)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(own):
+        frame = frame.f_back
+    return f"{Path(frame.f_code.co_filename).name}:{frame.f_lineno}"
+
+
+def _escape(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+__all__ = ["DeodarError", "Handle", "Mapping", "Model", "load", "save"]

@@ -1,0 +1,77 @@
+"""The order of evaluation inside a step, and the loops that have none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+from deodar.errors import Problem
+from deodar.model.resolve import Instant, Node
+
+Role = Literal["output", "advance"]
+Act = tuple[str, Role, Instant]
+"""Element id, what is evaluated, and at which instant: outputs at t (0) or t + dt (1), an advance at t."""
+
+
+def order(nodes: Sequence[Node]) -> tuple[list[Act], list[Problem]]:
+    """All evaluations of a step in topological order, with `level` set on each node.
+
+    A read of `current` makes the advance of its source come before it. Nodes of equal level can be evaluated together.
+    """
+    walk = _Walk(nodes)
+    for n in nodes:
+        walk.visit(n, "output", 0)
+        if n.element.stateful:
+            walk.visit(n, "advance", 0)
+        if n.id in walk.ahead:
+            walk.visit(n, "output", 1)
+    last = max(walk.depth.values(), default=0) + 1
+    for act in walk.acts:
+        if act[1] == "advance" and act[0] not in walk.ahead:
+            walk.depth[act] = last  # nobody waits for its new state: all such elements advance together
+    for n in nodes:
+        acts: tuple[Act, ...] = ((n.id, "output", 0), (n.id, "advance", 0), (n.id, "output", 1))
+        n.level = tuple(walk.depth.get(act, -1) for act in acts)
+    place = {n.id: k for k, n in enumerate(sorted(nodes, key=lambda n: n.id))}
+
+    return sorted(walk.acts, key=lambda act: (walk.depth[act], place[act[0]])), walk.problems
+
+
+class _Walk:
+    def __init__(self, nodes: Sequence[Node]) -> None:
+        self.by = {n.id: n for n in nodes}
+        self.depth: dict[Act, int] = {}
+        self.acts: list[Act] = []
+        self.problems: list[Problem] = []
+        self.path: list[Act] = []
+        self.ahead = {i for n in nodes for slots in n.reads.values() for i, _, instant in slots if instant}
+
+    def visit(self, n: Node, role: Role, instant: Instant) -> int:
+        act: Act = (n.id, role, instant)
+        if act in self.depth:
+            if act in self.path:
+                loop = [self.by[a[0]].path for a in self.path[self.path.index(act) :]]
+                names = " -> ".join([*dict.fromkeys(loop), n.path])
+                current = any(a[2] or a[1] == "advance" for a in self.path[self.path.index(act) :])
+                what = "a loop of connections that read 'current'" if current else "a loop without a state in it"
+                problem = Problem(n.path, f"{what}: {names}", "Let one of them read 'previous', or 'delayed'")
+                if problem not in self.problems:
+                    self.problems.append(problem)
+            return self.depth[act]
+        self.depth[act] = 0
+        self.path.append(act)
+        depth = 0
+        for port in self._needs(n, role):
+            for source, _, when in n.reads.get(port, []):
+                depth = max(depth, 1 + self.visit(self.by[source], "output", when))
+        if role == "output" and instant == 1:
+            depth = max(depth, 1 + self.visit(n, "advance", 0))
+        self.path.pop()
+        self.depth[act] = depth
+        self.acts.append(act)
+        return depth
+
+    def _needs(self, n: Node, role: Role) -> list[str]:
+        if role == "advance":
+            return list(n.reads)
+        return [p for p in n.reads if any(p in n.passes(out) for out in n.outs)]

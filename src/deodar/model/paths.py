@@ -1,0 +1,81 @@
+"""Names and paths: `group.element.port`, `group.element.parameter`.
+
+Names may be any text. In a path a name stands as it is where that is unambiguous; `quote` gives the form that always is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Collection, Iterable, Sequence
+
+from deodar.errors import UnknownName
+
+Names = tuple[str, ...]
+
+
+def quote(name: str) -> str:
+    """The safe form of a name in a path: plain identifiers as they are, others in double quotes.
+
+    >>> quote("u")
+    'u'
+    >>> quote("u -> u (global)")
+    '"u -> u (global)"'
+    """
+    return name if name.isidentifier() else json.dumps(name, ensure_ascii=False)
+
+
+def display(names: Sequence[str]) -> str:
+    """The path of an element as messages, records and documents write it."""
+    return ".".join(quote(n) if ("." in n or '"' in n or n == "") else n for n in names)
+
+
+def split(path: str) -> Names:
+    """The names of a path; quoted ones are taken as a whole."""
+    names: list[str] = []
+    at = 0
+    decoder = json.JSONDecoder()
+    while at <= len(path):
+        if path[at : at + 1] == '"':
+            try:
+                name, end = decoder.raw_decode(path, at)
+            except ValueError:
+                raise UnknownName(f"the path {path!r} opens a quotation mark and never closes it") from None
+            if end < len(path) and path[end] != ".":
+                raise UnknownName(f"in the path {path!r} something stands between a quoted name and the next dot")
+        else:
+            end = path.find(".", at)
+            end = len(path) if end < 0 else end
+            name = path[at:end]
+        names.append(str(name))
+        at = end + 1
+    return tuple(names)
+
+
+def readings(path: str, known: Collection[Names]) -> list[tuple[Names, str]]:
+    """Every way to read `path` as a known name followed by a rest; the quoted reading first."""
+    found: list[tuple[Names, str]] = []
+    parts = split(path)
+    for k in range(len(parts), 0, -1):
+        if parts[:k] in known:
+            found.append((parts[:k], ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
+    for names in known:
+        raw = ".".join(names)
+        if (path == raw or path.startswith(raw + ".")) and not any(names == f[0] for f in found):
+            found.append((names, path[len(raw) + 1 :]))
+    return found
+
+
+def stored_id(path: str, taken: Iterable[str]) -> str:
+    """Eight hex digits: a hash of the path an element was created under. Rename, grouping and moves keep it.
+
+    The same script gives the same ids in any order of declaration; noise is keyed by them.
+    """
+    used = set(taken)
+    n = 0
+    while True:
+        text = path if n == 0 else f"{path}#{n}"
+        found = hashlib.blake2b(text.encode(), digest_size=4).hexdigest()
+        if found not in used:
+            return found
+        n += 1

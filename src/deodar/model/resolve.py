@@ -1,0 +1,243 @@
+"""From a document to nodes: axes inferred at every port, connections fitted, every problem listed at once.
+
+Implicit resampling, contraction, expansion and delays become nodes of their own, so that what follows sees plain
+connections between equal axes.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from deodar.couplings.delay import Delay
+from deodar.couplings.project import Project
+from deodar.element import Element
+from deodar.errors import Problem
+from deodar.model.document import Connection, Document, Entry
+from deodar.numerics.axes import Axes, describe
+from deodar.parameters import leaves, parameters
+
+Instant = Literal[0, 1]
+Slot = tuple[str, str, Instant]
+"""Element id, output port, and when it is read: 0 at time t, 1 at t + dt."""
+
+
+@dc.dataclass
+class Node:
+    """One element, resolved."""
+
+    id: str
+    path: str
+    element: Element
+    every: int
+    ins: dict[str, Axes]
+    outs: dict[str, Axes]
+    reads: dict[str, list[Slot]]
+    level: tuple[int, ...] = ()
+    declared: bool = True
+
+    def passes(self, port: str) -> Sequence[str]:
+        """Input ports that an output port passes on in the same instant."""
+        return type(self.element).direct.get(port, ())
+
+    def shows_state(self, port: str) -> bool:
+        """Whether an output port shows the state, so that it may be read before and after a step."""
+        return self.element.stateful and not self.passes(port)
+
+    @property
+    def deferred(self) -> bool:
+        """Whether its outputs wait for inputs of the same instant."""
+        return any(self.passes(port) for port in self.outs)
+
+
+class _Resolver:
+    def __init__(self, doc: Document) -> None:
+        self.doc = doc
+        self.entries = doc.by_id()
+        self.problems: list[Problem] = []
+        self.nodes: dict[str, Node] = {}
+        self.into: dict[tuple[str, str], list[Connection]] = {}
+        for c in sorted(doc.connections, key=lambda c: (c.source, c.source_port)):
+            self.into.setdefault((c.target, c.target_port), []).append(c)
+        self.visiting: list[str] = []
+        self.failed: set[str] = set()
+
+    def run(self) -> list[Node]:
+        for entry in self.doc.entries:
+            self.visit(entry.id)
+        for entry in self.doc.entries:
+            node = self.nodes.get(entry.id)
+            if node is not None and not node.deferred:
+                self.wire(node)
+        for entry in self.doc.entries:
+            node = self.nodes.get(entry.id)
+            if node is not None and entry.id not in self.failed:
+                self.inspect(entry, node)
+        return list(self.nodes.values())
+
+    def visit(self, ident: str) -> Node | None:
+        """The node of an element; deferred ones after their sources, whose axes they may take over."""
+        if ident in self.nodes:
+            return self.nodes[ident]
+        entry = self.entries[ident]
+        if ident in self.visiting:
+            loop = [self.entries[i].path for i in self.visiting[self.visiting.index(ident) :]] + [entry.path]
+            self.problem(ident, f"a loop without a state in it: {' -> '.join(loop)}", "Put a field, or a connection with reads='delayed', into it")
+            return None
+        node = Node(ident, entry.path, entry.element, entry.every, {}, {}, {port: [] for port in entry.element.ports()})
+        deferred = bool(type(entry.element).direct) and any(type(entry.element).direct.values())
+        if deferred:
+            self.visiting.append(ident)
+            self.wire(node, only=self._direct_ports(entry.element))
+            self.visiting.pop()
+            if ident in self.failed:
+                return None
+        elif not self.per_axis(entry, node):
+            return None
+        try:
+            node.outs = dict(entry.element.outputs(node.ins))
+        except KeyError:
+            return None
+        self.nodes[ident] = node
+        if deferred:
+            self.wire(node, skip=self._direct_ports(entry.element))
+        return node
+
+    def _direct_ports(self, element: Element) -> set[str]:
+        return {port for ports in type(element).direct.values() for port in ports}
+
+    def wire(self, node: Node, only: set[str] | None = None, skip: set[str] | None = None) -> None:
+        """Axes at the input ports, and the slots they read."""
+        for port in node.element.ports():
+            if (only is not None and port not in only) or (skip is not None and port in skip):
+                continue
+            for c in self.into.get((node.id, port), []):
+                source = self.visit(c.source)
+                if source is None:
+                    self.failed.add(node.id)
+                    continue
+                slot = self.slot(source, c, node)
+                if slot is not None:
+                    self.attach(source, slot, node, port)
+            if port not in node.ins:
+                axes = node.element.wants(port, None)
+                if axes is None and not node.reads[port]:
+                    if port == "input" and node.id not in self.failed and node.element.wants(port, ()) == ():
+                        self.problem(
+                            node.id,
+                            f"nothing is connected to {node.path}.{port}, so its axes are unknown",
+                            f"Connect it: model.connect(..., {node.path!r})",
+                        )
+                        continue
+                    axes = node.ins.get("input", ())
+                node.ins[port] = axes if axes is not None else ()
+
+    def slot(self, source: Node, c: Connection, node: Node) -> Slot | None:
+        """What a connection reads; a delay becomes a node of its own."""
+        if c.source_port not in source.outs:
+            self.problem(node.id, f"{source.path} has no output port {c.source_port!r}", f"There is: {', '.join(source.outs)}")
+            return None
+        if c.reads == "delayed":
+            ident = f"{source.id}.{c.source_port}~"
+            if ident not in self.nodes:
+                axes = source.outs[c.source_port]
+                delay = Delay(axes=axes, name=f"{source.path}.{c.source_port} delayed")
+                self.nodes[ident] = Node(
+                    ident, delay.name, delay, 1, {"input": axes}, {"output": axes}, {"input": [(source.id, c.source_port, 0)]}, declared=False
+                )
+            return (ident, "output", 0)
+        if c.reads and not source.shows_state(c.source_port):
+            self.problem(
+                node.id,
+                f"the connection {source.path}.{c.source_port} -> {node.path}.{c.target_port} says {c.reads!r}, but {source.path} shows no state:"
+                " its output is of the same instant as its input",
+                "Leave reads out, or write reads='delayed'",
+            )
+            return None
+        return (source.id, c.source_port, 1 if c.reads == "current" else 0)
+
+    def attach(self, source: Node, slot: Slot, node: Node, port: str) -> None:
+        axes = self.nodes[slot[0]].outs[slot[1]] if slot[0] in self.nodes else source.outs[slot[1]]
+        want = node.element.wants(port, axes)
+        if want is not None and want == axes and port in node.ins:
+            want = node.ins[port]  # a port that takes what comes took the axes of its first connection
+        if want is None:
+            want = axes
+        if port == "factor" and "input" in node.ins:
+            want = node.ins["input"]
+        node.ins[port] = want
+        if axes != want:
+            fitted = self.fit(source, slot, axes, node, port, want)
+            if fitted is None:
+                return
+            slot = fitted
+        node.reads[port].append(slot)
+
+    def fit(self, source: Node, slot: Slot, axes: Axes, node: Node, port: str, want: Axes) -> Slot | None:
+        """A slot over the wanted axes: through an implicit projection, or a problem that names both sides."""
+        here, there = {a.name: a for a in want}, {a.name: a for a in axes}
+        shared = [n for n in there if n in here]
+        bad = [n for n in shared if not there[n].fits(here[n])]
+        both = bool(set(there) - set(here)) and bool(set(here) - set(there))
+        if bad or both:
+            reason = f"bounds, unit or periodicity of {bad[0]!r} differ" if bad else "axes are missing on both sides"
+            missing, extra = sorted(set(here) - set(there)), sorted(set(there) - set(here))
+            rename = f", rename={{{extra[0]!r}: {missing[0]!r}}}" if both and len(missing) == len(extra) == 1 else ""
+            project = f"{source.path} >> Project([{', '.join(here)}]{rename}) >> {node.path}"
+            if bad:
+                project = f"{source.path} >> Resample([{', '.join(here)}]) >> {node.path}, or give both the same axis"
+            self.problem(
+                node.id, f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}: {reason}", f"Write: {project}"
+            )
+            return None
+        key = ",".join(f"{a.name}:{a.samples}" for a in want)
+        ident = f"{slot[0]}.{slot[1]}@{slot[2]}>{key}"
+        if ident not in self.nodes:
+            project = Project(want, name=f"{source.path}.{slot[1]} to {key}")
+            self.nodes[ident] = Node(ident, project.name, project, 1, {"input": axes}, {"output": want}, {"input": [slot]}, declared=False)
+        return (ident, "output", 0)
+
+    def inspect(self, entry: Entry, node: Node) -> None:
+        """What does not fit between parameters and axes."""
+        if not self.per_axis(entry, node):
+            return
+        own: Any = getattr(entry.element, "axes", ())
+        twice = sorted({a.name for a in own if [b.name for b in own].count(a.name) > 1})
+        if twice:
+            self.problem(node.id, f"two of its axes are called {twice[0]!r}", "Give each axis a name of its own")
+            return
+        for what in entry.element.misfits(node.ins):
+            self.problem(node.id, what)
+        clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
+        if clash:
+            self.problem(node.id, f"a port and a parameter are both called {sorted(clash)[0]!r}", "Rename one of them in the element's class")
+
+    def per_axis(self, entry: Entry, node: Node) -> bool:
+        """Whether values given one for each axis are as many as there are axes."""
+        own: Any = getattr(entry.element, "axes", None)
+        axes: Axes = tuple(own) if own is not None else node.ins.get("input", ())
+        good = True
+        counted: dict[str, int] = {}
+        for path, _, p in leaves(entry.element):
+            if p.form == "per_axis" and path.rsplit(".", 1)[-1].isdigit() and not path.endswith(p.name):
+                base = path.rsplit(".", 1)[0]
+                counted[base] = counted.get(base, 0) + 1
+        for base, count in counted.items():
+            if count != len(axes):
+                self.problem(node.id, f"{base} has {count} values for {len(axes)} axes", "Give one number, or one for each axis")
+                good = False
+        return good
+
+    def problem(self, ident: str, what: str, fix: str = "") -> None:
+        self.failed.add(ident)
+        found = Problem(self.entries[ident].path if ident in self.entries else ident, what, fix)
+        if found not in self.problems:
+            self.problems.append(found)
+
+
+def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
+    """The nodes of a document, and everything that is wrong with it."""
+    resolver = _Resolver(doc)
+    nodes = resolver.run()
+    return nodes, resolver.problems

@@ -1,0 +1,83 @@
+"""JSON Schema of a document, generated from the declarations of everything registered."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from deodar import registry
+from deodar.element import Element
+from deodar.model.document import READS, VERSION
+from deodar.parameters import Part, schema
+
+SHIPPED = Path(__file__).with_name("document.schema.json")
+"""The generated schema, shipped with the package; write it anew with `python -m deodar.model.schema`."""
+
+
+def reference(base: type[Any]) -> dict[str, Any]:
+    """Any registered part that may stand where `base` is declared."""
+    return {"oneOf": [{"$ref": f"#/$defs/{name}"} for name, cls in registry.kinds().items() if issubclass(cls, base)]}
+
+
+def document_schema() -> dict[str, Any]:
+    """The schema of a whole document."""
+    parts = {name: cls for name, cls in registry.kinds().items() if issubclass(cls, Part) and cls.__module__.startswith("deodar.")}
+    defs: dict[str, Any] = {name: schema(cls, reference) for name, cls in parts.items()}
+    for name, cls in parts.items():
+        if issubclass(cls, Element):
+            defs[name]["properties"] |= {"id": {"type": "string", "pattern": "^[0-9a-f]{8}$"}, "every": {"type": "integer", "minimum": 1}}
+        defs[name]["additionalProperties"] = False
+    axis: dict[str, Any] = {
+        "type": "object",
+        "properties": {
+            "name": {"type": "string"}, "lower": {"type": "number"}, "upper": {"type": "number"},
+            "samples": {"type": "integer", "minimum": 1}, "periodic": {"type": "boolean"}, "unit": {"type": "string"},
+        },
+        "required": ["lower", "upper", "samples"],
+        "additionalProperties": False,
+    }  # fmt: skip
+    connection: dict[str, Any] = {
+        "type": "object",
+        "properties": {"source": {"type": "string"}, "target": {"type": "string"}, "reads": {"enum": [r for r in READS if r]}},
+        "required": ["source", "target"],
+        "additionalProperties": False,
+    }
+    knob: dict[str, Any] = {
+        "type": "object",
+        "properties": {"value": {"type": "number"}, "links": {"type": "array", "items": {"type": "string"}}},
+        "required": ["value"],
+    }
+    elements = {"oneOf": [{"$ref": f"#/$defs/{name}"} for name, cls in parts.items() if issubclass(cls, Element)]}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "deodar document",
+        "type": "object",
+        "properties": {
+            "deodar": {"const": VERSION},
+            "name": {"type": "string"},
+            "time_unit": {"type": "string"},
+            "dt": {"type": "number", "exclusiveMinimum": 0},
+            "t0": {"type": "number"},
+            "axes": {"type": "object", "additionalProperties": axis},
+            "parameters": {"type": "object", "additionalProperties": knob},
+            "elements": {"type": "object", "additionalProperties": elements},
+            "connections": {"type": "array", "items": connection},
+            "groups": {"type": "array", "items": {"type": "string"}},
+            "arrays": {"type": "object", "properties": {"file": {"type": "string"}, "sha256": {"type": "string"}}},
+            "notes": {"type": "string"},
+            "layout": {"type": "object"},
+        },
+        "required": ["deodar", "elements"],
+        "additionalProperties": False,
+        "$defs": defs,
+    }
+
+
+def text() -> str:
+    """The schema as it is shipped."""
+    return json.dumps(document_schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    SHIPPED.write_text(text())

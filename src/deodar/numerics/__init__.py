@@ -1,0 +1,1 @@
+"""Pure functions of arrays: axes, sigmoids, kernels, convolution, resampling, noise, integrators."""

@@ -1,0 +1,111 @@
+"""Axes as data: the metric dimensions over which fields are defined, and their sampling."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from deodar.errors import AxesError, Problem
+
+MOST_SAMPLES = 1_000_000
+"""More samples on one axis are taken for a slip of the pen (a guess; a field this long would run at 0.01 of real time)."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A metric dimension with its sampling.
+
+    Samples stand at `lower + i * step`. On a periodic axis `step = (upper - lower) / samples` (upper is lower again), on
+    others `step = (upper - lower) / (samples - 1)` (upper is a sample).
+
+    Args:
+        name: what connections match by.
+        lower: first value, in `unit`.
+        upper: last value, in `unit`; greater than lower.
+        samples: number of samples; at least 2, or 1 on a periodic axis.
+        periodic: whether the end meets the beginning.
+        unit: unit of the values, for labels and for matching.
+    """
+
+    name: str
+    lower: float
+    upper: float
+    samples: int
+    periodic: bool = False
+    unit: str = ""
+
+    def __post_init__(self) -> None:
+        for key in ("lower", "upper"):
+            value = getattr(self, key)
+            if isinstance(value, (bool, str)) or not np.isscalar(value) or not math.isfinite(float(value)):
+                raise AxesError(f"{key} needs a finite number, not {value!r}", where=f"axis {self.name!r}")
+            object.__setattr__(self, key, float(value))
+        problems: list[Problem] = []
+        where = f"axis {self.name!r}"
+        if not isinstance(self.name, str) or not self.name:
+            problems.append(Problem("axis", f"needs a name, not {self.name!r}"))
+        if not self.lower < self.upper:
+            problems.append(Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}"))
+        if isinstance(self.samples, bool) or not isinstance(self.samples, (int, np.integer)):
+            problems.append(Problem(where, f"samples needs a whole number, not {self.samples!r}"))
+        elif not (1 if self.periodic else 2) <= self.samples <= MOST_SAMPLES:
+            least = "1" if self.periodic else "2"
+            problems.append(Problem(where, f"samples is {self.samples}; it is {least} to {MOST_SAMPLES}"))
+        else:
+            object.__setattr__(self, "samples", int(self.samples))
+        if not isinstance(self.periodic, (bool, np.bool_)):
+            problems.append(Problem(where, f"periodic needs true or false, not {self.periodic!r}"))
+        if not isinstance(self.unit, str):
+            problems.append(Problem(where, f"unit needs text, not {self.unit!r}"))
+        if problems:
+            raise AxesError(problems)
+
+    @property
+    def range(self) -> float:
+        """Upper minus lower; the period of a periodic axis."""
+        return self.upper - self.lower
+
+    @property
+    def step(self) -> float:
+        """Distance between neighbouring samples: the cell for which one sample stands."""
+        return self.range / (self.samples if self.periodic else self.samples - 1)
+
+    @property
+    def points(self) -> np.ndarray:
+        """Values at the samples, float64."""
+        return self.lower + self.step * np.arange(self.samples)
+
+    def fits(self, other: Axis) -> bool:
+        """Whether a connection may match the two: equal bounds (to 1e-9 of the range), unit and periodicity."""
+        near = 1e-9 * max(self.range, other.range)
+        return (
+            abs(self.lower - other.lower) <= near
+            and abs(self.upper - other.upper) <= near
+            and self.periodic == other.periodic
+            and self.unit == other.unit
+        )
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{self.name} {self.lower:g}..{self.upper:g}{unit}, {self.samples} samples{', periodic' if self.periodic else ''}"
+
+
+Axes = tuple[Axis, ...]
+
+
+def shape(axes: Sequence[Axis]) -> tuple[int, ...]:
+    """Array shape of a field over the axes; () for a node."""
+    return tuple(a.samples for a in axes)
+
+
+def cell(axes: Sequence[Axis]) -> float:
+    """Volume for which one sample stands: the product of the grid steps; 1 for a node."""
+    return math.prod(a.step for a in axes)
+
+
+def describe(axes: Sequence[Axis]) -> str:
+    """The axes in one line, for messages: `[x 0..100, 101 samples]`."""
+    return "[" + "; ".join(str(a) for a in axes) + "]"

@@ -1,0 +1,91 @@
+"""Convolution of a field's output with interaction kernels, at any width and any boundary.
+
+A separable kernel is one matrix per axis, exact at every width, rebuilt without recompiling. A kernel given as samples is
+a product of spectra on the extended grid. Integrals are sums times the grid step (rectangle rule), which the matrices carry.
+
+Boundaries: `periodic` wraps with period N steps, `zero` sees nothing beyond the border, `reflect` sees the field mirrored
+at the outer edge of its last cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from deodar.numerics.axes import Axes, Axis, cell, shape
+
+BOUNDARIES = ("periodic", "zero", "reflect")
+TINY = 1e-20
+"""Weights below this are dropped: they change nothing and denormal numbers are slow."""
+
+Profile = Callable[[Any, float | None], Any]
+"""Weight as a function of the lag; the second argument is the period if the lag wraps, else None."""
+
+
+def boundaries(given: Sequence[str] | None, axes: Axes) -> tuple[str, ...]:
+    """The boundary on each axis: as given, else periodic on periodic axes and zero on others."""
+    if given is None:
+        return tuple("periodic" if a.periodic else "zero" for a in axes)
+    return tuple(given) if len(given) == len(axes) else tuple(given) * len(axes)
+
+
+def matrix(axis: Axis, boundary: str, profile: Profile, dtype: Any) -> Array:
+    """Weights between all pairs of samples of one axis, times the grid step: shape (samples, samples)."""
+    x = axis.points
+    lag = jnp.asarray(x[:, None] - x[None, :], dtype)
+    if boundary == "periodic":
+        weights = profile(lag, axis.step * axis.samples)
+    elif boundary == "reflect":
+        period = 2 * axis.step * axis.samples
+        mirrored = jnp.asarray(x[:, None] + x[None, :] - 2 * axis.lower + axis.step, dtype)
+        weights = profile(lag, period) + profile(mirrored, period)
+    else:
+        weights = profile(lag, None)
+    return jnp.where(jnp.abs(weights) < TINY, 0.0, weights) * jnp.asarray(axis.step, dtype)
+
+
+def along(m: Array, y: Array, d: int) -> Array:
+    """The matrix applied along axis d."""
+    return jnp.moveaxis(jnp.tensordot(m, y, axes=(1, d), precision="highest"), 0, d)
+
+
+def separable(matrices: Sequence[Array], y: Array) -> Array:
+    """One matrix applied along each axis in turn."""
+    for d, m in enumerate(matrices):
+        y = along(m, y, d)
+    return y
+
+
+def extended(axes: Axes, bounds: Sequence[str]) -> tuple[int, ...]:
+    """Samples on each axis of the grid on which a circular convolution has the wanted boundaries."""
+    return tuple(n if b == "periodic" else 2 * n for n, b in zip(shape(axes), bounds, strict=True))
+
+
+def spectrum(samples: Any, axes: Axes, bounds: Sequence[str], dtype: Any) -> Array:
+    """Spectrum of a kernel given as samples around its centre (odd counts: index (n - 1) / 2 is lag zero)."""
+    sizes = extended(axes, bounds)
+    kernel = jnp.asarray(samples, dtype)
+    for d, (size, count) in enumerate(zip(sizes, kernel.shape, strict=True)):
+        lags = np.arange(count) - (count - 1) // 2
+        if bounds[d] == "zero":  # lags that reach beyond the field never meet a sample of it
+            keep = np.abs(lags) < axes[d].samples
+            kernel, lags = jnp.compress(keep, kernel, axis=d), lags[keep]
+        wrap = np.zeros((size, len(lags)))
+        np.add.at(wrap, (lags % size, np.arange(len(lags))), 1.0)
+        kernel = along(jnp.asarray(wrap, dtype), kernel, d)
+    return jnp.fft.rfftn(kernel * jnp.asarray(cell(axes), dtype))
+
+
+def spectral(kernel: Array, y: Array, axes: Axes, bounds: Sequence[str]) -> Array:
+    """Convolution of y with a kernel given by its spectrum on the extended grid."""
+    n = shape(axes)
+    sizes = extended(axes, bounds)
+    for d, b in enumerate(bounds):
+        if b == "reflect":
+            y = jnp.concatenate([y, jnp.flip(y, d)], axis=d)
+    full = jnp.fft.irfftn(jnp.fft.rfftn(y, sizes) * kernel, sizes)
+    return full[tuple(slice(0, k) for k in n)].astype(y.dtype)

@@ -1,0 +1,27 @@
+"""The stochastic Euler method, the one integrator (cedar-2016, eq. 17).
+
+References:
+    Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied cognitive systems
+    with cedar, Front. Neurorobot. 10:14, eqs. 16 and 17.
+    Kloeden & Platen (1992), Numerical solution of stochastic differential equations, Springer.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax.numpy as jnp
+
+
+def euler(u: Any, rate: Any, tau: Any, dt: Any, noise: Any = None) -> Any:
+    """One step of `tau du = rate dt + noise dW`: drift scaled by dt/tau, noise by sqrt(dt)/tau.
+
+    Args:
+        u: state at t.
+        rate: right-hand side at t.
+        tau: time constant, in the document's time unit.
+        dt: step, in the document's time unit.
+        noise: amplitude times a standard normal deviate for each cell, or None.
+    """
+    new = u + dt / tau * rate
+    return new if noise is None else new + jnp.sqrt(dt) / tau * noise

@@ -1,0 +1,1 @@
+"""One file for each kernel; the folder is the registry."""

@@ -1,0 +1,49 @@
+"""The contract of an interaction kernel: weights as a function of the distance between two places."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from deodar.numerics.axes import Axes
+from deodar.numerics.convolution import BOUNDARIES
+from deodar.parameters import Part, Recompile
+
+
+@dataclass(frozen=True)
+class Term:
+    """A separable part of a kernel: amplitude times the product over axes of `along(d, lag, period, step)`.
+
+    `period` is the length after which the lag wraps, or None; `step` is the grid step of axis d.
+    """
+
+    amplitude: Any
+    along: Callable[[int, Any, float | None, float], Any]
+
+
+@dataclass(frozen=True)
+class Kernel(Part):
+    """k(x - x'), one class for fields of any dimension.
+
+    A kernel is a sum of separable terms, or, where `samples` gives an array, that array.
+    """
+
+    boundary: Annotated[
+        Sequence[str] | None,
+        Recompile(choices=BOUNDARIES, meaning="what lies beyond the border, one for all axes or one for each; none: the axis decides"),
+    ] = dc.field(default=None, kw_only=True)
+
+    def terms(self) -> Sequence[Term]:
+        """The separable terms; amplitudes are live, `along` may only use parameters that rebuild."""
+        raise NotImplementedError
+
+    def samples(self, axes: Axes, dtype: Any) -> Any | None:
+        """The kernel as an array around lag zero on the grid of `axes`, or None where `terms` say it all."""
+        return None
+
+    def misfits(self, axes: Axes) -> Iterator[str]:
+        """What does not fit between this kernel and the axes of its field."""
+        if self.boundary is not None and len(self.boundary) not in (1, len(axes)):
+            yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"

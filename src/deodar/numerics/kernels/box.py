@@ -1,0 +1,64 @@
+"""The box kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Box(Kernel):
+    """The same weight for all distances up to half a width.
+
+    Equation:
+        k(d) = amplitude where |d_i| < width_i / 2 on every axis, else 0; a cell cut by the edge counts in part.
+
+    Parameters:
+        amplitude: weight inside, per unit of the axes; if normalized, the integral over all distances.
+        width: full width in axis units, one or one for each axis; > 0.
+        normalized: whether the amplitude is the integral.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+
+    Shapes:
+        One number for each distance; any number of axes.
+
+    Reference:
+        no reference
+    """
+
+    amplitude: Annotated[float, Live("activation", meaning="weight inside, or the integral if normalized")] = 1.0
+    width: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="full width")] = 10.0
+    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+
+    def terms(self) -> Sequence[Term]:
+        def along(d: int, lag: Any, period: float | None, step: float) -> Any:
+            w = self.width[d] if isinstance(self.width, tuple) else self.width
+            weight = _covered(lag, w, period, step)
+            return weight / w if self.normalized else weight
+
+        return (Term(self.amplitude, along),)
+
+
+def _covered(lag: Any, width: Any, period: float | None, step: float) -> Any:
+    """Share of the cell around `lag` that lies inside the box; on a ring the box may wind round it several times."""
+    if period is None:
+        return _overlap(lag, width, step)
+    turns = jnp.floor(width / period)
+    near = lag - period * jnp.round(lag / period)
+    rest = width - turns * period
+    return turns + sum(_overlap(near + k * period, rest, step) for k in (-1, 0, 1))
+
+
+def _overlap(lag: Any, width: Any, step: float) -> Any:
+    upper = jnp.minimum(lag + step / 2, width / 2)
+    lower = jnp.maximum(lag - step / 2, -width / 2)
+    return jnp.maximum(0.0, upper - lower) / step

@@ -1,0 +1,70 @@
+"""A kernel given as an array."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.numerics import resampling
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.convolution import along
+from deodar.numerics.kernels._base import Kernel, Term
+from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile, per_axis
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Custom(Kernel):
+    """Any weights: an array around distance zero, symmetric or not, one axis of the array for each axis of the field.
+
+    Equation:
+        k(d) = amplitude * weights[centre + d / spacing], linear between samples, zero beyond them
+
+    Parameters:
+        weights: array with an odd number of samples on every axis; its middle is distance zero; per unit of the axes.
+        amplitude: factor.
+        spacing: distance of neighbouring samples in axis units, one or one for each axis; none: the field's grid step
+            (the kernel then changes with the grid).
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+
+    Shapes:
+        weights: one odd number of samples for each axis of the field.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (k, without an assumption on its form).
+    """
+
+    weights: Annotated[ArrayLike, Rebuild("activation", meaning="weights around distance zero")] = FrozenArray([0.25, 0.5, 0.25])
+    amplitude: Annotated[float, Live(meaning="factor")] = 1.0
+    spacing: Annotated[PerAxis | None, Recompile("axis", lower=1e-9, meaning="distance of neighbouring samples")] = None
+
+    def terms(self) -> Sequence[Term]:
+        return ()
+
+    def samples(self, axes: Axes, dtype: Any) -> Any:
+        weights: Any = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
+        weights = jnp.asarray(weights, dtype)
+        if self.spacing is None:
+            return weights
+        for d, (axis, spacing) in enumerate(zip(axes, per_axis(self.spacing, axes), strict=True)):
+            half = spacing * (weights.shape[d] - 1) / 2
+            if half == 0:
+                continue
+            reach = int(np.ceil(half / axis.step))
+            points = axis.step * np.arange(-reach, reach + 1)
+            grid = Axis("lag", -half, half, weights.shape[d])
+            weights = along(resampling.weights(grid, points, "linear", dtype), weights, d)
+        return weights
+
+    def misfits(self, axes: Axes) -> Iterator[str]:
+        yield from super().misfits(axes)
+        shape = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
+        if len(shape) != len(axes):
+            yield f"weights has {len(shape)} axes, the field {len(axes)}"
+        elif any(n % 2 == 0 for n in shape):
+            yield f"weights has an even number of samples ({list(shape)}); its middle must be distance zero"

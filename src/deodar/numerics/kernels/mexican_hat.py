@@ -1,0 +1,49 @@
+"""The Mexican hat: local excitation, wider inhibition."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels.gaussian import NARROWEST, gaussian_term
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class MexicanHat(Kernel):
+    """Difference of two Gaussians: neighbours excite, places further off inhibit.
+
+    Equation:
+        k(d) = excitation exp(-d^2 / (2 sigma_excitation^2)) - inhibition exp(-d^2 / (2 sigma_inhibition^2));
+        if normalized, each Gaussian is divided by its integral.
+
+    Parameters:
+        excitation: weight of the excitation at the centre (its integral if normalized).
+        sigma_excitation: its width in axis units, one or one for each axis; > 0.
+        inhibition: weight of the inhibition at the centre, counted positive (its integral if normalized).
+        sigma_inhibition: its width in axis units, one or one for each axis; > 0.
+        normalized: whether the weights are integrals.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+
+    Shapes:
+        One number for each distance; any number of axes.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2.
+    """
+
+    excitation: Annotated[float, Live("activation", meaning="weight of the excitation")] = 15.0
+    sigma_excitation: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the excitation")] = 5.0
+    inhibition: Annotated[float, Live("activation", meaning="weight of the inhibition")] = 8.0
+    sigma_inhibition: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the inhibition")] = 10.0
+    normalized: Annotated[bool, Recompile(meaning="whether the weights are integrals")] = False
+
+    def terms(self) -> Sequence[Term]:
+        return (
+            gaussian_term(self.excitation, self.sigma_excitation, self.normalized),
+            gaussian_term(-self.inhibition, self.sigma_inhibition, self.normalized),
+        )

@@ -1,0 +1,59 @@
+"""A kernel moved away from its centre."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from deodar.numerics.axes import Axes
+from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.parameters import PerAxis, Rebuild
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Shifted(Kernel):
+    """Another kernel moved by a fixed amount: a peak at x acts around x + shift.
+
+    Equation:
+        k(d) = inner(d - shift)
+
+    Parameters:
+        kernel: the inner kernel, a sum of separable terms (not a custom array).
+        shift: how far, in axis units, one or one for each axis.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes
+            wrap, others see zero.
+
+    Shapes:
+        One number for each distance; any number of axes.
+
+    Reference:
+        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), eqs. 4-6 (the
+        shifted couplings of its plan).
+    """
+
+    kernel: Kernel = Gaussian()
+    shift: Annotated[PerAxis, Rebuild("axis", meaning="how far the kernel is moved")] = 0.0
+
+    def terms(self) -> Sequence[Term]:
+        return [Term(t.amplitude, self._moved(t)) for t in self.kernel.terms()]
+
+    def _moved(self, term: Term) -> Any:
+        def along(d: int, lag: Any, period: float | None, step: float) -> Any:
+            by = self.shift[d] if isinstance(self.shift, tuple) else self.shift
+            return term.along(d, lag - by, period, step)
+
+        return along
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if type(self.kernel).__name__ == "Custom":
+            yield "kernel", "a custom array cannot be shifted; shift the array itself"
+        if self.kernel.boundary is not None:
+            yield "kernel.boundary", "belongs to the shifted kernel: write Shifted(kernel, shift, boundary=...)"
+
+    def misfits(self, axes: Axes) -> Iterator[str]:
+        yield from super().misfits(axes)
+        yield from self.kernel.misfits(axes)

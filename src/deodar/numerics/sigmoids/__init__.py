@@ -1,0 +1,1 @@
+"""One file for each sigmoid; the folder is the registry."""

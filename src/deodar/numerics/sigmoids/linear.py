@@ -1,0 +1,36 @@
+"""The linear output function."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.parameters import Live
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Linear(Sigmoid):
+    """Output proportional to activation, for linear stages of an architecture.
+
+    Equation:
+        g(u) = slope (u - theta)
+
+    Parameters:
+        slope: output per unit of activation.
+        threshold: theta, activation of zero output.
+
+    Shapes:
+        Any shape in, the same out.
+
+    Reference:
+        no reference
+    """
+
+    slope: Annotated[float, Live("1/activation", meaning="output per unit of activation")] = 1.0
+    threshold: Annotated[float, Live("activation", meaning="activation of zero output")] = 0.0
+
+    def __call__(self, u: Any) -> Any:
+        return self.slope * (u - self.threshold)

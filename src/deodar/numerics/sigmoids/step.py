@@ -1,0 +1,34 @@
+"""The step function."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.parameters import Live
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Step(Sigmoid):
+    """All or nothing: the output function of Amari's analysis.
+
+    Equation:
+        g(u) = 1 where u > theta, else 0
+
+    Parameters:
+        threshold: theta, activation above which the output is 1.
+
+    Shapes:
+        Any shape in, the same out.
+
+    Reference:
+        Amari (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27, 77-87.
+    """
+
+    threshold: Annotated[float, Live("activation", meaning="activation above which the output is 1")] = 0.0
+
+    def __call__(self, u: Any) -> Any:
+        return (u > self.threshold).astype(u.dtype)

@@ -1,0 +1,45 @@
+"""Windows of time in which something is on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from deodar.parameters import Live, Part
+from deodar.registry import register
+
+FOR_EVER = 1e30
+"""A moment that no run reaches, in any time unit."""
+
+
+@register
+@dataclass(frozen=True)
+class Window(Part):
+    """On from `start` until before `stop`; a pair of numbers may stand for it.
+
+    Parameters:
+        start: first moment, in the document's time unit.
+        stop: first moment at which it is off again; by default never.
+    """
+
+    start: Annotated[float, Live("time", meaning="first moment")] = 0.0
+    stop: Annotated[float, Live("time", meaning="first moment at which it is off again")] = FOR_EVER
+
+    @classmethod
+    def accept(cls, value: Any) -> Any:
+        return cls(*value) if isinstance(value, (tuple, list)) and len(value) == 2 else value
+
+
+def gate(windows: Sequence[Window], time: Any, dtype: Any) -> Any:
+    """1 inside any of the windows, else 0; without windows always 1.
+
+    A step belongs to a window if its moment does, to half a step: rounding of the time never moves an edge.
+    """
+    if not windows:
+        return 1.0
+    half = 0.5 * time.dt
+    inside = False
+    for w in windows:
+        inside = inside | ((time.since(w.start) >= -half) & (time.since(w.stop) < -half))
+    return inside.astype(dtype)  # type: ignore[union-attr]

@@ -1,0 +1,659 @@
+"""The single declaration of a parameter, and everything that is read from it.
+
+A part (element, coupling, kernel, sigmoid) is a frozen dataclass. Its annotations say what a parameter is, what it
+costs to change, and in which range it makes sense::
+
+    tau: Annotated[float, Live("time", lower=1e-6)] = 20.0
+
+From this one line come the range check, the JSON form and its schema, the page of the manual, the form in the studio and
+the traced leaf of the compiled program.
+"""
+
+from __future__ import annotations
+
+import collections.abc
+import dataclasses as dc
+import functools
+import hashlib
+import math
+import types
+import typing
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, ClassVar, Literal, TypeVar
+
+import numpy as np
+
+from deodar import registry
+from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
+
+Cost = Literal["live", "rebuild", "recompile"]
+PerAxis = float | Sequence[float]
+"""One number for all axes, or one for each."""
+
+
+@dc.dataclass(frozen=True)
+class Declaration:
+    """What is declared beside a parameter's type; use `Live`, `Rebuild` or `Recompile`."""
+
+    unit: str = ""
+    lower: float | None = None
+    upper: float | None = None
+    neutral: float | None = None
+    choices: tuple[str, ...] = ()
+    meaning: str = ""
+    cost: ClassVar[Cost] = "recompile"
+
+
+class Live(Declaration):
+    """A traced leaf: a change takes effect at the next exchange and never recompiles.
+
+    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it recompiles once.
+    """
+
+    cost = "live"
+
+
+class Rebuild(Declaration):
+    """A change reruns the part's `prepare`, a pure traced function, and does not recompile."""
+
+    cost = "rebuild"
+
+
+class Recompile(Declaration):
+    """A change makes a new program; states are kept by the element's id."""
+
+    cost = "recompile"
+
+
+class FrozenArray:
+    """An array that is a parameter: float64, read-only, compared and hashed by its content."""
+
+    def __init__(self, data: Any) -> None:
+        array = np.array(data, dtype=np.float64, order="C")
+        array.setflags(write=False)
+        self.data: np.ndarray = array
+        self.digest = hashlib.blake2b(array.tobytes() + repr(array.shape).encode(), digest_size=16).hexdigest()
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the array."""
+        return self.data.shape
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, FrozenArray) and other.digest == self.digest
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __repr__(self) -> str:
+        return f"array{list(self.shape)}"
+
+
+ArrayLike = FrozenArray | np.ndarray | Sequence[Any]
+
+Form = Literal["number", "integer", "flag", "text", "texts", "per_axis", "axes", "axis", "part", "parts", "array", "numbers", "pairs"]
+
+
+@dc.dataclass(frozen=True)
+class Parameter:
+    """One parameter as read from its declaration."""
+
+    name: str
+    form: Form
+    cost: Cost
+    unit: str
+    lower: float | None
+    upper: float | None
+    neutral: float | None
+    choices: tuple[str, ...]
+    meaning: str
+    default: Any
+    of: type[Any] | None = None
+    optional: bool = False
+
+    @property
+    def traced(self) -> bool:
+        """Whether the values are leaves of the compiled program."""
+        return self.form == "array" or (self.cost != "recompile" and self.form in ("number", "per_axis", "numbers"))
+
+
+class Part:
+    """Base of everything that is declared: a frozen dataclass whose annotations are read by `parameters`."""
+
+    def __new__(cls, *args: Any, **kwargs: Any) -> Part:
+        known = [p.name for p in parameters(cls)]
+        for name in kwargs:
+            if name not in known:
+                raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, known))
+        if len(args) > len(positional(cls)):
+            raise ParameterError(
+                f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",
+                fix=f"In this order: {', '.join(positional(cls))}; the others by name",
+            )
+        return super().__new__(cls)
+
+    def __post_init__(self) -> None:
+        problems: list[Problem] = []
+        for p in parameters(type(self)):
+            try:
+                object.__setattr__(self, p.name, _normal(p, getattr(self, p.name)))
+            except ValueError as error:
+                problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
+        if not problems:
+            problems += [Problem(f"{type(self).__name__}.{where}", what) for where, what in self.faults()]
+        if problems:
+            raise ParameterError(problems)
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        """Further things wrong with the values together: (parameter, what). For leaves to add to."""
+        return iter(())
+
+    @classmethod
+    def accept(cls, value: Any) -> Any:
+        """What may stand for an instance, made into one: for parts with a short way of writing them."""
+        return value
+
+    @classmethod
+    def example(cls) -> Part:
+        """An instance that works on its own: what the tests, the manual and a palette start from."""
+        return cls()
+
+
+P = TypeVar("P", bound=Part)
+
+
+# ------------------------------------------------------------------------------------------------ reading declarations
+
+
+@functools.cache
+def parameters(cls: type[Any]) -> tuple[Parameter, ...]:
+    """The parameters of a part in the order of its fields."""
+    hints = typing.get_type_hints(cls, include_extras=True)
+    return tuple(_read(field, hints[field.name]) for field in dc.fields(cls))
+
+
+@functools.cache
+def positional(cls: type[Any]) -> tuple[str, ...]:
+    """Names of the parameters that may be given by position."""
+    return tuple(field.name for field in dc.fields(cls) if not field.kw_only)
+
+
+def parameter(cls: type[Any], name: str) -> Parameter:
+    """The parameter of that name; an unknown one is an error that suggests the nearest."""
+    for p in parameters(cls):
+        if p.name == name:
+            return p
+    raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, [p.name for p in parameters(cls)]))
+
+
+def _read(field: dc.Field[Any], hint: Any) -> Parameter:
+    declaration: Declaration = Recompile()
+    if typing.get_origin(hint) is typing.Annotated:
+        hint, *extra = typing.get_args(hint)
+        declaration = next((e for e in extra if isinstance(e, Declaration)), declaration)
+    form, of, optional = _form(hint)
+    default = field.default
+    if default is dc.MISSING and field.default_factory is not dc.MISSING:
+        default = field.default_factory()
+    d = declaration
+    return Parameter(
+        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional
+    )  # fmt: skip
+
+
+def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
+    origin, args = typing.get_origin(hint), typing.get_args(hint)
+    if origin in (types.UnionType, typing.Union):
+        rest = [a for a in args if a is not type(None)]
+        optional = len(rest) < len(args)
+        if FrozenArray in rest:
+            return "array", None, optional
+        if float in rest and len(rest) == 2:
+            return "per_axis", None, optional
+        if str in rest:
+            return "text", None, optional
+        if len(rest) == 1:
+            form, of, _ = _form(rest[0])
+            return form, of, True
+    if hint is FrozenArray:
+        return "array", None, False
+    simple: dict[Any, Form] = {float: "number", int: "integer", bool: "flag", str: "text"}
+    if hint in simple:
+        return simple[hint], None, False
+    if origin in (collections.abc.Mapping, dict):
+        return ("pairs" if args[1] is str else "numbers"), None, False
+    if origin in (collections.abc.Sequence, tuple, list):
+        if args[0] is str:
+            return "texts", None, False
+        return ("parts" if issubclass(args[0], Part) else "axes"), args[0], False
+    if isinstance(hint, type):
+        return ("part" if issubclass(hint, Part) else "axis"), hint, False
+    raise TypeError(f"no parameter can be declared as {hint}")
+
+
+# ------------------------------------------------------------------------------------------------ checking values
+
+
+def _normal(p: Parameter, value: Any) -> Any:
+    """The value in its stored form; a ValueError says what is wrong with it."""
+    if value is None:
+        if p.optional:
+            return None
+        raise ValueError("needs a value")
+    return _NORMAL[p.form](p, value)
+
+
+def _number(p: Parameter, value: Any) -> float:
+    if isinstance(value, (str, bool, np.bool_)) or not np.isscalar(value):
+        raise ValueError(f"needs a number, not {_show(value)}")
+    number = float(typing.cast(Any, value))
+    if not math.isfinite(number):
+        raise ValueError(f"needs a finite number, not {number}")
+    if p.lower is not None and number < p.lower:
+        raise ValueError(f"is {number:g}, below its lower bound {p.lower:g}")
+    if p.upper is not None and number > p.upper:
+        raise ValueError(f"is {number:g}, above its upper bound {p.upper:g}")
+    return number
+
+
+def _integer(p: Parameter, value: Any) -> int:
+    if isinstance(value, (bool, str)) or not np.isscalar(value) or float(typing.cast(Any, value)) != int(typing.cast(Any, value)):
+        raise ValueError(f"needs a whole number, not {_show(value)}")
+    return int(_number(p, int(typing.cast(Any, value))))
+
+
+def _flag(p: Parameter, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"needs true or false, not {_show(value)}")
+    return bool(value)
+
+
+def _text(p: Parameter, value: Any) -> str:
+    if callable(value) and hasattr(value, "__qualname__"):
+        value = f"{value.__module__}:{value.__qualname__}"
+    if not isinstance(value, str):
+        raise ValueError(f"needs text, not {_show(value)}")
+    if p.choices and value not in p.choices:
+        raise ValueError(f"is {value!r}; it is one of {', '.join(p.choices)}. {did_you_mean(value, p.choices)}")
+    return value
+
+
+def _texts(p: Parameter, value: Any) -> tuple[str, ...]:
+    return tuple(_text(p, v) for v in ([value] if isinstance(value, str) else _items(value)))
+
+
+def _per_axis(p: Parameter, value: Any) -> float | tuple[float, ...]:
+    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(typing.cast(Any, value)) == 1:
+        return tuple(_number(p, v) for v in typing.cast(Any, value))
+    return _number(p, value)
+
+
+def _declared(p: Parameter, value: Any) -> Any:
+    assert p.of is not None
+    if not isinstance(value, p.of) and issubclass(p.of, Part):
+        value = p.of.accept(value)
+    if not isinstance(value, p.of):
+        raise ValueError(f"needs {_an(p.of.__name__)}, not {_show(value)}")
+    return value
+
+
+def _list(p: Parameter, value: Any) -> tuple[Any, ...]:
+    assert p.of is not None
+    return tuple(_declared(p, v) for v in ([value] if isinstance(value, p.of) else _items(value)))
+
+
+def _array(p: Parameter, value: Any) -> FrozenArray:
+    if isinstance(value, FrozenArray):
+        return value
+    try:
+        array = FrozenArray(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"needs an array of numbers, not {_show(value)}") from None
+    if not np.isfinite(array.data).all():
+        raise ValueError("needs finite numbers; some are not")
+    return array
+
+
+def _numbers(p: Parameter, value: Any) -> tuple[tuple[str, float], ...]:
+    items = value.items() if isinstance(value, Mapping) else value
+    try:
+        return tuple(sorted((str(k), _number(p, v)) for k, v in items))
+    except TypeError:
+        raise ValueError(f"needs names with numbers, not {_show(value)}") from None
+
+
+def _pairs(p: Parameter, value: Any) -> tuple[tuple[str, str], ...]:
+    items = value.items() if isinstance(value, Mapping) else value
+    try:
+        return tuple((str(k), str(v)) for k, v in items)
+    except (TypeError, ValueError):
+        raise ValueError(f"needs names with names, not {_show(value)}") from None
+
+
+_NORMAL: dict[Form, Callable[[Parameter, Any], Any]] = {
+    "number": _number, "integer": _integer, "flag": _flag, "text": _text, "texts": _texts, "per_axis": _per_axis,
+    "axes": _list, "axis": _declared, "part": _declared, "parts": _list, "array": _array, "numbers": _numbers, "pairs": _pairs,
+}  # fmt: skip
+
+
+def _items(value: Any) -> list[Any]:
+    if isinstance(value, (str, bytes)) or not isinstance(value, collections.abc.Iterable):
+        raise ValueError(f"needs a list, not {_show(value)}")
+    return list(typing.cast(Any, value))
+
+
+def _show(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _an(name: str) -> str:
+    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+
+
+# ------------------------------------------------------------------------------------------------ traced leaves
+
+
+def leaves(part: Any, prefix: str = "") -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
+    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`."""
+    for p in parameters(type(part)):
+        value, path = getattr(part, p.name), prefix + p.name
+        if value is None:
+            continue
+        if p.form == "part":
+            yield from leaves(value, path + ".")
+        elif p.form == "parts":
+            for i, item in enumerate(value):
+                yield from leaves(item, f"{path}.{i}.")
+        elif p.traced:
+            if p.form == "numbers":
+                yield from ((f"{path}.{name}", number, p) for name, number in value)
+            elif isinstance(value, tuple):
+                yield from ((f"{path}.{i}", v, p) for i, v in enumerate(typing.cast(Any, value)))
+            else:
+                yield path, (value.data if isinstance(value, FrozenArray) else value), p
+
+
+def bind(part: P, values: Callable[[str], Any], prefix: str = "") -> P:
+    """A copy whose traced leaves are `values(path)`; leaves for which it gives None keep their own value."""
+    new = object.__new__(type(part))
+    for p in parameters(type(part)):
+        value, path = getattr(part, p.name), prefix + p.name
+        if value is None:
+            pass
+        elif p.form == "part":
+            value = bind(value, values, path + ".")
+        elif p.form == "parts":
+            value = tuple(bind(item, values, f"{path}.{i}.") for i, item in enumerate(value))
+        elif p.traced:
+            if p.form == "numbers":
+                value = tuple((name, _or(values(f"{path}.{name}"), number)) for name, number in value)
+            elif isinstance(value, tuple):
+                value = tuple(_or(values(f"{path}.{i}"), v) for i, v in enumerate(typing.cast(Any, value)))
+            else:
+                value = _or(values(path), value)
+        object.__setattr__(new, p.name, value)
+    return new
+
+
+def _or(value: Any, default: Any) -> Any:
+    return default if value is None else value
+
+
+def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = "") -> tuple[Any, ...]:
+    """Hashable description of all that is not a traced leaf, nor the name: equal structure, equal code.
+
+    Leaves named in `neutral` are left out of the program, which is a structure of its own.
+    """
+    out: list[Any] = [type(part).__qualname__]
+    for p in parameters(type(part)):
+        value, path = getattr(part, p.name), prefix + p.name
+        if p.name == "name" or value is None:
+            continue
+        if p.form == "part":
+            out.append((p.name, structure(value, neutral, path + ".")))
+        elif p.form == "parts":
+            out.append((p.name, tuple(structure(v, neutral, f"{path}.{i}.") for i, v in enumerate(value))))
+        elif p.traced:
+            if isinstance(value, FrozenArray):
+                form: Any = value.shape
+            elif p.form == "numbers":
+                form = tuple(k for k, _ in value)
+            else:
+                form = len(typing.cast(Any, value)) if isinstance(value, tuple) else 0
+            still = tuple(sorted(n for n in neutral if n == path or n.startswith(path + ".")))
+            out.append((p.name, form, still))
+        else:
+            out.append((p.name, value))
+    return tuple(out)
+
+
+def resting(part: Any) -> frozenset[str]:
+    """Leaves that have their declared neutral value."""
+    return frozenset(path for path, value, p in leaves(part) if p.neutral is not None and np.ndim(value) == 0 and value == p.neutral)
+
+
+def is_neutral(value: Any, neutral: float = 0.0) -> bool:
+    """Whether a bound value is the plain neutral number: the program is then compiled without it."""
+    values: tuple[Any, ...] = typing.cast(Any, value) if isinstance(value, tuple) else (value,)
+    return all(isinstance(v, float) and v == neutral for v in values)
+
+
+def per_axis(value: Any, axes: Sequence[Any]) -> tuple[Any, ...]:
+    """One value for each axis, from one for all or one for each."""
+    if isinstance(value, tuple):
+        return typing.cast("tuple[Any, ...]", value)
+    return (value,) * len(axes)
+
+
+# ------------------------------------------------------------------------------------------------ one value by its path
+
+
+def get(part: Any, path: str) -> Any:
+    """The value of a parameter: `get(field, "kernel.0.sigma")`."""
+    value = part
+    for step in path.split("."):
+        value = _child(value, step, path)
+    return value
+
+
+def replace(part: P, path: str, value: Any) -> P:
+    """A copy with one value changed, checked as at construction: `replace(field, "kernel.0.sigma", 3)`."""
+    head, _, rest = path.partition(".")
+    if rest:
+        inner = _child(part, head, path)
+        value = _replace_inside(inner, rest, value, path)
+    else:
+        parameter(type(part), head)
+    return dc.replace(typing.cast(Any, part), **{head: value})
+
+
+def _replace_inside(holder: Any, path: str, value: Any, whole: str) -> Any:
+    if isinstance(holder, Part):
+        return replace(holder, path, value)
+    head, _, rest = path.partition(".")
+    inner = _child(holder, head, whole)
+    new = _replace_inside(inner, rest, value, whole) if rest else value
+    if holder and isinstance(holder[0], tuple) and len(holder[0]) == 2:
+        return tuple((k, new if k == head else v) for k, v in holder)
+    return (*holder[: int(head)], new, *holder[int(head) + 1 :])
+
+
+def _child(holder: Any, step: str, path: str) -> Any:
+    if isinstance(holder, Part):
+        return getattr(holder, parameter(type(holder), step).name)
+    if isinstance(holder, tuple):
+        items = typing.cast("tuple[Any, ...]", holder)
+        if step.isdigit() and int(step) < len(items):
+            return items[int(step)]
+        named = {pair[0]: pair[1] for pair in items if isinstance(pair, tuple) and len(typing.cast(Any, pair)) == 2}
+        if step in named:
+            return named[step]
+        raise UnknownName(f"{path}: there is no part {step!r}", fix=f"There are {len(items)}, counted from 0")
+    raise UnknownName(f"{path}: nothing lies inside {step!r}")
+
+
+# ------------------------------------------------------------------------------------------------ JSON
+
+
+def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
+    """JSON Schema of a part; `reference(base)` gives the schema of the parts that may stand in its place."""
+    properties: dict[str, Any] = {"kind": {"const": cls.__name__}}
+    for p in parameters(cls):
+        if p.name == "name":
+            continue
+        form = _schema_form(p, reference)
+        if p.optional:
+            form = {"oneOf": [form, {"type": "null"}]}
+        for key, value in (("minimum", p.lower), ("maximum", p.upper)):
+            if value is not None and form.get("type") == "number":
+                form[key] = value
+        extra: dict[str, Any] = {"x-cost": p.cost}
+        for key, value in (("x-unit", p.unit), ("description", p.meaning)):
+            if value:
+                extra[key] = value
+        if isinstance(p.default, (bool, int, float, str)):
+            extra["default"] = p.default
+        properties[p.name] = form | extra
+    return {"type": "object", "title": cls.__name__, "properties": properties, "required": ["kind"]}
+
+
+def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
+    number: dict[str, Any] = {"type": "number"}
+    match p.form:
+        case "number":
+            return dict(number)
+        case "per_axis":
+            return {"oneOf": [number, {"type": "array", "items": number}]}
+        case "integer":
+            return {"type": "integer"}
+        case "flag":
+            return {"type": "boolean"}
+        case "text":
+            return {"enum": list(p.choices)} if p.choices else {"type": "string"}
+        case "texts":
+            return {"type": "array", "items": {"type": "string"}}
+        case "axes":
+            return {"type": "array", "items": {"type": "string"}, "description": "keys of the document's axes"}
+        case "axis":
+            return {"type": "string", "description": "key of one of the document's axes"}
+        case "part":
+            return reference(typing.cast(Any, p.of))
+        case "parts":
+            return {"type": "array", "items": reference(typing.cast(Any, p.of))}
+        case "array":
+            return {"type": "object", "properties": {"array": {"type": "string"}}, "required": ["array"]}
+        case "numbers":
+            return {"type": "object", "additionalProperties": number}
+        case "pairs":
+            return {"type": "object", "additionalProperties": {"type": "string"}}
+
+
+def to_json(part: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]) -> dict[str, Any]:
+    """Plain data of a part: its kind and every parameter, in the order of the fields."""
+    out: dict[str, Any] = {"kind": type(part).__name__}
+    for p in parameters(type(part)):
+        value = getattr(part, p.name)
+        if p.name == "name":
+            continue
+        match p.form if value is not None else "text":
+            case "axes":
+                value = [axis_key(a) for a in value]
+            case "axis":
+                value = axis_key(value)
+            case "part":
+                value = to_json(value, axis_key, array_key)
+            case "parts":
+                value = [to_json(v, axis_key, array_key) for v in value]
+            case "array":
+                value = {"array": array_key(value)}
+            case "numbers" | "pairs":
+                value = dict(value)
+            case _:
+                value = list(typing.cast(Any, value)) if isinstance(value, tuple) else value
+        out[p.name] = value
+    return out
+
+
+def from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any]) -> Any:
+    """The part that plain data describe; raises with every problem found, each with its path."""
+    problems: list[Problem] = []
+    part = _from_json(data, where, axes, arrays, base, problems, {})
+    if problems:
+        raise ParameterError(problems)
+    return part
+
+
+def _from_json(
+    data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any], problems: list[Problem], given: dict[str, Any],
+) -> Any:  # fmt: skip
+    if not isinstance(data, dict) or not isinstance(typing.cast(Any, data).get("kind"), str):
+        problems.append(Problem(where, f"needs an object with a kind, not {_show(data)}"))
+        return None
+    data = typing.cast("dict[str, Any]", data)
+    try:
+        cls = registry.kind(data["kind"])
+    except UnknownName as error:
+        problems.append(Problem(where, error.problems[0].what, error.problems[0].fix))
+        return None
+    if not issubclass(cls, base):
+        problems.append(Problem(where, f"{_an(cls.__name__)} cannot stand here, where {_an(base.__name__)} belongs"))
+        return None
+    known = {p.name: p for p in parameters(cls)}
+    values: dict[str, Any] = dict(given)
+    before = len(problems)
+    for name, value in data.items():
+        if name in ("kind", *given):
+            continue
+        if name not in known:
+            problems.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known)))
+            continue
+        p, here = known[name], f"{where}.{name}"
+        if value is None:
+            values[name] = None
+        elif p.form in ("axes", "axis"):
+            keys = value if p.form == "axes" else [value]
+            if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)):
+                problems.append(Problem(here, f"{_show(value)} is not among the document's axes", f"There are: {', '.join(axes) or 'none'}"))
+                continue
+            found = [axes[k] for k in typing.cast("list[str]", keys)]
+            values[name] = found if p.form == "axes" else found[0]
+        elif p.form == "part":
+            values[name] = _from_json(value, here, axes, arrays, typing.cast(Any, p.of), problems, {})
+        elif p.form == "parts":
+            if not isinstance(value, list):
+                problems.append(Problem(here, f"needs a list, not {_show(value)}"))
+                continue
+            items = typing.cast("list[Any]", value)
+            values[name] = [_from_json(v, f"{here}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
+        elif p.form == "array":
+            key = typing.cast(Any, value).get("array") if isinstance(value, dict) else None
+            if not isinstance(key, str) or key not in arrays:
+                problems.append(Problem(here, f"the array {key!r} is not in the document's array file"))
+                continue
+            values[name] = arrays[key]
+        else:
+            values[name] = value
+    if len(problems) > before:
+        return None
+    try:
+        return cls(**values)
+    except (ParameterError, UnknownName) as error:
+        problems += [Problem(_under(where, cls, q.where), q.what, q.fix) for q in error.problems]
+    except TypeError as error:
+        problems.append(Problem(where, str(error)))
+    return None
+
+
+def _under(where: str, cls: type[Any], inner: str) -> str:
+    rest = inner.removeprefix(cls.__name__)
+    return f"{where}{rest}" if rest.startswith(".") else where
+
+
+def part_from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any], name: str) -> Any:
+    """Like `from_json`, for a part that carries a name of its own."""
+    problems: list[Problem] = []
+    part = _from_json(data, where, axes, arrays, base, problems, {"name": name})
+    if problems:
+        raise ParameterError(problems)
+    return part

@@ -1,0 +1,1 @@
+"""Records: labelled arrays with what made them, files, repetition."""

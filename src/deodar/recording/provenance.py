@@ -1,0 +1,62 @@
+"""What made a record: the document, the run, the versions and the machine."""
+
+from __future__ import annotations
+
+import base64
+import importlib.metadata
+import platform
+from collections.abc import Mapping
+from typing import Any
+
+import jax
+
+from deodar.model import files
+from deodar.model.document import Document
+from deodar.model.model import Model
+
+KEY = "deodar"
+"""Name of the attribute under which a record carries it, as JSON text."""
+
+
+def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[str, Any]:
+    """Everything that repeating a run needs, and everything that decides whether its bits will be the same."""
+    data, arrays = files.to_data(doc)
+    packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
+    return {
+        "document": data,
+        "arrays": packed,
+        "dt": run.clock.dt,
+        "precision": run.program.precision,
+        "world": run.world.describe() if run.world is not None else None,
+        **settings,
+        "made_by": made_by(),
+    }
+
+
+def made_by() -> dict[str, str]:
+    """Versions and machine."""
+    device = jax.devices()[0]
+    versions = {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
+    return versions | {"python": platform.python_version(), "device": f"{device.platform} {device.device_kind}", "machine": machine()}
+
+
+def machine() -> str:
+    """System and processor."""
+    return f"{platform.system()} {platform.machine()} {_processor()}".strip()
+
+
+def _processor() -> str:
+    try:
+        with open("/proc/cpuinfo") as file:
+            for line in file:
+                if line.startswith("model name"):
+                    return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor()
+
+
+def document(about: Mapping[str, Any]) -> Document:
+    """The document of a record."""
+    arrays = files.unpack(base64.b64decode(about["arrays"]), "the record") if about.get("arrays") else {}
+    return files.from_data(about["document"], arrays)

@@ -1,0 +1,64 @@
+"""From recorded arrays to an `xarray.Dataset` with axes, units and provenance."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray
+
+from deodar.model.document import Document, Entry
+from deodar.numerics.axes import Axes, Axis
+from deodar.recording.provenance import KEY
+
+Variable = tuple[Entry, str, Axes, np.ndarray]
+"""Element, port, axes of the port, and the array: sweep points, trials, time, axes."""
+
+
+def dataset(
+    doc: Document,
+    variables: Sequence[Variable],
+    times: np.ndarray,
+    trials: Sequence[int] | None,
+    sweep: Mapping[str, Sequence[float]],
+    about: Mapping[str, Any],
+) -> xarray.Dataset:
+    """The record of a run.
+
+    Variables are named by path. Dimensions are sweep paths, `trial` (where trials were asked for), `time`, and axes by name; an
+    axis whose name is taken by another sampling, or that occurs twice, becomes `PATH.axis`.
+    """
+    lead = [*sweep, *(["trial"] if trials is not None else []), "time"]
+    coords: dict[str, Any] = {path: (path, np.asarray(values, float)) for path, values in sweep.items()}
+    if trials is not None:
+        coords["trial"] = ("trial", np.asarray(trials, np.int64))
+    coords["time"] = ("time", times, {"units": doc.time_unit})
+    grid = [len(v) for v in sweep.values()]
+    taken: dict[str, Axis | None] = dict.fromkeys(lead)
+    out: dict[str, Any] = {}
+    for entry, port, axes, array in variables:
+        dims: list[str] = []
+        for axis in axes:
+            dim = axis.name
+            if dim in dims or (dim in taken and taken[dim] != axis):
+                dim = f"{entry.path}.{axis.name}"
+            taken[dim] = axis
+            dims.append(dim)
+            coords[dim] = (dim, axis.points, _axis_attributes(axis))
+        shaped = array.reshape(*grid, *array.shape[1:]) if sweep else array
+        attributes = {"long_name": f"{port} of {entry.path}", "kind": type(entry.element).__name__}
+        out[f"{entry.path}.{port}"] = ([*lead, *dims], shaped, attributes)
+    return xarray.Dataset(out, coords, {KEY: json.dumps(about, ensure_ascii=False), "title": doc.name})
+
+
+def about(data: xarray.Dataset) -> dict[str, Any]:
+    """What made a record, as plain data; empty for a Dataset of other origin."""
+    text = data.attrs.get(KEY)
+    return json.loads(text) if isinstance(text, str) else {}
+
+
+def _axis_attributes(axis: Axis) -> dict[str, Any]:
+    out: dict[str, Any] = {"units": axis.unit} if axis.unit else {}
+    return out | {"periodic": int(axis.periodic), "lower": axis.lower, "upper": axis.upper}

@@ -1,0 +1,1 @@
+"""Runs, sessions and simulate: the only owners of live state."""

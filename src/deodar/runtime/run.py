@@ -1,0 +1,263 @@
+"""A run: state, clock and world of one model (or of a batch of copies), and how they advance."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import jax
+import numpy as np
+
+from deodar.compiler.executable import Executable
+from deodar.compiler.program import Port
+from deodar.elements.sensor import Sensor
+from deodar.errors import NotFinite, TimeError, WorldError
+from deodar.model.document import Document
+from deodar.parameters import parameters
+from deodar.worlds._base import World
+
+Tree = Any
+CHUNK_SECONDS = 0.2
+"""Wall time between two looks at the outside: progress, Ctrl-C, values that are not finite."""
+
+
+@dc.dataclass(frozen=True)
+class Clock:
+    """Document time as a count of ticks: `time = t0 + (tick - tick0) * dt`, in float64 on the host."""
+
+    tick: int
+    t0: float
+    tick0: int
+    dt: float
+
+    @property
+    def time(self) -> float:
+        """Document time of the tick."""
+        return self.t0 + (self.tick - self.tick0) * self.dt
+
+    def after(self, ticks: int) -> Clock:
+        """The clock some ticks later."""
+        return dc.replace(self, tick=self.tick + ticks)
+
+    def at(self, dt: float) -> Clock:
+        """The clock with another step from now on."""
+        return Clock(self.tick, self.time, self.tick, dt)
+
+
+class Run:
+    """One model, or a batch of copies of it, in the middle of running."""
+
+    def __init__(
+        self, program: Executable, doc: Document, dt: float, seed: int, trials: Sequence[int], world: World | None, swept: Sequence[Any] | None = None
+    ) -> None:
+        self.seed = seed
+        self.trials = tuple(trials)
+        self.world = world
+        self.swept = swept
+        self.clock = Clock(0, doc.t0, 0, dt)
+        self.load(program, doc)
+        self.pace = 0.0
+        self.reset()
+
+    # -------------------------------------------------------------------------------- what runs
+
+    def load(self, program: Executable, doc: Document) -> None:
+        """Take a program and the parameters of a document; the state stays what it is."""
+        self.program = program
+        self.doc = doc
+        require_step(doc, self.clock.dt)
+        self.sensors = self._provided()
+        self.values = program.values(doc, self.swept)
+        self.constants = program.prepare(self.values)
+
+    def reset(self) -> None:
+        """State, time, noise and world back to the start; parameters stay."""
+        self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
+        self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
+        if self.world is not None:
+            self.world.reset(self.seed)
+        self.sensed = self.program.blind()
+        self.read_at = -1
+
+    # -------------------------------------------------------------------------------- running
+
+    def advance(self, steps: int, progress: Callable[[int], None] | None = None) -> None:
+        """So many steps, in chunks."""
+        chunk, _ = self.program.chunk(())
+        self._steps(chunk, steps, 0, progress)
+
+    def record(
+        self,
+        steps: int,
+        ports: Sequence[Port],
+        start: int,
+        every: int,
+        collect: Callable[[int, tuple[np.ndarray, ...]], None],
+        progress: Callable[[int], None] | None = None,
+    ) -> None:
+        """So many steps, with records after `start` of them and then after each `every`, as long as there are steps.
+
+        `collect(k, arrays)` gets the records from number k on; each array has the batch axes first, then the records.
+        """
+        chunk, capacity = self.program.chunk(ports)
+        done, taken, due = 0, 0, start
+        while due <= steps:
+            most = min(self._chunk_steps(), self._until_sensing())
+            if due - done > most:  # too far for one chunk: step there, its record is thrown away
+                self._chunk(chunk, {"head": most, "every": 0, "records": 1}, most)
+                done += most
+            else:
+                head = due - done
+                records = 1 + min((steps - due) // every, capacity - 1, (most - head) // every)
+                used = head + (records - 1) * every
+                seen = self._chunk(chunk, {"head": head, "every": every, "records": records}, used)
+                collect(taken, tuple(np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)] for a in seen))
+                taken, done, due = taken + records, done + used, due + records * every
+            if progress is not None:
+                progress(done)
+        self._steps(chunk, steps - done, 1, progress, done)
+
+    def _steps(self, chunk: Any, steps: int, records: int, progress: Callable[[int], None] | None, before: int = 0) -> None:
+        done = 0
+        while done < steps:
+            n = min(steps - done, self._chunk_steps(), self._until_sensing())
+            self._chunk(chunk, {"head": n, "every": 0, "records": records}, n)
+            done += n
+            if progress is not None:
+                progress(before + done)
+
+    def _chunk(self, chunk: Any, counts: dict[str, int], used: int) -> tuple[Any, ...]:
+        self._sense()
+        began = time.perf_counter()
+        before = self.state
+        state, seen, finite = self._call(chunk, before, counts)
+        finite = [np.asarray(f) for f in finite]
+        if not all(f.all() for f in finite):
+            self._report(before, used)
+        self.state = state
+        self.clock = self.clock.after(used)
+        seconds = time.perf_counter() - began
+        if used:
+            self.pace = used / max(seconds, 1e-9) if not self.pace else 0.5 * self.pace + 0.5 * used / max(seconds, 1e-9)
+        return seen
+
+    def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
+        given = {k: np.int32(v) for k, v in counts.items()}
+        return self.program.call(chunk, self.values, self.constants, state, self.keys, self.sensed, self._now(), given)
+
+    def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
+        """Ports at the present state."""
+        self._sense()
+        reader = self.program.reader(ports)
+        seen = self.program.call(reader, self.values, self.constants, self.state, self.keys, self.sensed, self._now())
+        return [np.asarray(a) for a in seen]
+
+    def _now(self) -> dict[str, Any]:
+        dtype = self.program.program.dtype
+        start = dtype.type(self.clock.time)
+        rest = dtype.type(self.clock.time - float(start))
+        return {"tick": np.uint32(self.clock.tick % 2**32), "start": start, "rest": rest, "dt": dtype.type(self.clock.dt)}
+
+    def _chunk_steps(self) -> int:
+        """Steps that take about CHUNK_SECONDS; the first chunk is a probe."""
+        return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else 20
+
+    # -------------------------------------------------------------------------------- worlds
+
+    def _provided(self) -> dict[str, Sensor]:
+        sensors = {e.id: e.element for e in self.doc.entries if isinstance(e.element, Sensor)}
+        by = self.doc.by_id()
+        for ident, sensor in sensors.items():
+            if self.world is None:
+                raise WorldError(
+                    f"reads the sensor {sensor.sensor!r}, and no world was given that provides it",
+                    where=by[ident].path,
+                    fix="Give one: world=Picture('photo.jpg') from deodar.worlds.picture, on the command line --world picture:photo.jpg",
+                )
+            self.world.require(sensor.sensor)
+        return sensors
+
+    def _period(self) -> int:
+        """Ticks between two readings of the world; 0 where it never changes."""
+        if self.world is None or self.world.period is None:
+            return 0
+        return whole(self.world.period, self.clock.dt, "the world's period")
+
+    def _until_sensing(self) -> int:
+        period = self._period() if self.sensors else 0
+        return period - self.clock.tick % period if period else 2**31 - 1
+
+    def _sense(self) -> None:
+        if not self.sensors or self.world is None:
+            return
+        period = self._period()
+        slot = self.clock.tick // period if period else 0
+        if slot == self.read_at:
+            return
+        self.read_at = slot
+        for ident, sensor in self.sensors.items():
+            axes = tuple(sensor.axes)
+            reading = np.asarray(self.world.sense(sensor.sensor, axes, self.clock.time), self.program.program.dtype)
+            if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
+                raise WorldError(
+                    f"the world gave an array of shape {list(reading.shape)}, finite: {bool(np.isfinite(reading).all())}; it needs"
+                    f" {[a.samples for a in axes]}, finite",
+                    where=sensor.sensor,
+                )
+            self.sensed[ident] = reading
+
+    # -------------------------------------------------------------------------------- values that are not finite
+
+    def _report(self, before: Tree, used: int) -> None:
+        """Find the first step at which a value was not finite, and raise."""
+        chunk, _ = self.program.chunk(())
+
+        def bad(n: int) -> list[np.ndarray]:
+            _, _, finite = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
+            return [~np.asarray(f) for f in finite]
+
+        low, high = 0, max(used, 1)  # finite after `low` steps, not after `high`
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if any(b.any() for b in bad(middle)) else (middle, high)
+        groups = self.program.plan.groups
+        names = [n.path for g, b in zip(groups, bad(high), strict=True) for r, n in enumerate(g.nodes) if b[..., r].any()]
+        clock = self.clock.after(high)
+        shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
+        raise NotFinite(
+            f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {self.doc.time_unit}, dt {clock.dt:g})",
+            fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
+        )
+
+
+def require_step(doc: Document, dt: float) -> None:
+    """Refuse a step longer than a time constant: the Euler method would not follow, or diverge."""
+    if isinstance(dt, (bool, str)) or not np.isfinite(dt) or dt <= 0:
+        raise TimeError(f"dt is {dt!r}; it is a number above 0, in {doc.time_unit}")
+    for e in doc.entries:
+        tau = getattr(e.element, "tau", None)
+        declared = next((p for p in parameters(type(e.element)) if p.name == "tau"), None)
+        if isinstance(tau, float) and declared is not None and declared.unit == "time" and dt * e.every > tau * (1 + 1e-9):
+            raise TimeError(
+                f"the step of {dt * e.every:g} {doc.time_unit} is longer than the time constant tau = {tau:g}",
+                where=e.path,
+                fix=f"Take dt <= {tau / e.every:g}, better a tenth of it, or a larger tau",
+            )
+
+
+def whole(duration: float, dt: float, what: str) -> int:
+    """How many steps of dt a duration is; refused unless it is a whole number of them."""
+    if isinstance(duration, (bool, str)) or not np.isscalar(duration) or not np.isfinite(float(duration)) or float(duration) < 0:
+        raise TimeError(f"{what} is {duration!r}; it is a number, 0 or above")
+    n = float(duration) / dt
+    if abs(n - round(n)) > 1e-6 * max(1.0, abs(n) * 1e-3):
+        near = [k * dt for k in (int(n), int(n) + 1)]
+        raise TimeError(f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}")
+    return round(n)
+
+
+def host(tree: Tree) -> Tree:
+    """A copy of a tree of arrays on the host."""
+    return jax.tree.map(lambda a: np.array(a), tree)

@@ -1,0 +1,240 @@
+"""`simulate`: one call, one labelled record; trials and sweeps as one batched program."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from deodar.compiler.executable import Batch, Executable, executable
+from deodar.compiler.plan import Leaf
+from deodar.compiler.program import Port
+from deodar.elements.field import Field
+from deodar.errors import Interrupted, ParameterError, TimeError
+from deodar.model import edit, find
+from deodar.model.document import Document
+from deodar.model.model import Model
+from deodar.model.resolve import resolve
+from deodar.numerics.axes import shape
+from deodar.parameters import leaves
+from deodar.recording.provenance import provenance
+from deodar.runtime import memory
+from deodar.runtime.run import Run, require_step, whole
+from deodar.runtime.session import require_seed
+from deodar.worlds._base import World
+
+if TYPE_CHECKING:
+    import xarray
+
+SHOW_AFTER = 1.0
+"""Seconds after which a run shows a progress bar, if it writes to a terminal."""
+
+
+def simulate(
+    model: Model,
+    duration: float,
+    dt: float | None = None,
+    seed: int = 0,
+    record: Sequence[str] | str | None = None,
+    every: float | None = None,
+    trials: int | Sequence[int] | None = None,
+    sweep: Mapping[str, Sequence[float]] | None = None,
+    precision: str = "float32",
+    world: World | None = None,
+    progress: bool | None = None,
+) -> xarray.Dataset:
+    """Run a model and return what was recorded.
+
+    Args:
+        model: the model, as it now is.
+        duration: document time; a whole number of steps.
+        dt: Euler step; none: the document's own, else 1.
+        seed: seed of all noise, 0 to 2^32 - 1.
+        record: paths of ports. None: the activation of every field and node, at one time, the end.
+        every: document time between records; none: dt. The first record is the initial state.
+        trials: so many (trials 0 to n - 1 of the seed), or which; they differ in their noise.
+        sweep: for each parameter path its values; several entries form a grid. All points share the noise.
+        precision: float32 or float64.
+        world: what provides the sensors that the model names.
+        progress: show a bar; none: on a terminal, if the run takes longer than a second.
+
+    Returns:
+        A Dataset with one variable for each path; dimensions: sweep paths, `trial` (where given), `time`, axes.
+
+    Raises:
+        Interrupted: on Ctrl-C; its `data` holds what was recorded until then.
+    """
+    doc = model.document
+    model.require()
+    step = doc.step if dt is None else dt
+    require_step(doc, step)
+    seed = require_seed(seed)
+    steps = whole(duration, step, "the duration")
+    gap = 1 if every is None else whole(every, step, "every")
+    if every is not None and gap == 0:
+        raise TimeError("every is 0; it is at least one step")
+    names, numbers = _trials(trials)
+    points = _Points(doc, sweep or {})
+    for document in points.documents():
+        require_step(document, step)
+    ports = _ports(doc, record)
+    start, gap = (steps, steps + 1) if record is None else (0, gap)
+    count = 0 if start > steps else 1 + (steps - start) // gap
+    batch = Batch(points.size if sweep else None, len(numbers) if names else None)
+    nodes, _ = resolve(doc)
+    cells = sum(_cells(nodes, entry, port) for entry, port in ports)
+    memory.require(nodes, precision, batch.size, cells * count * batch.size)
+    program = executable(model, doc, precision, batch, points.leaves if sweep else ())
+    run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
+    found = [program.port(i, port) for i, port in ports]
+    store = _Store(program, found, batch, count)
+    about = provenance(
+        model, doc, run, duration=float(duration), seed=seed, every=every, record=None if record is None else _list(record),
+        trials=list(numbers) if names else None, sweep={k: [float(v) for v in vs] for k, vs in (sweep or {}).items()},
+    )  # fmt: skip
+    stopped = False
+    try:
+        with _bar(steps, progress) as shown:
+            run.record(steps, found, start, gap, store.collect, shown)
+    except KeyboardInterrupt:
+        stopped = True
+    from deodar.recording.record import dataset
+
+    times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)
+    data = dataset(
+        doc,
+        [
+            (doc.by_id()[i], port, program.axes(p), a[..., : store.taken, *(slice(None),) * len(program.axes(p))])
+            for (i, port), p, a in zip(ports, found, store.arrays, strict=True)
+        ],
+        times,
+        names,
+        {k: [float(v) for v in vs] for k, vs in (sweep or {}).items()},
+        about | {"complete": not stopped},
+    )
+    if stopped:
+        raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
+    return data
+
+
+class _Points:
+    """The grid of a sweep: which leaves each entry drives, and its value at every point."""
+
+    def __init__(self, doc: Document, sweep: Mapping[str, Sequence[float]]) -> None:
+        self.doc = doc
+        self.paths = list(sweep)
+        self.leaves: list[list[Leaf]] = []
+        lists: list[list[float]] = []
+        for path, values in sweep.items():
+            if isinstance(values, (str, bytes)) or not np.iterable(values) or not len(list(values)):
+                raise ParameterError("needs a list of values", where=f"sweep of {path}")
+            self.leaves.append(_driven(doc, path))
+            lists.append([float(v) for v in values])
+        self.lists = lists
+        self.size = int(np.prod([len(v) for v in lists], dtype=int))
+        grid = list(itertools.product(*lists))
+        self.values = [np.array([point[k] for point in grid]) for k in range(len(lists))]
+
+    def documents(self) -> Iterator[Document]:
+        """The document at each value of each entry (not each point): values are checked one by one."""
+        for path, values in zip(self.paths, self.lists, strict=True):
+            for value in values:
+                found = find.target(self.doc, path)
+                if found.entry is None:
+                    yield edit.knob(self.doc, found.knob, value)
+                else:
+                    yield edit.put(self.doc, found.entry.id, found.parameter, value)
+
+
+def _driven(doc: Document, path: str) -> list[Leaf]:
+    found = find.target(doc, path)
+    if found.entry is None:
+        links = next(k.links for k in doc.knobs if k.name == found.knob)
+        if not links:
+            raise ParameterError(f"the document parameter {path!r} drives nothing", fix="Link something to it: model.link(path, name)")
+        return list(links)
+    known = {leaf: p for leaf, _, p in leaves(found.entry.element) if p.form != "array"}
+    inside = [leaf for leaf in known if leaf == found.parameter or leaf.startswith(found.parameter + ".")]
+    if not inside:
+        raise ParameterError("cannot be swept: changing it makes another program", where=path, fix=f"Sweep one of: {', '.join(known)}")
+    return [(found.entry.id, leaf) for leaf in inside]
+
+
+class _Store:
+    """Arrays for everything that is recorded, filled as the run goes on."""
+
+    def __init__(self, program: Executable, ports: Sequence[Port], batch: Batch, count: int) -> None:
+        self.lead = len(batch.shape)
+        self.taken = 0
+        self.arrays = [np.empty((*batch.shape, count, *shape(program.axes(p))), program.program.dtype) for p in ports]
+
+    def collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
+        n = seen[0].shape[self.lead] if seen else 0
+        for array, part in zip(self.arrays, seen, strict=True):
+            array[(slice(None),) * self.lead + (slice(k, k + n),)] = part
+        self.taken = k + n
+
+
+def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str, str]]:
+    if record is None:
+        fields = [(e.id, "activation") for e in doc.entries if isinstance(e.element, Field)]
+        if not fields:
+            raise ParameterError("the model has no field, so it must be said what to record", fix="For example record=['left.output']")
+        return fields
+    found = [find.port(doc, path) for path in _list(record)]
+    if not found:
+        raise ParameterError("record is empty", fix="Name at least one port, or leave it out")
+    return list(dict.fromkeys((entry.id, port) for entry, port in found))
+
+
+def _list(record: Sequence[str] | str) -> list[str]:
+    return [record] if isinstance(record, str) else list(record)
+
+
+def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
+    node = next(n for n in nodes if n.id == ident)
+    axes = node.outs[port] if port in node.outs else node.ins[port]
+    return int(np.prod(shape(axes), dtype=int))
+
+
+def _trials(trials: int | Sequence[int] | None) -> tuple[list[int] | None, list[int]]:
+    """Labels of the dimension (None where there is none), and trial numbers."""
+    if trials is None:
+        return None, [0]
+    if isinstance(trials, bool) or (isinstance(trials, int) and trials < 1):
+        raise ParameterError(f"trials is {trials!r}; it is a number of trials, at least 1, or a list of trial numbers")
+    numbers = list(range(trials)) if isinstance(trials, int) else [require_seed(t) for t in trials]
+    if not numbers or len(set(numbers)) < len(numbers):
+        raise ParameterError(f"trials is {trials!r}; each trial is named once, and there is at least one")
+    return numbers, numbers
+
+
+@contextlib.contextmanager
+def _bar(steps: int, progress: bool | None) -> Iterator[Callable[[int], None] | None]:
+    """A progress bar that appears once the run takes longer than SHOW_AFTER."""
+    if progress is False or (progress is None and not sys.stderr.isatty()):
+        yield None
+        return
+    import time
+
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    began = time.monotonic()
+    console = Console(stderr=True)
+    columns = (TextColumn("simulating"), BarColumn(), TextColumn("{task.completed}/{task.total} steps"), TimeRemainingColumn())
+    with contextlib.ExitStack() as stack:
+        bar: list[Progress] = []
+
+        def shown(done: int) -> None:
+            if not bar and (progress or time.monotonic() - began > SHOW_AFTER):
+                bar.append(stack.enter_context(Progress(*columns, console=console, transient=True)))
+                bar[0].add_task("", total=steps)
+            if bar:
+                bar[0].update(bar[0].task_ids[0], completed=done)
+
+        yield shown

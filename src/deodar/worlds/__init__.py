@@ -1,0 +1,1 @@
+"""What a model is embodied in: one file each; the folder is the registry."""

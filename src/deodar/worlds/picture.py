@@ -1,0 +1,133 @@
+"""A picture as a world."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axes, Axis
+from deodar.registry import register
+from deodar.worlds._base import World
+
+CHANNELS = 3
+MOST_PIXELS = 100_000_000
+
+
+@register
+class Picture(World):
+    """A photograph that stands still: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+
+    Equation:
+        y(x, y, c) = channel c of the mean colour of the pixels in the cell of (x, y), 0 to 1; black beside the picture.
+        The picture keeps its shape: it fills the longer side of the axes' area and stands in the middle of the other.
+
+    Parameters:
+        file: path of a picture file that Pillow can read, or an array (height, width, 3), values 0 to 255 or 0 to 1.
+
+    Shapes:
+        x runs over columns from the left, y over rows from the top.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1.
+    """
+
+    sensors: ClassVar[Mapping[str, str]] = {"picture": "colour over two dimensions; the last axis is red, green, blue"}
+
+    def __init__(self, file: str | Path | np.ndarray) -> None:
+        self.name = "array" if isinstance(file, np.ndarray) else str(file)
+        self.pixels: np.ndarray = _array(file) if isinstance(file, np.ndarray) else _read(Path(file))
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self.pixels.shape[1], self.pixels.shape[0]
+
+    def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
+        self.require(sensor)
+        if len(axes) != 3 or axes[2].samples != CHANNELS:
+            raise WorldError(f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor)
+        from PIL import Image
+
+        across, down, scale = self._frame(axes)
+        box = (across, down, across + axes[0].samples * axes[0].step / scale, down + axes[1].samples * axes[1].step / scale)
+        canvas = Image.new("RGB", self.size)
+        canvas.paste(Image.fromarray((self.pixels * 255).round().astype(np.uint8)))
+        seen = _resized(canvas, box, (axes[0].samples, axes[1].samples))
+        return np.asarray(seen, dtype=np.float32).transpose(1, 0, 2) / 255.0
+
+    def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
+        """Column and row of the picture that a place on the axes stands for."""
+        across, down, scale = self._frame(axes)
+        return (
+            across + (x - axes[0].lower + axes[0].step / 2) / scale,
+            down + (y - axes[1].lower + axes[1].step / 2) / scale,
+        )
+
+    def describe(self) -> dict[str, Any]:
+        digest = hashlib.sha256(self.pixels.tobytes()).hexdigest()
+        return {"world": "Picture", "file": self.name, "size": list(self.size), "sha256": digest}
+
+    @classmethod
+    def open(cls, argument: str) -> Picture:
+        return cls(argument)
+
+    def _frame(self, axes: Axes) -> tuple[float, float, float]:
+        """Column and row of the outer edge of the first cell, and axis units per pixel."""
+        width, height = self.size
+        extent = [a.samples * a.step for a in axes[:2]]
+        scale = min(extent[0] / width, extent[1] / height)
+        return (width - extent[0] / scale) / 2, (height - extent[1] / scale) / 2, scale
+
+    @classmethod
+    def example(cls) -> Picture:
+        """A small picture of four colours."""
+        colours = np.array([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [1, 1, 0]]], float)
+        return cls(colours.repeat(8, axis=0).repeat(8, axis=1))
+
+    @staticmethod
+    def example_axes() -> Axes:
+        """Axes over which the example can be sensed."""
+        return (Axis("x", 0, 15, 16), Axis("y", 0, 15, 16), Axis("channel", 0, 2, 3))
+
+
+def _resized(canvas: Any, box: tuple[float, float, float, float], size: tuple[int, int]) -> Any:
+    from PIL import Image
+
+    # each side is padded by whole pixels, so that the box lies inside; what is added is black
+    pad = [int(np.ceil(max(0.0, -box[0]))) + 1, int(np.ceil(max(0.0, -box[1]))) + 1]
+    wide = canvas.width + pad[0] + int(np.ceil(max(0.0, box[2] - canvas.width))) + 1
+    high = canvas.height + pad[1] + int(np.ceil(max(0.0, box[3] - canvas.height))) + 1
+    sheet = Image.new("RGB", (wide, high))
+    sheet.paste(canvas, (pad[0], pad[1]))
+    moved = (box[0] + pad[0], box[1] + pad[1], box[2] + pad[0], box[3] + pad[1])
+    return sheet.resize(size, Image.Resampling.BOX, box=moved)
+
+
+def _array(pixels: np.ndarray) -> np.ndarray:
+    if pixels.ndim != 3 or pixels.shape[2] != CHANNELS or 0 in pixels.shape:
+        raise WorldError(f"a picture is an array of height x width x 3, not {list(pixels.shape)}")
+    values = pixels.astype(np.float64) / (255.0 if pixels.dtype.kind in "iu" else 1.0)
+    if not np.isfinite(values).all() or values.min() < 0 or values.max() > 1:
+        raise WorldError("a picture holds values of 0 to 255 (whole numbers) or 0 to 1")
+    return values
+
+
+def _read(path: Path) -> np.ndarray:
+    from PIL import Image, UnidentifiedImageError
+
+    if not path.is_file():
+        raise WorldError("there is no such picture", where=str(path), fix="Name a picture file, for example --world picture:photo.jpg")
+    try:
+        with Image.open(path) as picture:
+            if picture.width * picture.height > MOST_PIXELS:
+                raise WorldError(f"has {picture.width} x {picture.height} pixels; at most {MOST_PIXELS} are read", where=str(path))
+            return _array(np.asarray(picture.convert("RGB")))
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
+        raise WorldError(f"cannot be read as a picture ({type(error).__name__}: {error})", where=str(path)) from None
+    except Image.DecompressionBombError:
+        raise WorldError("has too many pixels", where=str(path)) from None
