@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import jax
-import jaxlib
+import jaxlib.version
 import platformdirs
 from jax.experimental import serialize_executable
 
@@ -47,8 +47,10 @@ def compile(lowered: Any, options: dict[str, Any] | None = None) -> tuple[Any, b
 def key(lowered: Any, options: dict[str, Any] | None = None) -> str:
     """Name of the file of a program: equal programs on equal machines with equal versions share it."""
     device = jax.devices()[0]
-    about = [jax.__version__, jaxlib.__version__, device.platform, device.device_kind, platform.machine(), _processor()]
-    about += [os.environ.get("XLA_FLAGS", ""), os.environ.get("NPROC", ""), str(os.cpu_count()), repr(options)]
+    about = [jax.__version__, jaxlib.version.__version__, device.platform, device.device_kind, platform.machine(), _processor()]
+    about += [os.environ.get("XLA_FLAGS", ""), os.environ.get("NPROC", ""), str(os.cpu_count()), repr(options), str(lowered.in_tree)]
+    # an argument that is not used is missing in the text of the program, and is checked all the same when it is called
+    about.append(repr(lowered.args_info))
     text = "\n".join(about) + lowered.as_text()
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 

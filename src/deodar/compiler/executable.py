@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses as dc
 import time
 from collections.abc import Hashable, Sequence
-from typing import Any, cast
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -73,12 +73,14 @@ class Executable:
         self.compiled = 0
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
-        values = self.values(doc)
-        p, u32 = self.program, jnp.uint32(0)
-        self._prepare = self._compile(p.prepare, values)
-        trials = np.zeros(batch.trials or 1, np.uint32)
-        self._init = self._compile(self._start, values, u32, trials)
-        self.seconds += time.process_time() - began
+        values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.trials or 1, np.uint32)
+        self._prepare, constants = self._compile(self.program.prepare, values)
+        self._init, (state, keys) = self._compile(self._start, values, seed, trials)
+        zero, count = np.zeros((), self.program.dtype), np.int32(0)
+        clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero}
+        counts = {"head": count, "every": count, "records": count}
+        self._example = (values, constants, state, keys, self.blind(), clock, counts)
+        self.seconds = time.process_time() - began
 
     # -------------------------------------------------------------------------------- values
 
@@ -125,15 +127,15 @@ class Executable:
         key = ("chunk", tuple(ports))
         if key not in self._known:
             capacity = self.capacity(ports)
-            self._known[key] = (self._compile(lambda *a: self._chunk(ports, capacity, *a), *self._example()), capacity)
+            chunk, _ = self._compile(lambda *a: self._chunk(ports, capacity, *a), *self._example)
+            self._known[key] = (chunk, capacity)
         return self._known[key]
 
     def reader(self, ports: Sequence[Port]) -> Any:
         """The executable that reads ports of a state."""
         key = ("read", tuple(ports))
         if key not in self._known:
-            example = self._example()[:-1]
-            self._known[key] = self._compile(lambda *a: self._read(ports, *a), *example)
+            self._known[key], _ = self._compile(lambda *a: self._read(ports, *a), *self._example[:-1])
         return self._known[key]
 
     def call(self, executable: Any, *args: Any) -> Any:
@@ -159,14 +161,13 @@ class Executable:
     # -------------------------------------------------------------------------------- traced
 
     def _start(self, values: Tree, seed: Any, trials: Any) -> tuple[Tree, Tree]:
-        self.traced += 1
         one = self.program.init
         if self.batch.trials is not None:
             many = jax.vmap(one, in_axes=(None, None, 0))
         else:
 
-            def many(v: Tree, s: Any, t: Any) -> Any:
-                return one(v, s, t[0])
+            def many(values: Tree, seed: Any, trial: Any) -> tuple[Tree, Tree]:
+                return one(values, seed, trial[0])
 
         if self.batch.points is None:
             return many(values | {"swept": ()}, seed, trials)
@@ -175,7 +176,6 @@ class Executable:
     def _chunk(
         self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree, counts: Any
     ) -> Any:
-        self.traced += 1
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
             return self._run(ports, capacity, values, constants, state, keys, sensed, clock, counts)
@@ -183,7 +183,6 @@ class Executable:
         return self._batched(one, values, constants, state, keys)
 
     def _read(self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Any:
-        self.traced += 1
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
             still = self.program.steady(values, constants, sensed)
@@ -219,7 +218,7 @@ class Executable:
             return lax.fori_loop(0, n, body, (tick, state))
 
         if not ports:
-            tick, state = steps(head, clock["tick"], state)
+            _, state = steps(head, clock["tick"], state)
             return state, (), program.finite(state)
         buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
 
@@ -234,44 +233,17 @@ class Executable:
 
     # -------------------------------------------------------------------------------- compiling
 
-    def _compile(self, function: Any, *args: Any) -> Any:
+    def _compile(self, function: Any, *args: Any) -> tuple[Any, Tree]:
+        """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
-        before = self.traced
         with precision_context(self.precision):
-            lowered = jax.jit(function).lower(*args)
+            # unused arguments stay: two programs that differ in which argument they use must not look alike to the cache
+            lowered = jax.jit(function, keep_unused=True).lower(*args)
             executable, fresh = cache.compile(lowered)
-        self.traced = before + 1
+        self.traced += 1
         self.compiled += fresh
         self.seconds += time.process_time() - began
-        return executable
-
-    def _example(self) -> tuple[Any, ...]:
-        """Arguments of the shapes that running will use."""
-        if "example" not in self._known:
-            zero = np.zeros((), self.program.dtype)
-            vector = np.zeros(self.plan.size, self.program.dtype)
-            values = {
-                "vector": vector,
-                "arrays": self._zeros_arrays(),
-                "swept": tuple(np.zeros(self.batch.points or 1, self.program.dtype) for _ in self.sweep),
-            }
-            sensed = self.blind()
-            clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero}
-            counts = {"head": np.int32(0), "every": np.int32(0), "records": np.int32(0)}
-            trials = np.zeros(self.batch.trials or 1, np.uint32)
-            with precision_context(self.precision):
-                constants = jax.eval_shape(self.program.prepare, values)
-                state, keys = jax.eval_shape(self._start, values, np.uint32(0), trials)
-            self._known["example"] = (values, constants, state, keys, sensed, clock, counts)
-        return self._known["example"]
-
-    def _zeros_arrays(self) -> dict[str, np.ndarray]:
-        out: dict[str, np.ndarray] = {}
-        for g, group in enumerate(self.plan.groups):
-            for path, value, _ in leaves(group.like.element):
-                if path in group.arrays:
-                    out[array_key(g, path)] = np.zeros((group.rows, *np.shape(cast(Any, value))), self.program.dtype)
-        return out
+        return executable, lowered.out_info
 
     def blind(self) -> dict[str, np.ndarray]:
         """Readings of the sensors of a model that senses nothing: zeros."""

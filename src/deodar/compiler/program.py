@@ -19,7 +19,7 @@ from jax import Array, lax
 from deodar.compiler.plan import Call, Group, Plan, Read
 from deodar.element import Setting, Time
 from deodar.numerics.axes import shape
-from deodar.numerics.noise import element_key, normal
+from deodar.numerics.noise import element_keys, normal
 from deodar.parameters import bind
 
 Buffers = dict[tuple[int, str, int], Any]
@@ -86,7 +86,7 @@ class Program:
     def init(self, values: Tree, seed: Any, trial: Any) -> tuple[Tree, Tree]:
         """State at the start, and the noise keys of a trial."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
-        keys = {str(g): jnp.stack([element_key(seed, trial, np.uint32(_number(n.id))) for n in self.plan.groups[g].nodes]) for g in self.noisy}
+        keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
         return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}, keys
 
     # -------------------------------------------------------------------------------- steps
@@ -274,6 +274,6 @@ def gather(x: Any, read: Read) -> Any:
     return total
 
 
-def _number(ident: str) -> int:
-    """The id as the number that keys the noise; implicit nodes have none and draw none."""
-    return int(ident, 16)
+def _numbers(group: Group) -> np.ndarray:
+    """The ids of a group as the numbers that key their noise."""
+    return np.array([int(n.id, 16) for n in group.nodes], np.uint32)

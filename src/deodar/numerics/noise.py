@@ -46,11 +46,12 @@ def threefry(x0: Any, x1: Any, k0: Any, k1: Any) -> tuple[Array, Array]:
     return x0, x1
 
 
-def element_key(seed: Any, trial: Any, ident: Any) -> Array:
-    """The two key words of an element's noise: threefry(counter (id, trial), key (seed, STREAM)), shape (2,)."""
+def element_keys(seed: Any, trial: Any, idents: Any) -> Array:
+    """Two key words for the noise of each element: threefry(counter (id, trial), key (seed, STREAM)), shape (elements, 2)."""
     u32 = jnp.uint32
-    words = threefry(jnp.asarray(ident, u32), jnp.asarray(trial, u32), jnp.asarray(seed, u32), u32(STREAM))
-    return jnp.stack(words)
+    ids = jnp.asarray(idents, u32)
+    words = threefry(ids, jnp.full(ids.shape, trial, u32), jnp.asarray(seed, u32), u32(STREAM))
+    return jnp.stack(words, axis=-1)
 
 
 def bits(cells: int, key: Any, block: Any) -> tuple[Array, Array]:

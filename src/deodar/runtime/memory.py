@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import psutil
 
 from deodar.errors import TooLarge
@@ -44,7 +45,5 @@ def _cells(n: Node) -> int:
 def _constants(n: Node) -> int:
     """Matrices of kernels (one for each axis) and arrays given as parameters."""
     kernels = len(getattr(n.element, "kernel", ()) or ())
-    arrays = sum(
-        math.prod(p.shape) for p in (getattr(v, "shape", None) and v for _, v, _ in leaves(n.element)) if p is not None and hasattr(p, "shape")
-    )  # type: ignore[union-attr]
+    arrays = sum(int(np.size(value)) for _, value, _ in leaves(n.element) if np.ndim(value))
     return 2 * kernels * sum(a.samples**2 for a in _axes(n)) + arrays

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import jax
 import numpy as np
@@ -247,11 +247,12 @@ def require_step(doc: Document, dt: float) -> None:
             )
 
 
-def whole(duration: float, dt: float, what: str) -> int:
+def whole(duration: Any, dt: float, what: str) -> int:
     """How many steps of dt a duration is; refused unless it is a whole number of them."""
-    if isinstance(duration, (bool, str)) or not np.isscalar(duration) or not np.isfinite(float(duration)) or float(duration) < 0:
+    if isinstance(duration, (bool, str)) or not np.isscalar(duration) or not 0 <= float(cast(Any, duration)) < np.inf:
         raise TimeError(f"{what} is {duration!r}; it is a number, 0 or above")
-    n = float(duration) / dt
+    duration = float(cast(Any, duration))
+    n = duration / dt
     if abs(n - round(n)) > 1e-6 * max(1.0, abs(n) * 1e-3):
         near = [k * dt for k in (int(n), int(n) + 1)]
         raise TimeError(f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -214,7 +214,7 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[list[int] | None, list[
 
 
 @contextlib.contextmanager
-def _bar(steps: int, progress: bool | None) -> Iterator[Callable[[int], None] | None]:
+def _bar(steps: int, progress: bool | None) -> Generator[Callable[[int], None] | None]:
     """A progress bar that appears once the run takes longer than SHOW_AFTER."""
     if progress is False or (progress is None and not sys.stderr.isatty()):
         yield None

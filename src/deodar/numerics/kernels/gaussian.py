@@ -62,18 +62,18 @@ def profile(lag: Any, sigma: Any, period: float | None) -> Any:
     """exp(-lag^2 / (2 sigma^2)); on a ring the sum over all its images, exact at every width."""
     if period is None:
         return jnp.exp(-0.5 * (lag / sigma) ** 2)
-    near = lag - period * jnp.round(lag / period)
-    images = sum(jnp.exp(-0.5 * ((near + k * period) / sigma) ** 2) for k in range(-4, 5))
+    near = (lag - period * jnp.round(lag / period))[..., None]
+    images = jnp.sum(jnp.exp(-0.5 * ((near + period * jnp.arange(-4, 5)) / sigma) ** 2), axis=-1)
     # wide kernels: the same sum as a Fourier series, whose terms vanish where those of the images do not (Poisson)
-    turn = 2 * math.pi / period
-    waves = sum(jnp.exp(-0.5 * (turn * m * sigma) ** 2) * jnp.cos(turn * m * near) for m in range(1, 5))
+    turns = 2 * math.pi / period * jnp.arange(1, 5)
+    waves = jnp.sum(jnp.exp(-0.5 * (turns * sigma) ** 2) * jnp.cos(turns * near), axis=-1)
     series = math.sqrt(2 * math.pi) * sigma / period * (1 + 2 * waves)
     return jnp.where(sigma < period / 2, images, series)
 
 
 def integral(sigma: Any, step: float) -> Any:
     """Sum over an endless grid times its step: sqrt(2 pi) sigma where the grid resolves the Gaussian, step where not."""
-    ratio = jnp.asarray(step) / sigma
-    # below two steps the sum is taken as it stands (40 terms reach ten widths), above it equals the integral to 1e-34
-    lattice = sum(jnp.exp(-0.5 * (k * ratio) ** 2) for k in range(1, 21))
+    ratio = step / sigma
+    # below two steps the sum is taken as it stands (20 terms reach ten widths), above it equals the integral to 1e-34
+    lattice = jnp.sum(jnp.exp(-0.5 * (jnp.arange(1, 21) * ratio) ** 2))
     return jnp.where(ratio > 0.5, step * (1 + 2 * lattice), math.sqrt(2 * math.pi) * sigma)
