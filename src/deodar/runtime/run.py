@@ -104,15 +104,18 @@ class Run:
         chunk, capacity = self.program.chunk(ports)
         done, taken, due = 0, 0, start
         while due <= steps:
-            most = min(self._chunk_steps(), self._until_sensing())
-            if due - done > most:  # too far for one chunk: step there, its record is thrown away
-                self._chunk(chunk, {"head": most, "every": 0, "records": 1}, most)
-                done += most
+            gap, steady = due - done, self._until_sensing()
+            most = min(self._chunk_steps(), steady)
+            # a record at the tick of a new reading belongs to the next chunk, which sees that reading
+            if gap and (gap > most or gap == steady):  # its chunk is not this one: step, and throw the record away
+                head = min(gap, most)
+                self._chunk(chunk, {"head": head, "every": 0, "records": 1}, head)
+                done += head
             else:
-                head = due - done
-                records = 1 + min((steps - due) // every, capacity - 1, (most - head) // every)
-                used = head + (records - 1) * every
-                seen = self._chunk(chunk, {"head": head, "every": every, "records": records}, used)
+                room = min(most, steady - 1) - gap
+                records = 1 + min((steps - due) // every, capacity - 1, max(0, room) // every)
+                used = gap + (records - 1) * every
+                seen = self._chunk(chunk, {"head": gap, "every": every, "records": records}, used)
                 collect(taken, tuple(np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)] for a in seen))
                 taken, done, due = taken + records, done + used, due + records * every
             if progress is not None:
