@@ -60,8 +60,9 @@ class ColorSpace(Coupling):
         if not self.axes[-1].periodic:
             yield f"the hue axis {self.axes[-1].name!r} must be periodic: red lies on both sides of its ends"
         for fine, coarse in zip(source[:2], self.axes[:2], strict=True):
-            if fine.name != coarse.name or not fine.fits(coarse):
-                yield f"axis {coarse.name!r} does not fit the picture's: {fine} there, {coarse} here"
+            apart = max(abs(fine.lower - coarse.lower), abs(fine.upper - coarse.upper))
+            if fine.name != coarse.name or fine.unit != coarse.unit or apart > coarse.step:
+                yield f"axis {coarse.name!r} does not fit the picture's: {fine} there, {coarse} here (ends may differ by a grid step)"
 
     def prepare(self, at: Setting) -> Any:
         return [_cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]

@@ -1,0 +1,89 @@
+"""`deodar demo NAME`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+HELP = "run a demonstration on real input: saliency"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    from deodar.cli import _options
+
+    parser.add_argument("name", choices=("saliency",), metavar="NAME", help="saliency: a colour cue selects an object in a photograph")
+    parser.add_argument("--image", type=Path, metavar="FILE", help="a photograph of your own instead of the three that come with deodar")
+    parser.add_argument(
+        "--cue", type=float, action="append", metavar="HUE", help="with --image: a hue to cue, in degrees (0 red, 120 green); may be repeated"
+    )
+    parser.add_argument("--seed", type=_options.whole, default=0, metavar="N", help="seed of all noise (default 0)")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for what is written (default: a new one in the working folder)")
+    parser.add_argument("--force", action="store_true", help="replace the folder --out that an earlier demo wrote")
+    parser.add_argument("--json", action="store_true", help="print the claims as JSON")
+    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Status 1 if a required claim is false."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    from deodar.cli._options import shown
+    from deodar.recording import places
+
+    out = args.out or places.free(Path.cwd(), f"demo-{args.name}")
+    claim(out, args.force)
+
+    from deodar.analysis.claims import failed, results
+    from deodar.demos import saliency
+    from deodar.demos.saliency_figure import figure
+    from deodar.figures._files import save as save_figure
+    from deodar.recording import files
+
+    scenes = [saliency.own(args.image, args.cue or ())] if args.image else saliency.photographs()
+    console = Console(file=sys.stderr)
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
+    done: list[saliency.Result] = []
+    with Progress(*columns, console=console, transient=True, disable=args.no_progress) as bar:
+        task = bar.add_task("compiling", total=4 * len(scenes))
+        drawn = []
+        for scene in scenes:
+            bar.update(task, description=f"looking at {scene.title}")
+            done.append(saliency.look(scene, args.seed, lambda: bar.advance(task)))
+            drawn.append(figure(done[-1]))
+            bar.advance(task)
+
+        def fill(folder: Path) -> None:
+            for result, picture in zip(done, drawn, strict=True):
+                save_figure(picture, folder / f"{result.scene.name}.png")
+                files.save(result.record, folder / f"{result.scene.name}.zarr")
+                bar.advance(task)
+            (folder / "results.json").write_text(results(claims, settings))
+
+        claims = [c for result in done for c in saliency.claims(result)]
+        settings = {"demo": args.name, "seed": args.seed, "duration": saliency.DURATION, "cue_at": saliency.CUE_AT}
+        places.write_folder(out, fill, replace=args.force)
+    wrong = failed(claims)
+    if args.json:
+        print(json.dumps({"out": str(out), "claims": json.loads(results(claims, settings))["claims"]}, indent=2, ensure_ascii=False))
+    else:
+        for c in claims:
+            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
+            print(f"  {mark:4}{c.name}" + (f" -> {c.value}" if c.holds is not True else ""))
+        names = ", ".join(f"{r.scene.name}.png" for r in done)
+        print(f"Written to {shown(out)}: {names}, the records (*.zarr) and results.json.")
+        print(saliency.sentence(done))
+    return 1 if wrong else 0
+
+
+def claim(out: Path, force: bool) -> None:
+    """Refuse, before the run, a folder that could not be written after it; `force` replaces only what a demo wrote."""
+    from deodar.errors import OutputExists
+    from deodar.recording import places
+
+    places.claim_folder(out, force)
+    if out.is_dir() and any(out.iterdir()) and not (out / "results.json").is_file():
+        raise OutputExists("is not the folder of a demo, so it is not replaced", where=str(out), fix="Choose another name")

@@ -1,0 +1,66 @@
+"""The saliency demo: its claims on one photograph here, on all of them from the command line."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import deodar as dd
+from deodar.demos import saliency
+from deodar.demos.saliency import Cue, claims, look, own, photographs, sentence
+
+
+def test_the_command_makes_good_every_claim(tmp_path: Path) -> None:
+    done = subprocess.run([sys.executable, "-m", "deodar", "demo", "saliency"], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    out = tmp_path / "demo-saliency-001"
+    found = json.loads((out / "results.json").read_text())["claims"]
+    assert len([c for c in found if c["kind"] == "required"]) >= 9
+    assert all(c["holds"] is True for c in found), [c for c in found if not c["holds"]]
+    for name in ("coffee", "chelsea", "astronaut"):
+        assert (out / f"{name}.png").stat().st_size > 10_000 and (out / f"{name}.zarr").is_dir()
+        kinds = {c["name"].split(",")[1].split()[0] for c in found if c["name"].startswith(name)}
+        assert kinds == {"no", "cue"}
+    assert "5 of 5" in done.stdout.splitlines()[-1]
+
+
+def test_another_seed_and_a_wrong_mark_shows() -> None:
+    """The claim is computed: with the box elsewhere it is false."""
+    chelsea = next(s for s in photographs() if s.name == "chelsea")
+    wrong = Cue(5.0, "red", "present", "the eye", ((0, 0, 100, 100),))
+    scene = saliency.Scene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
+    result = look(scene, seed=11)
+    assert [c.holds for c in claims(result)] == [True, True, True, False, False]
+    assert "1 of 2 cued colours" in sentence([result])
+
+
+def test_a_picture_of_ones_own(tmp_path: Path) -> None:
+    scene = np.full((60, 90, 3), 120, np.uint8)
+    scene[20:40, 60:80] = [20, 30, 230]
+    Image.fromarray(scene).save(tmp_path / "mine.png")
+    result = look(own(tmp_path / "mine.png", [240.0, 0.0]))
+    blue, red = result.outcomes
+    assert len(blue.places) == 1 and 60 <= blue.places[0][0] <= 80 and 20 <= blue.places[0][1] <= 40
+    assert not red.places and abs(blue.motor[0] - blue.places[0][0]) < 3
+    assert all(c.holds is None for c in claims(result)[1:])
+
+
+def test_bad_input(tmp_path: Path) -> None:
+    with pytest.raises(dd.errors.WorldError, match="no such picture"):
+        own(tmp_path / "nothing.jpg", [])
+    with pytest.raises(dd.errors.DocumentError, match="0 to 360"):
+        own(tmp_path / "nothing.jpg", [400.0])
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "thesis.txt").write_text("do not lose me")
+    for force in ([], ["--force"]):
+        done = subprocess.run(
+            [sys.executable, "-m", "deodar", "demo", "saliency", "--out", "full", *force], cwd=tmp_path, capture_output=True, text=True, timeout=60
+        )
+        assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert [p.name for p in (tmp_path / "full").iterdir()] == ["thesis.txt"]
