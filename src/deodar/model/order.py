@@ -51,7 +51,7 @@ class _Walk:
         if act in self.depth:
             if act in self.path:
                 loop = [self.by[a[0]].path for a in self.path[self.path.index(act) :]]
-                names = " -> ".join([*dict.fromkeys(loop), n.path])
+                names = " -> ".join([n.path, *reversed(list(dict.fromkeys(loop)))])
                 current = any(a[2] or a[1] == "advance" for a in self.path[self.path.index(act) :])
                 what = "a loop of connections that read 'current'" if current else "a loop without a state in it"
                 problem = Problem(n.path, f"{what}: {names}", "Let one of them read 'previous', or 'delayed'")

@@ -1,0 +1,85 @@
+"""Compiled programs on disk: found again, never confused, never in the way."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler import cache
+from deodar.compiler.executable import executable
+
+x = dd.Axis("x", 0, 10, samples=11)
+
+
+def pair() -> dd.Model:
+    """Two fields of different groups, whose readers lower to the same text."""
+    model = dd.Model("pair")
+    model.add(dd.Field("u", [x], resting_level=-1))
+    model.add(dd.Field("v", [x], resting_level=-2, kernel=[dd.Gaussian()]))
+    return model
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("DEODAR_CACHE", str(tmp_path / "programs"))
+    return tmp_path / "programs"
+
+
+def test_a_second_process_finds_the_program(place: Path) -> None:
+    first = executable(pair())
+    first.chunk(())
+    assert first.compiled == first.traced == 3 and len(list(place.iterdir())) == 3
+    second = executable(pair())
+    second.chunk(())
+    assert second.compiled == 0 and second.traced == 3
+    fresh, kept = dd.Session(pair()), dd.Session(pair())
+    fresh.step(20)
+    kept.step(20)
+    assert np.array_equal(fresh.read("v.activation"), kept.read("v.activation"))
+
+
+def test_readers_that_look_alike_are_not_confused(place: Path) -> None:
+    s = dd.Session(pair())
+    assert (s.read("u.activation") == -1).all() and (s.read("v.activation") == -2).all()
+    again = dd.Session(pair())
+    assert (again.read("v.activation") == -2).all() and (again.read("u.activation") == -1).all()
+
+
+def test_damaged_files_are_replaced(place: Path) -> None:
+    executable(pair())
+    for path in place.iterdir():
+        path.write_bytes(b"nonsense")
+    assert executable(pair()).compiled == 2
+    assert executable(pair()).compiled == 0
+
+
+def test_it_can_be_switched_off_and_a_folder_that_cannot_be_made_does_no_harm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DEODAR_CACHE", "off")
+    assert cache.folder() is None and executable(pair()).compiled == 2
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("DEODAR_CACHE", str(tmp_path / "file" / "programs"))
+    assert executable(pair()).compiled == 2
+
+
+def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    executable(pair())
+    old = sorted(place.iterdir())
+    for path in old:
+        os.utime(path, (1, 1))
+    monkeypatch.setattr(cache, "MOST_BYTES", sum(p.stat().st_size for p in old) + 1)
+    s = dd.Session(pair(), precision="float64")
+    s.step(1)
+    assert not set(old) <= set(place.iterdir())
+
+
+def test_it_stands_in_the_users_own_cache_folder() -> None:
+    code = "from deodar.compiler.cache import folder; print(folder())"
+    environment = {k: v for k, v in os.environ.items() if k != "DEODAR_CACHE"} | {"XDG_CACHE_HOME": "/somewhere/else"}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and "deodar" in done.stdout and str(Path.cwd()) not in done.stdout
