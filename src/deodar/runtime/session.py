@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from deodar.compiler.executable import Executable, executable
+from deodar.compiler.plan import cost
 from deodar.compiler.program import Port, array_key
 from deodar.errors import ParameterError, TimeError, UnknownName
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
-from deodar.parameters import FrozenArray, get, leaves
+from deodar.parameters import FrozenArray, get, leaves, structure
 from deodar.runtime import memory
 from deodar.runtime.run import Clock, Run, host, require_step, whole
 from deodar.worlds._base import World
@@ -258,18 +259,16 @@ def _copy_row(source: Tree, row: int, target: Tree, to: int) -> None:
 
 def _changed(old: Document, new: Document) -> list[tuple[tuple[str, str], Any, str]] | None:
     """Leaves with another value, and what each costs; None where more than leaves changed."""
-    from deodar.compiler.executable import signature
-    from deodar.compiler.plan import cost
-
-    if signature(old) != signature(new):
+    if old.connections != new.connections or [(e.id, e.every) for e in old.entries] != [(e.id, e.every) for e in new.entries]:
         return None
-    before = old.by_id()
     out: list[tuple[tuple[str, str], Any, str]] = []
-    for e in new.entries:
-        if e.element is before[e.id].element:
+    for before, after in zip(old.entries, new.entries, strict=True):
+        if before.element is after.element:
             continue
-        was = {path: value for path, value, _ in leaves(before[e.id].element)}
-        out += [((e.id, path), value, cost(p)) for path, value, p in leaves(e.element) if np.any(value != was[path])]
+        if structure(before.element) != structure(after.element):
+            return None
+        was = {path: value for path, value, _ in leaves(before.element)}
+        out += [((after.id, path), value, cost(p)) for path, value, p in leaves(after.element) if np.any(value != was[path])]
     return out
 
 
