@@ -192,7 +192,7 @@ class Executable:
 
     def _batched(self, one: Any, values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
         if self.batch.trials is not None:
-            one = jax.vmap(one, in_axes=(None, None, 0, 0))
+            one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials)  # also without any state or noise
         if self.batch.points is None:
             return one(values | {"swept": ()}, constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]

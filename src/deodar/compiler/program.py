@@ -36,7 +36,13 @@ class Port:
 
 
 class _NotHere:
-    """Stands for a live parameter inside `prepare`, which must not use one: any arithmetic with it raises."""
+    """Stands for a live parameter inside `prepare`, which must not use one: any arithmetic with it raises.
+
+    A sign is let through: a kernel's terms are listed there too, whose amplitudes may be negated and are not used.
+    """
+
+    def __neg__(self) -> _NotHere:
+        return self
 
     def __repr__(self) -> str:
         return "a live parameter (prepare may use only what rebuilds)"

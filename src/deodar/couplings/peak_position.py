@@ -14,6 +14,9 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
+LEAST_DIRECTED = 1e-3
+"""On a ring, the share of the input that must point somewhere: the direction of homogeneous input is only rounding."""
+
 
 @register
 @dataclass(frozen=True)
@@ -27,7 +30,7 @@ class PeakPosition(Coupling):
     Parameters:
         axis: the dimension read out; other axes of the source are integrated out.
         least: N below which there is no peak; > 0.
-        absent: position while there is no peak.
+        absent: position while there is no peak (or, on a ring, input without direction), in axis units.
 
     Ports:
         input: f, over the axis.
@@ -58,6 +61,7 @@ class PeakPosition(Coupling):
             turn = 2 * math.pi / self.axis.range
             angle = turn * (x - self.axis.lower)
             sine, cosine = jnp.sum(jnp.sin(angle) * f), jnp.sum(jnp.cos(angle) * f)
+            there = there & (jnp.hypot(sine, cosine) > LEAST_DIRECTED * n)
             sine, cosine = jnp.where(there, sine, 0.0), jnp.where(there, cosine, 1.0)
             place = self.axis.lower + jnp.mod(jnp.arctan2(sine, cosine), 2 * math.pi) / turn
         else:

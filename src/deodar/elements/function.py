@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import importlib
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
+import jax.numpy as jnp
+
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.errors import ModelError, UnknownName
+from deodar.errors import DeodarError, ModelError, UnknownName
 from deodar.numerics.axes import Axes, Axis
-from deodar.parameters import Live, Recompile
+from deodar.parameters import Live, Recompile, show
 from deodar.registry import register
 
 
@@ -52,6 +54,18 @@ class Function(Element):
 
     stateful: ClassVar[bool] = True
 
+    def faults(self) -> Iterator[tuple[str, str]]:
+        names: Any = self.ports_in
+        for name in names:
+            if not name.isidentifier() or name == "output":
+                yield "ports_in", f"holds {name!r}; ports are called like variables of Python, and not 'output'"
+        if len(set(names)) < len(names):
+            yield "ports_in", f"holds a name twice: {', '.join(names)}"
+        values: Any = self.values
+        for name, _ in values:
+            if not name.isidentifier():
+                yield "values", f"holds {name!r}; the function takes them by keyword"
+
     def ports(self) -> tuple[str, ...]:
         return tuple(self.ports_in)
 
@@ -66,9 +80,24 @@ class Function(Element):
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         values: Any = self.values
-        new = self.load()(state["state"], inputs, time, **dict(values))
-        if getattr(new, "shape", ()) != state["state"].shape:
-            raise ModelError(f"{self.function} returned shape {getattr(new, 'shape', ())}, its state has {state['state'].shape}", where=self.name)
+        function, here = self.load(), state["state"].shape
+        try:
+            new = jnp.asarray(function(state["state"], inputs, time, **dict(values)))
+        except DeodarError:
+            raise
+        except Exception as error:
+            first = (str(error).strip() or "no message").splitlines()[0]
+            raise ModelError(
+                f"the function {self.function} raised {type(error).__name__}: {first}",
+                where=self.name,
+                fix="It is called as function(state, inputs, time, **values), traced by JAX, and returns the new state",
+            ) from error
+        if new.shape != here or new.dtype.kind not in "fiu":
+            raise ModelError(
+                f"the function {self.function} returned {new.dtype} numbers of shape {list(new.shape)}; its state has real numbers of shape {list(here)}",
+                where=self.name,
+                fix="It returns the new state, one number for each sample of the axes",
+            )
         return {"state": at.array(new)}
 
     def load(self) -> Callable[..., Any]:
@@ -78,10 +107,13 @@ class Function(Element):
             found: Any = sys.modules.get(module) or importlib.import_module(module)
             for step in path.split("."):
                 found = getattr(found, step)
-        except (ImportError, AttributeError, ValueError) as error:
+        except Exception as error:  # importing runs the module, which may raise anything
+            first = (str(error).strip() or "no message").splitlines()[0]
             raise UnknownName(
-                f"the function {self.function!r} cannot be found ({error})",
+                f"the function {self.function!r} cannot be found ({type(error).__name__}: {first})",
                 where=self.name,
                 fix="It is written module:name, and the module must be importable",
-            ) from None
+            ) from error
+        if not callable(found):
+            raise ModelError(f"{self.function!r} is {show(found)}, which is no function", where=self.name)
         return found

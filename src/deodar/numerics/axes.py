@@ -9,9 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.errors import AxesError, Problem
+from deodar.parameters import is_text, real, show
 
 MOST_SAMPLES = 1_000_000
 """More samples on one axis are taken for a slip of the pen (a guess; a field this long would run at 0.01 of real time)."""
+
+FARTHEST = 1e30
+"""Bounds beyond this overflow in single precision once they are squared or multiplied."""
+
+FINEST = 1e-6
+"""A range below this share of the bounds is no more than the rounding of single precision."""
 
 
 @dataclass(frozen=True)
@@ -39,27 +46,31 @@ class Axis:
 
     def __post_init__(self) -> None:
         for key in ("lower", "upper"):
-            value = getattr(self, key)
-            if isinstance(value, (bool, str)) or not np.isscalar(value) or not math.isfinite(float(value)):
-                raise AxesError(f"{key} needs a finite number, not {value!r}", where=f"axis {self.name!r}")
-            object.__setattr__(self, key, float(value))
+            value = real(getattr(self, key))
+            if value is None or not math.isfinite(value):
+                raise AxesError(f"{key} needs a finite number, not {show(getattr(self, key))}", where=f"axis {show(self.name)}")
+            object.__setattr__(self, key, value)
         problems: list[Problem] = []
-        where = f"axis {self.name!r}"
-        if not isinstance(self.name, str) or not self.name:
-            problems.append(Problem("axis", f"needs a name, not {self.name!r}"))
+        where = f"axis {show(self.name)}"
+        if not isinstance(self.name, str) or not self.name or not is_text(self.name):
+            problems.append(Problem("axis", f"needs a name, not {show(self.name)}"))
+        farthest = max(abs(self.lower), abs(self.upper))
         if not self.lower < self.upper:
             problems.append(Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}"))
+        elif farthest > FARTHEST or self.range < max(farthest, 1 / FARTHEST) * FINEST:
+            what = f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not tell its places apart"
+            problems.append(Problem(where, what, "Choose another unit, or an origin nearer to the values"))
         if isinstance(self.samples, bool) or not isinstance(self.samples, (int, np.integer)):
-            problems.append(Problem(where, f"samples needs a whole number, not {self.samples!r}"))
+            problems.append(Problem(where, f"samples needs a whole number, not {show(self.samples)}"))
         elif not (1 if self.periodic else 2) <= self.samples <= MOST_SAMPLES:
             least = "1" if self.periodic else "2"
-            problems.append(Problem(where, f"samples is {self.samples}; it is {least} to {MOST_SAMPLES}"))
+            problems.append(Problem(where, f"samples is {show(self.samples)}; it is {least} to {MOST_SAMPLES}"))
         else:
             object.__setattr__(self, "samples", int(self.samples))
         if not isinstance(self.periodic, (bool, np.bool_)):
-            problems.append(Problem(where, f"periodic needs true or false, not {self.periodic!r}"))
-        if not isinstance(self.unit, str):
-            problems.append(Problem(where, f"unit needs text, not {self.unit!r}"))
+            problems.append(Problem(where, f"periodic needs true or false, not {show(self.periodic)}"))
+        if not isinstance(self.unit, str) or not is_text(self.unit):
+            problems.append(Problem(where, f"unit needs text, not {show(self.unit)}"))
         if problems:
             raise AxesError(problems)
 

@@ -73,7 +73,7 @@ def spectrum(samples: Any, axes: Axes, bounds: Sequence[str], dtype: Any) -> Arr
         lags = np.arange(count) - (count - 1) // 2
         if bounds[d] == "zero":  # lags that reach beyond the field never meet a sample of it
             keep = np.abs(lags) < axes[d].samples
-            kernel, lags = jnp.compress(keep, kernel, axis=d), lags[keep]
+            kernel, lags = jnp.take(kernel, np.flatnonzero(keep), axis=d), lags[keep]
         wrap = np.zeros((size, len(lags)))
         np.add.at(wrap, (lags % size, np.arange(len(lags))), 1.0)
         kernel = along(jnp.asarray(wrap, dtype), kernel, d)

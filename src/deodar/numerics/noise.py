@@ -18,7 +18,8 @@ import jax.numpy as jnp
 from jax import Array, lax
 
 from deodar.numerics import convolution
-from deodar.numerics.axes import Axes, cell
+from deodar.numerics.axes import Axes, Axis, cell
+from deodar.numerics.kernels.gaussian import profile
 
 STREAM = 0x5EED
 """Second key word of every noise key; the first is the seed."""
@@ -73,21 +74,22 @@ def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
 
 
 def correlation(axes: Axes, lengths: Sequence[Any], dtype: Any) -> list[Array]:
-    """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and keep the variance 1 at every point."""
-    return [_filter(axis, length, dtype) for axis, length in zip(axes, lengths, strict=True)]
+    """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every point.
+
+    One for each axis: the symmetric square root of the correlation matrix, so that it holds up to the borders. On a ring the
+    correlation is the sum over all ways round, divided by its value at distance 0 (which no longer differs from the formula below a
+    length of an eighth of the period, and is the nearest that a ring allows).
+    """
+    return [_square_root(axis, length, dtype) for axis, length in zip(axes, lengths, strict=True)]
 
 
-def _filter(axis: Any, length: Any, dtype: Any) -> Array:
-    sigma = length / math.sqrt(2.0)  # a Gaussian of this width convolved with itself has the width `length`
-    boundary = "periodic" if axis.periodic else "zero"
-    weights = convolution.matrix(axis, boundary, lambda lag, period: _bell(lag, sigma, period), dtype)
-    return weights / jnp.sqrt(jnp.sum(weights * weights, axis=1, keepdims=True))
-
-
-def _bell(lag: Any, sigma: Any, period: float | None) -> Any:
-    if period is not None:
-        lag = lag - period * jnp.round(lag / period)
-    return jnp.exp(-0.5 * (lag / sigma) ** 2)
+def _square_root(axis: Axis, length: Any, dtype: Any) -> Array:
+    x = jnp.asarray(axis.points, dtype)
+    period = axis.range if axis.periodic else None
+    wanted = profile(x[:, None] - x[None, :], length, period) / profile(jnp.zeros((), dtype), length, period)
+    values, vectors = jnp.linalg.eigh(wanted)
+    root = jnp.matmul(vectors * jnp.sqrt(jnp.maximum(values, 0.0)), vectors.T, precision="highest")
+    return root / jnp.sqrt(jnp.sum(root * root, axis=1, keepdims=True))  # rounding leaves the variance 1 to 1e-6 in single precision
 
 
 def over(axes: Axes, deviates: Any, filters: Sequence[Array] | None) -> Any:

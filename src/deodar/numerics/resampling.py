@@ -18,7 +18,7 @@ def weights(source: Axis, points: Any, interpolation: str, dtype: Any) -> Array:
     """Weights that give the values at `points` from the samples of `source`: shape (points, samples).
 
     Linear takes the two neighbours, nearest one (the upper of two equally near). Beyond the ends of an axis that is not
-    periodic the value is zero, half a cell past the last sample at most counting as that sample for `nearest`.
+    periodic zeros follow: linear falls to zero within one cell past the last sample, nearest within half a cell.
     """
     position = (jnp.asarray(points, dtype) - jnp.asarray(source.lower, dtype)) / jnp.asarray(source.step, dtype)
     distance = position[:, None] - jnp.arange(source.samples, dtype=dtype)[None, :]

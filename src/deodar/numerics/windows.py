@@ -18,9 +18,18 @@ FOR_EVER = 1e30
 class Window(Part):
     """On from `start` until before `stop`; a pair of numbers may stand for it.
 
+    Equation:
+        w(t) = 1 where start <= t < stop, else 0
+
     Parameters:
         start: first moment, in the document's time unit.
-        stop: first moment at which it is off again; by default never.
+        stop: first moment at which it is off again, in the document's time unit; by default never.
+
+    Shapes:
+        One number at each moment.
+
+    Reference:
+        no reference
     """
 
     start: Annotated[float, Live("time", meaning="first moment")] = 0.0

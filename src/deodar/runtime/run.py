@@ -15,12 +15,15 @@ from deodar.compiler.program import Port
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, TimeError, WorldError
 from deodar.model.document import Document
-from deodar.parameters import parameters
+from deodar.parameters import parameters, real, show
 from deodar.worlds._base import World
 
 Tree = Any
 CHUNK_SECONDS = 0.2
 """Wall time between two looks at the outside: progress, Ctrl-C, values that are not finite."""
+
+MOST_STEPS = 2**50
+"""Steps that a time in float64 still tells apart; beyond any run."""
 
 
 @dc.dataclass(frozen=True)
@@ -172,6 +175,8 @@ class Run:
     def _provided(self) -> dict[str, Sensor]:
         sensors = {e.id: e.element for e in self.doc.entries if isinstance(e.element, Sensor)}
         by = self.doc.by_id()
+        if self.world is not None and not isinstance(self.world, World):
+            raise WorldError(f"{show(self.world)} is no world", fix="For a picture: world=Picture('photo.jpg') from deodar.worlds.picture")
         for ident, sensor in sensors.items():
             if self.world is None:
                 raise WorldError(
@@ -202,7 +207,11 @@ class Run:
         self.read_at = slot
         for ident, sensor in self.sensors.items():
             axes = tuple(sensor.axes)
-            reading = np.asarray(self.world.sense(sensor.sensor, axes, self.clock.time), self.program.program.dtype)
+            given = self.world.sense(sensor.sensor, axes, self.clock.time)
+            try:
+                reading = np.asarray(given, self.program.program.dtype)
+            except (TypeError, ValueError):  # no numbers
+                reading = np.asarray(np.nan)
             if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
                 raise WorldError(
                     f"the world gave an array of shape {list(reading.shape)}, finite: {bool(np.isfinite(reading).all())}; it needs"
@@ -237,8 +246,8 @@ class Run:
 
 def require_step(doc: Document, dt: float) -> None:
     """Refuse a step longer than a time constant: the Euler method would not follow, or diverge."""
-    if isinstance(dt, (bool, str)) or not np.isfinite(dt) or dt <= 0:
-        raise TimeError(f"dt is {dt!r}; it is a number above 0, in {doc.time_unit}")
+    if not 0 < (real(dt) or 0) < math.inf:
+        raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
     for e in doc.entries:
         tau = getattr(e.element, "tau", None)
         declared = next((p for p in parameters(type(e.element)) if p.name == "tau"), None)
@@ -252,10 +261,13 @@ def require_step(doc: Document, dt: float) -> None:
 
 def whole(duration: Any, dt: float, what: str) -> int:
     """How many steps of dt a duration is; refused unless it is a whole number of them."""
-    if isinstance(duration, (bool, str)) or not np.isscalar(duration) or not 0 <= float(cast(Any, duration)) < np.inf:
-        raise TimeError(f"{what} is {duration!r}; it is a number, 0 or above")
-    duration = float(cast(Any, duration))
+    given = real(duration)
+    if given is None or not 0 <= given < math.inf:
+        raise TimeError(f"{what} is {show(duration)}; it is a number, 0 or above")
+    duration = given
     n = duration / dt
+    if n > MOST_STEPS:
+        raise TimeError(f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS} can be counted")
     if abs(n - round(n)) > 1e-6 * max(1.0, abs(n) * 1e-3):
         near = [k * dt for k in (int(n), int(n) + 1)]
         raise TimeError(f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}")

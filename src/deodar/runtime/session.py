@@ -66,7 +66,7 @@ class Session:
         self._precision = precision
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
-        doc = model.document
+        doc = require_model(model).document
         model.require()
         memory.require(resolve(doc)[0], precision, 1, 0)
         step = doc.step if dt is None else dt
@@ -78,7 +78,7 @@ class Session:
     def step(self, n: int = 1) -> None:
         """So many Euler steps."""
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
-            raise TimeError(f"a number of steps is a whole number, 0 or above, not {n!r}")
+            raise TimeError(f"a number of steps is a whole number, 0 or above, not {show(n)}")
         left = int(n)
         while left:
             left -= self._to_new_dt(left)
@@ -276,10 +276,17 @@ def _plain(value: Any) -> Any:
     return value.tolist() if isinstance(value, np.ndarray) else f"array {value.digest}" if isinstance(value, FrozenArray) else value
 
 
+def require_model(model: Any) -> Model:
+    """The model, refused if it is something else."""
+    if not isinstance(model, Model):
+        raise ModelError(f"{show(model)} is no model", fix="Build one with dd.Model(name), or read one with dd.load(file)")
+    return model
+
+
 def require_seed(seed: Any) -> int:
     """The seed (or trial) as a number, refused outside 0 to 2^32 - 1."""
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed <= LARGEST_SEED:
-        raise ParameterError(f"a seed (or trial) is a whole number from 0 to 2^32 - 1, not {seed!r}")
+        raise ParameterError(f"a seed (or trial) is a whole number from 0 to 2^32 - 1, not {show(seed)}")
     return int(seed)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
+import math
 import sys
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -20,11 +20,11 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
-from deodar.parameters import leaves
+from deodar.parameters import leaves, real, show
 from deodar.recording.provenance import provenance
 from deodar.runtime import memory
 from deodar.runtime.run import Run, require_step, whole
-from deodar.runtime.session import require_seed
+from deodar.runtime.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
 if TYPE_CHECKING:
@@ -68,8 +68,10 @@ def simulate(
     Raises:
         Interrupted: on Ctrl-C; its `data` holds what was recorded until then.
     """
-    doc = model.document
+    doc = require_model(model).document
     model.require()
+    if sweep is not None and not isinstance(sweep, Mapping):
+        raise ParameterError(f"sweep gives for each parameter path its values, not {show(sweep)}", fix="For example sweep={'u.tau': [10, 20]}")
     step = doc.step if dt is None else dt
     require_step(doc, step)
     seed = require_seed(seed)
@@ -94,7 +96,7 @@ def simulate(
     store = _Store(program, found, batch, count)
     about = provenance(
         model, doc, run, duration=float(duration), seed=seed, every=every, record=None if record is None else _list(record),
-        trials=list(numbers) if names else None, sweep={k: [float(v) for v in vs] for k, vs in (sweep or {}).items()},
+        trials=list(numbers) if names else None, sweep=points.by_path,
     )  # fmt: skip
     stopped = False
     try:
@@ -113,7 +115,7 @@ def simulate(
         ],
         times,
         names,
-        {k: [float(v) for v in vs] for k, vs in (sweep or {}).items()},
+        points.by_path,
         about | {"complete": not stopped},
     )
     if stopped:
@@ -130,14 +132,24 @@ class _Points:
         self.leaves: list[list[Leaf]] = []
         lists: list[list[float]] = []
         for path, values in sweep.items():
-            if isinstance(values, (str, bytes)) or not np.iterable(values) or not len(list(values)):
-                raise ParameterError("needs a list of values", where=f"sweep of {path}")
+            given = [] if isinstance(values, (str, bytes)) or not np.iterable(values) else list(values)
+            found = [number for number in map(real, given) if number is not None]
+            if not given or len(found) < len(given):
+                raise ParameterError(f"needs a list of numbers, not {show(values)}", where=f"sweep of {path}")
             self.leaves.append(_driven(doc, path))
-            lists.append([float(v) for v in values])
+            lists.append(found)
         self.lists = lists
-        self.size = int(np.prod([len(v) for v in lists], dtype=int))
-        grid = list(itertools.product(*lists))
-        self.values = [np.array([point[k] for point in grid]) for k in range(len(lists))]
+        self.size = math.prod(len(v) for v in lists)
+
+    @property
+    def values(self) -> list[np.ndarray]:
+        """For each entry its value at every point; made when it is known that they fit into memory."""
+        return [grid.ravel() for grid in np.meshgrid(*(np.array(v) for v in self.lists), indexing="ij")]
+
+    @property
+    def by_path(self) -> dict[str, list[float]]:
+        """For each path the values it takes."""
+        return dict(zip(self.paths, self.lists, strict=True))
 
     def documents(self) -> Iterator[Document]:
         """The document at each value of each entry (not each point): values are checked one by one."""
@@ -192,7 +204,10 @@ def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str,
 
 
 def _list(record: Sequence[str] | str) -> list[str]:
-    return [record] if isinstance(record, str) else list(record)
+    paths: list[Any] = [record] if isinstance(record, str) or not np.iterable(record) else list(record)
+    if not all(isinstance(path, str) for path in paths):
+        raise ParameterError(f"record names ports by their paths, not {show(record)}", fix="For example record=['u.activation']")
+    return paths
 
 
 def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
@@ -201,15 +216,17 @@ def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
     return int(np.prod(shape(axes), dtype=int))
 
 
-def _trials(trials: int | Sequence[int] | None) -> tuple[list[int] | None, list[int]]:
+def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, Sequence[int]]:
     """Labels of the dimension (None where there is none), and trial numbers."""
     if trials is None:
         return None, [0]
-    if isinstance(trials, bool) or (isinstance(trials, int) and trials < 1):
-        raise ParameterError(f"trials is {trials!r}; it is a number of trials, at least 1, or a list of trial numbers")
-    numbers = list(range(trials)) if isinstance(trials, int) else [require_seed(t) for t in trials]
+    if isinstance(trials, (int, np.integer)) and not isinstance(trials, bool) and 1 <= trials <= LARGEST_SEED:
+        return range(int(trials)), range(int(trials))  # not a list: whether so many fit into memory is not yet known
+    if isinstance(trials, (str, bool, int, np.integer)) or not np.iterable(trials):
+        raise ParameterError(f"trials is {show(trials)}; it is a number of trials, at least 1, or a list of trial numbers")
+    numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
-        raise ParameterError(f"trials is {trials!r}; each trial is named once, and there is at least one")
+        raise ParameterError(f"trials is {show(trials)}; each trial is named once, and there is at least one")
     return numbers, numbers
 
 

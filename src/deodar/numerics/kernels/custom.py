@@ -55,7 +55,7 @@ class Custom(Kernel):
             half = spacing * (weights.shape[d] - 1) / 2
             if half == 0:
                 continue
-            reach = int(np.ceil(half / axis.step))
+            reach = int(np.floor(half / axis.step + 1e-9))  # zero beyond the last sample
             points = axis.step * np.arange(-reach, reach + 1)
             grid = Axis("lag", -half, half, weights.shape[d])
             weights = along(resampling.weights(grid, points, "linear", dtype), weights, d)

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.parameters import PerAxis, Rebuild
+from deodar.parameters import PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -35,7 +35,7 @@ class Shifted(Kernel):
         shifted couplings of its plan).
     """
 
-    kernel: Kernel = Gaussian()
+    kernel: Annotated[Kernel, Recompile(meaning="the inner kernel")] = Gaussian()
     shift: Annotated[PerAxis, Rebuild("axis", meaning="how far the kernel is moved")] = 0.0
 
     def terms(self) -> Sequence[Term]:

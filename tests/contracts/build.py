@@ -1,0 +1,126 @@
+"""A small model around one example of anything registered: what the contract tests run.
+
+Sources that fit are found by trying a few kinds of axes; a new element or coupling is covered without a word here as long as
+its example can be fed by one of them.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+import deodar as dd
+from deodar import registry
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.noise import Noise
+from deodar.model.check import check
+from deodar.model.resolve import Node, resolve
+from deodar.numerics.axes import Axes, shape
+from deodar.parameters import Part, leaves, parameters
+from deodar.worlds._base import World
+
+KINDS = {**registry.kinds("elements"), **registry.kinds("couplings")}
+PARTS = {**registry.kinds("numerics.kernels"), **registry.kinds("numerics.sigmoids")}
+
+
+class Anything(World):
+    """A world that has every sensor and reads a fixed pattern."""
+
+    def require(self, sensor: str) -> None:
+        """Every sensor is here."""
+
+    def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
+        return np.random.default_rng(len(sensor)).random(shape(axes))
+
+
+def candidates(element: Element) -> list[tuple[dd.Axis, ...]]:
+    """Axes of sources worth trying, for elements that take what comes."""
+    own: tuple[dd.Axis, ...] = tuple(getattr(element, "axes", ()))
+    channel = dd.Axis("channel", 0, 2, 3)
+    x, y = dd.Axis("x", 0, 20, samples=21), dd.Axis("y", 0, 8, samples=9)
+    return [(x,), own, (), (x, y), (*own[:1], channel), (*own[:2], channel), (*own, y)]
+
+
+def source(name: str, axes: Axes, amplitude: float = 0.8, at: float = 0.4) -> Element:
+    """A peak in the middle; without axes a number."""
+    if not axes:
+        return Boost(name, [], amplitude)
+    center = [a.lower + at * a.range for a in axes]
+    return dd.GaussianStimulus(name, axes, center=center, sigma=[max(a.range / 6, a.step / 2) for a in axes], amplitude=amplitude)
+
+
+def around(element: Element, every: int = 1, noisy: bool = False) -> dd.Model:
+    """A model in which every input of the element has a source (called `to PORT`), under the element's own name."""
+    problems: list[Any] = []
+    for axes in candidates(element):
+        model = dd.Model("contract")
+        handle = model.add(element, every=every)
+        for port in element.ports():
+            model.connect(model.add(source(f"to {port}", axes)), handle[port])
+            if noisy:
+                model.connect(model.add(Noise(f"noise to {port}", axes, 0.02)), handle[port])
+        problems = check(model.document)
+        if not problems:
+            return model
+        if not element.ports():
+            break
+    raise AssertionError(f"no source fits the example of {type(element).__name__}: {problems}")
+
+
+def example(kind: str) -> Element:
+    """The example of a kind, under the name `example`."""
+    return dc.replace(KINDS[kind].example(), name="example")
+
+
+def holding(part: Part) -> Element:
+    """A field with the example of a kernel or a sigmoid."""
+    x = dd.Axis("x", 0, 20, samples=21)
+    if "sigmoids" in type(part).__module__:
+        return dd.Field("example", [x], sigmoid=part, kernel=[dd.Gaussian(0.1, 2.0)])  # type: ignore[arg-type]
+    return dd.Field("example", [x], kernel=[part])  # type: ignore[list-item]
+
+
+def any_example(kind: str) -> Element:
+    """The example of anything that is registered, in an element that can stand in a model."""
+    return example(kind) if kind in KINDS else holding(PARTS[kind].example())
+
+
+def node(model: dd.Model, path: str = "example") -> Node:
+    """The element as the engine resolves it, with the axes at its ports."""
+    return next(n for n in resolve(model.document)[0] if n.path == path)
+
+
+def session(model: dd.Model, **options: Any) -> dd.Session:
+    """A session in a world that has everything."""
+    return dd.Session(model, world=Anything(), **options)
+
+
+def record(model: dd.Model, duration: float, ports: Sequence[str], **options: Any) -> Any:
+    """A record made in a world that has everything."""
+    return dd.simulate(model, duration, record=ports, world=Anything(), **options)
+
+
+def another(value: float, lower: float | None, upper: float | None) -> float:
+    """Another value inside the bounds, well away from the first."""
+    for new in (1.25 * value + 0.125, 0.75 * value, 0.5 * value - 0.125):
+        if new != value and (lower is None or new >= lower) and (upper is None or new <= upper):
+            return new
+    raise AssertionError(f"no other value between {lower} and {upper} than {value}")
+
+
+def changes(element: Element) -> list[tuple[str, Any]]:
+    """For each traced leaf of an element another value: (path, value)."""
+    out: list[tuple[str, Any]] = []
+    for path, value, p in leaves(element):
+        if isinstance(value, np.ndarray):
+            out.append((path, 0.5 * value + 0.125))
+        else:
+            out.append((path, another(float(value), p.lower, p.upper)))
+    return out
+
+
+__all__ = ["KINDS", "PARTS", "Anything", "any_example", "around", "changes", "example", "node", "parameters", "record", "session", "source"]

@@ -1,0 +1,82 @@
+"""Axes that do not fit: the message names both ports, both axes, and what to type."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+
+import pytest
+
+import deodar as dd
+from deodar.errors import ModelError
+from deodar.model.check import check
+from deodar.numerics.axes import Axes, describe
+from tests.contracts.build import KINDS, PARTS, any_example, around, node, source
+
+
+def moved(axes: Axes) -> list[dd.Axis]:
+    """Axes of the same names and samples that lie elsewhere."""
+    return [dc.replace(a, lower=a.lower + a.range / 3, upper=a.upper + a.range) for a in axes]
+
+
+def message(model: dd.Model) -> str:
+    with pytest.raises(ModelError) as caught:
+        dd.Session(model)
+    return str(caught.value)
+
+
+INTO = [(kind, port) for kind in KINDS for port, axes in node(around(any_example(kind))).ins.items() if axes]
+OUT_OF = [(kind, port) for kind in (*KINDS, *PARTS) for port, axes in node(around(any_example(kind))).outs.items() if axes]
+
+
+@pytest.mark.parametrize(("kind", "port"), INTO)
+def test_a_second_source_that_does_not_fit(kind, port):
+    model = around(any_example(kind))
+    axes = node(model).ins[port]
+    bad = moved(axes)
+    model.connect(model.add(source("wrong", tuple(bad))), model["example"][port])
+    said = message(model)
+    for part in ("wrong.output", describe(bad), f"example.{port}", describe(axes), "Write: ", "(build.py:"):
+        assert part in said, f"{part!r} is missing in: {said}"
+
+
+@pytest.mark.parametrize(("kind", "port"), OUT_OF)
+def test_a_target_that_does_not_fit(kind, port):
+    model = around(any_example(kind))
+    axes = node(model).outs[port]
+    bad = moved(axes)
+    model.connect(model["example"][port], model.add(dd.Field("target", bad)))
+    said = message(model)
+    for part in (f"example.{port}", describe(axes), "target.input", describe(bad), "Write: "):
+        assert part in said, f"{part!r} is missing in: {said}"
+
+
+def misfit(kind: str, port: str) -> tuple[dd.Model, list[dd.Axis]]:
+    """The element with one source for each port, of which one lies elsewhere."""
+    element = any_example(kind)
+    axes = node(around(element)).ins
+    bad = moved(axes[port])
+    model = dd.Model("misfit")
+    handle = model.add(element)
+    for other in element.ports():
+        model.connect(model.add(source(f"wrong {other}" if other == port else other, tuple(bad) if other == port else axes[other])), handle[other])
+    return model, bad
+
+
+# ports that take what comes are content with it, unless parameters say otherwise
+ONLY = [(kind, port) for kind, port in INTO if check(misfit(kind, port)[0].document)]
+
+
+def test_elements_with_axes_of_their_own_refuse_others():
+    assert {"Field", "Attractor", "PeakPosition", "Weighting", "Project", "ColorSpace"} <= {kind for kind, _ in ONLY}
+
+
+@pytest.mark.parametrize(("kind", "port"), ONLY)
+def test_an_only_source_that_does_not_fit(kind, port):
+    """Also where the port takes what comes, and the misfit shows in the parameters."""
+    model, bad = misfit(kind, port)
+    said = message(model)
+    others = [other for other in any_example(kind).ports() if other != port]
+    # where two ports must fit each other, either of them is the one that does not
+    assert any(f"{name}.output" in said and f"example.{end}" in said for name, end in [(f"wrong {port}", port), *zip(others, others, strict=True)])
+    for part in (describe(bad), "rite: "):
+        assert part in said, f"{part!r} is missing in: {said}"

@@ -1,0 +1,107 @@
+"""Everything that can stand in a model runs: finite for a long time, alone and in a batch, with the shapes it declares."""
+
+from __future__ import annotations
+
+import jax
+import numpy as np
+import pytest
+
+from deodar.element import Setting, Time
+from deodar.model import find
+from deodar.numerics.axes import shape
+from deodar.parameters import leaves
+from tests.contracts.build import KINDS, PARTS, any_example, around, node, record, session
+
+STEPS = 1000
+
+
+@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
+def test_finite_for_a_thousand_steps_from_init_also_in_a_hundred_trials(kind):
+    model = around(any_example(kind), noisy=True)
+    outs = node(model).outs
+    ports = [f"example.{port}" for port in outs]
+    data = record(model, STEPS * 0.5, ports, trials=100, every=STEPS * 0.25, dt=0.5)
+    for port, axes in outs.items():
+        values = data[f"example.{port}"].values
+        assert values.shape == (100, 3, *shape(axes))
+        assert np.isfinite(values).all()
+        assert data[f"example.{port}"].dims[2:] == tuple(a.name for a in axes)
+        for axis in axes:
+            np.testing.assert_array_equal(data[axis.name].values, axis.points)
+    single = session(model, dt=0.5)
+    single.step(STEPS)
+    for port in ports:
+        alone = single.read(port)
+        assert np.isfinite(alone).all()
+        # trial 0 alone and in the batch: the same noise; other programs add in another order
+        np.testing.assert_allclose(data[port].sel(trial=0).isel(time=-1).values, alone, rtol=2e-3, atol=2e-3 * max(1.0, abs(alone).max()))
+
+
+@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
+def test_every_port_can_be_read_and_has_the_axes_it_declares(kind):
+    model = around(any_example(kind))
+    here, s = node(model), session(model)
+    s.step(1)
+    entry = model["example"]
+    for port in find.readable(model.entry(entry.id)):
+        axes = here.outs[port] if port in here.outs else here.ins[port]
+        assert s.read(f"example.{port}").shape == shape(axes), port
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
+def test_one_copy_gives_just_what_it_declares(kind, precision):
+    """The element's own functions, without the compiler: shapes and precision of outputs and of the state."""
+    element = any_example(kind)
+    here = node(around(element))
+    at = Setting(here.ins, here.outs, np.dtype(precision))
+    with jax.enable_x64(precision == "float64"):
+        zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
+        zeros["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
+        noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
+        time = Time(*(at.dtype.type(v) for v in (0, 0, 1)))
+        state = element.init(at)
+        constants = element.prepare(at)
+        out = jax.eval_shape(lambda: element.output(at, state, zeros, constants, time, noise))
+        assert {port: np.shape(v) for port, v in out.items()} == {port: shape(axes) for port, axes in here.outs.items()}
+        assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(here.outs, at.dtype)
+        assert element.stateful == bool(state)
+        new = jax.eval_shape(lambda: element.advance(at, state, zeros, constants, time, noise))
+        assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {k: (np.shape(v), v.dtype) for k, v in state.items()}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_passed_on_in_the_same_instant_is_declared(kind):
+    """A port that declares no input of the same instant must not depend on one."""
+    element = any_example(kind)
+    model = around(element)
+    s = session(model)
+    s.step(3)
+    seen = {port: s.read(f"example.{port}") for port in node(model).outs}
+    for port in element.ports():
+        s.set(f'"to {port}".amplitude', 0.2)
+    for port, before in seen.items():
+        passes = type(element).direct.get(port, ())
+        if not passes:
+            assert np.array_equal(s.read(f"example.{port}"), before), port
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_at_a_step_of_its_own(kind):
+    """Every part may run at a multiple of the step: its state then changes at that multiple only."""
+    element = any_example(kind)
+    model = around(element, every=3)
+    data = record(model, 12, [f"example.{port}" for port in node(model).outs], every=1, dt=1.0)
+    for variable in data.data_vars.values():
+        values = variable.values.reshape(13, -1)
+        assert np.isfinite(values).all()
+        if element.stateful:
+            moved = np.flatnonzero((values[1:] != values[:-1]).any(axis=1)) + 1
+            assert (moved % 3 == 0).all()
+
+
+def test_examples_have_parameters_in_range():
+    for kind in (*KINDS, *PARTS):
+        for path, value, p in leaves(any_example(kind)):
+            assert p.lower is None or np.min(value) >= p.lower, path
+            assert p.upper is None or np.max(value) <= p.upper, path

@@ -1,0 +1,49 @@
+"""The matrices that correlate noise, without chance: their covariance is F F^T."""
+
+from __future__ import annotations
+
+import jax
+import numpy as np
+import pytest
+
+from deodar import Axis
+from deodar.numerics import noise
+
+LINE = Axis("x", 0, 99, 100)
+RING = Axis("x", 0, 100, 100, periodic=True)
+
+
+def covariance(axis, length, dtype="float64"):
+    with jax.enable_x64(dtype == "float64"):
+        f = np.asarray(noise.correlation((axis,), (length,), np.dtype(dtype))[0], float)
+    return f @ f.T
+
+
+def wanted(axis, length):
+    d = axis.points[:, None] - axis.points[None]
+    if axis.periodic:
+        d = d - axis.range * np.round(d / axis.range)
+    return np.exp(-(d**2) / (2 * length**2))
+
+
+@pytest.mark.parametrize("length", [0.1, 0.5, 1.0, 2.0, 6.0, 30.0, 500.0])
+@pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
+def test_the_variance_is_one_at_every_point(axis, length):
+    assert abs(np.diag(covariance(axis, length)) - 1).max() < 1e-12
+    assert abs(np.diag(covariance(axis, length, "float32")) - 1).max() < 1e-5
+
+
+@pytest.mark.parametrize("length", [1.5, 2.0, 6.0, 12.5])
+def test_the_correlation_on_a_ring(length):
+    assert abs(covariance(RING, length) - wanted(RING, length)).max() < 3e-3
+
+
+@pytest.mark.parametrize("length", [0.5, 1.5, 2.0, 6.0, 12.0, 40.0])
+def test_the_correlation_on_a_line_up_to_its_borders(length):
+    assert abs(covariance(LINE, length) - wanted(LINE, length)).max() < 1e-9
+    assert abs(covariance(LINE, length, "float32") - wanted(LINE, length)).max() < 1e-4
+
+
+def test_the_grid_does_not_matter():
+    fine = Axis("x", 0, 99, 199)
+    assert abs(covariance(fine, 6.0)[::2, ::2] - covariance(LINE, 6.0)).max() < 1e-9

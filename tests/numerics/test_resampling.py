@@ -1,0 +1,73 @@
+"""Between grids: interpolation, and the reductions over axes."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from deodar import Axis
+from deodar.numerics import resampling
+
+LINE = Axis("x", 0, 10, 11)
+RING = Axis("x", 0, 12, 12, periodic=True)
+
+
+def weights(axis, points, how="linear", dtype=jnp.float64):
+    with jax.enable_x64(dtype == jnp.float64):
+        return np.asarray(resampling.weights(axis, np.asarray(points, float), how, dtype))
+
+
+@pytest.mark.parametrize("how", resampling.INTERPOLATIONS)
+@pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
+def test_samples_stay_what_they_are(axis, how):
+    assert np.array_equal(weights(axis, axis.points, how), np.eye(axis.samples))
+
+
+@pytest.mark.parametrize("dtype", [jnp.float32, jnp.float64])
+@pytest.mark.parametrize("samples", [3, 7, 100, 641])
+def test_the_ends_survive_any_sampling(samples, dtype):
+    """Rounding never takes the last sample of an axis out of the other's reach."""
+    fine = Axis("x", 0.1, 0.7, samples)
+    for how in resampling.INTERPOLATIONS:
+        np.testing.assert_allclose(weights(Axis("x", 0.1, 0.7, 13), fine.points, how, dtype).sum(1), 1.0, atol=2e-5)
+
+
+def test_linear_follows_straight_lines():
+    points = np.linspace(0, 10, 37)
+    np.testing.assert_allclose(weights(LINE, points) @ (3 - 2 * LINE.points), 3 - 2 * points, rtol=1e-12, atol=1e-12)
+
+
+def test_linear_closes_the_ring():
+    w = weights(RING, [11.25])
+    assert w[0, 11] == 0.75 and w[0, 0] == 0.25
+    np.testing.assert_allclose(weights(RING, [-0.75, 35.25]), np.stack([w[0], w[0]]), atol=1e-12)
+
+
+def test_nearest_takes_one_and_the_upper_of_two():
+    w = weights(LINE, [2.4, 2.5, 2.6, -0.5, 10.4], "nearest")
+    assert w.argmax(1).tolist() == [2, 3, 3, 0, 10] and np.array_equal(w.sum(1), np.ones(5))
+    assert weights(RING, [11.5, -0.5, -0.6], "nearest").argmax(1).tolist() == [0, 0, 11]
+
+
+def test_beyond_the_ends_there_is_nothing():
+    """Zeros follow the last sample: linear weights fall to nothing within one cell, the nearest within half of one."""
+    assert not weights(LINE, [-1, 11, 400]).any()
+    assert weights(LINE, [-0.25])[0, 0] == 0.75
+    assert not weights(LINE, [-0.6, 10.5], "nearest").any()
+
+
+def test_a_ring_of_one_sample_is_the_same_everywhere():
+    one = Axis("x", 0, 5, 1, periodic=True)
+    for how in resampling.INTERPOLATIONS:
+        assert np.array_equal(weights(one, [0, 1.3, 2.5, 4.9], how), np.ones((4, 1)))
+
+
+def test_reductions():
+    y = jnp.asarray(np.random.default_rng(0).random((4, 5)), jnp.float32)
+    axis = Axis("y", 0, 2, 5)
+    expected = {"integral": y.sum(1) * 0.5, "sum": y.sum(1), "mean": y.mean(1), "max": y.max(1), "min": y.min(1)}
+    assert set(expected) == set(resampling.REDUCTIONS)
+    for how, value in expected.items():
+        np.testing.assert_allclose(resampling.reduce(y, 1, axis, how), value, rtol=1e-6)

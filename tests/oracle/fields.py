@@ -1,0 +1,101 @@
+"""The field equation, stimuli, and attractor dynamics as loops over time."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from tests.oracle.kernels import dense, each, grid
+
+
+def sigmoid(g, u):
+    match type(g).__name__:
+        case "Logistic":
+            return 1 / (1 + np.exp(-g.beta * (u - g.threshold)))
+        case "Absolute":
+            return 0.5 * (1 + g.beta * (u - g.threshold) / (1 + g.beta * abs(u - g.threshold)))
+        case "Step":
+            return np.where(u > g.threshold, 1.0, 0.0)
+        case "Linear":
+            return g.slope * (u - g.threshold)
+        case "SemiLinear":
+            return np.where(g.slope * (u - g.threshold) > 0, g.slope * (u - g.threshold), 0.0)
+    raise NotImplementedError(type(g).__name__)
+
+
+def volume(axes):
+    return math.prod(grid(a)[1] for a in axes)
+
+
+class Field:
+    """tau du/dt = -u + h + s + K g(u) - c integral g(u) dx, by Euler steps."""
+
+    def __init__(self, field, many=12):
+        self.p = field
+        self.shape = tuple(a.samples for a in field.axes)
+        self.weights = dense(field.kernel, field.axes, many)
+        self.u = np.full(self.shape, field.resting_level, float)
+
+    @property
+    def output(self):
+        return sigmoid(self.p.sigmoid, self.u)
+
+    @property
+    def interaction(self):
+        g = self.output
+        return (self.weights @ g.ravel()).reshape(self.shape) - self.p.global_inhibition * volume(self.p.axes) * g.sum()
+
+    def step(self, s, dt):
+        self.u = self.u + dt / self.p.tau * (-self.u + self.p.resting_level + s + self.interaction)
+
+
+def run(field, stimulus, steps, dt, many=12):
+    """Activation at 0, dt, 2 dt, ...: `stimulus(k)` is the input during step k."""
+    f = Field(field, many)
+    seen = [f.u]
+    for k in range(steps):
+        f.step(stimulus(k), dt)
+        seen.append(f.u)
+    return np.array(seen)
+
+
+def stimulus(s, time):
+    """A stimulus of deodar at a time."""
+    shape = tuple(a.samples for a in s.axes)
+    on = not s.windows or any(w.start <= time + 1e-9 and time < w.stop - 1e-9 for w in s.windows)
+    out = np.zeros(shape)
+    for place in np.ndindex(*shape):
+        value = s.amplitude if on else 0.0
+        for d, (axis, i) in enumerate(zip(s.axes, place, strict=True)):
+            x, step = grid(axis)
+            away = x[i] - each(s.center, d) if hasattr(s, "center") else 0.0
+            if axis.periodic:
+                period = axis.upper - axis.lower
+                away = min((away + m * period for m in range(-3, 4)), key=abs)
+            if type(s).__name__ == "GaussianStimulus":
+                value *= math.exp(-(away**2) / (2 * each(s.sigma, d) ** 2))
+            elif type(s).__name__ == "BoxStimulus":
+                half = each(s.width, d) / 2
+                value *= max(0.0, min(away + step / 2, half) - max(away - step / 2, -half)) / step
+        out[place] = value
+    return out
+
+
+def attractor(a, phi, f, dt):
+    """One step of a motor variable."""
+    x, step = grid(a.axis)
+    if a.axis.periodic:
+        period = a.axis.upper - a.axis.lower
+        rate = sum(period / (2 * math.pi) * math.sin(2 * math.pi * (xi - phi) / period) * fi * step for xi, fi in zip(x, f, strict=True)) / a.tau
+    else:
+        rate = sum((a.gain * xi + a.offset - phi) * fi * step for xi, fi in zip(x, f, strict=True)) / a.tau
+    if a.fastest > 0:
+        rate = min(a.fastest, max(-a.fastest, rate))
+    phi = phi + dt * rate
+    if a.axis.periodic:
+        while phi >= a.axis.upper:
+            phi -= period
+        while phi < a.axis.lower:
+            phi += period
+    return phi
