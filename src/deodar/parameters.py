@@ -16,6 +16,7 @@ import dataclasses as dc
 import functools
 import hashlib
 import math
+import numbers
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -23,7 +24,6 @@ from typing import Any, ClassVar, Literal, TypeVar
 
 import numpy as np
 
-from deodar import registry
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 
 Cost = Literal["live", "rebuild", "recompile"]
@@ -91,6 +91,7 @@ class FrozenArray:
 
 ArrayLike = FrozenArray | np.ndarray | Sequence[Any]
 
+PLAIN = ("number", "integer", "flag", "text", "texts", "per_axis", "numbers", "pairs")
 Form = Literal["number", "integer", "flag", "text", "texts", "per_axis", "axes", "axis", "part", "parts", "array", "numbers", "pairs"]
 
 
@@ -136,7 +137,7 @@ class Part:
         problems: list[Problem] = []
         for p in parameters(type(self)):
             try:
-                object.__setattr__(self, p.name, _normal(p, getattr(self, p.name)))
+                object.__setattr__(self, p.name, normal(p, getattr(self, p.name)))
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
         if not problems:
@@ -234,7 +235,7 @@ def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
 # ------------------------------------------------------------------------------------------------ checking values
 
 
-def _normal(p: Parameter, value: Any) -> Any:
+def normal(p: Parameter, value: Any) -> Any:
     """The value in its stored form; a ValueError says what is wrong with it."""
     if value is None:
         if p.optional:
@@ -243,10 +244,22 @@ def _normal(p: Parameter, value: Any) -> Any:
     return _NORMAL[p.form](p, value)
 
 
+def real(value: Any) -> float | None:
+    """The number that a value is, or None if it is none; true and false are not, nor is text that looks like one."""
+    if isinstance(value, (np.ndarray, np.generic)) or (hasattr(value, "item") and np.ndim(value) == 0):
+        value = value.item() if np.ndim(value) == 0 else None
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        return None
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
 def _number(p: Parameter, value: Any) -> float:
-    if isinstance(value, (str, bool, np.bool_)) or not np.isscalar(value):
-        raise ValueError(f"needs a number, not {_show(value)}")
-    number = float(typing.cast(Any, value))
+    number = real(value)
+    if number is None:
+        raise ValueError(f"needs a number, not {show(value)}")
     if not math.isfinite(number):
         raise ValueError(f"needs a finite number, not {number}")
     if p.lower is not None and number < p.lower:
@@ -257,22 +270,27 @@ def _number(p: Parameter, value: Any) -> float:
 
 
 def _integer(p: Parameter, value: Any) -> int:
-    if isinstance(value, (bool, str)) or not np.isscalar(value) or float(typing.cast(Any, value)) != int(typing.cast(Any, value)):
-        raise ValueError(f"needs a whole number, not {_show(value)}")
-    return int(_number(p, int(typing.cast(Any, value))))
+    number = real(value)
+    if number is None or not math.isfinite(number) or number != round(number):
+        raise ValueError(f"needs a whole number, not {show(value)}")
+    return round(_number(p, number))
 
 
 def _flag(p: Parameter, value: Any) -> bool:
     if not isinstance(value, (bool, np.bool_)):
-        raise ValueError(f"needs true or false, not {_show(value)}")
+        raise ValueError(f"needs true or false, not {show(value)}")
     return bool(value)
 
 
 def _text(p: Parameter, value: Any) -> str:
     if callable(value) and hasattr(value, "__qualname__"):
+        if "<" in value.__qualname__:
+            raise ValueError("needs a function that is found by its name in a module; a lambda or a function inside another one is not")
         value = f"{value.__module__}:{value.__qualname__}"
     if not isinstance(value, str):
-        raise ValueError(f"needs text, not {_show(value)}")
+        raise ValueError(f"needs text, not {show(value)}")
+    if not is_text(value):
+        raise ValueError(f"holds characters that cannot be written: {show(value)}")
     if p.choices and value not in p.choices:
         raise ValueError(f"is {value!r}; it is one of {', '.join(p.choices)}. {did_you_mean(value, p.choices)}")
     return value
@@ -283,8 +301,11 @@ def _texts(p: Parameter, value: Any) -> tuple[str, ...]:
 
 
 def _per_axis(p: Parameter, value: Any) -> float | tuple[float, ...]:
-    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(typing.cast(Any, value)) == 1:
-        return tuple(_number(p, v) for v in typing.cast(Any, value))
+    if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1):
+        values = tuple(_number(p, v) for v in typing.cast(Any, value))
+        if not values:
+            raise ValueError("needs one number, or one for each axis, not none")
+        return values
     return _number(p, value)
 
 
@@ -293,7 +314,7 @@ def _declared(p: Parameter, value: Any) -> Any:
     if not isinstance(value, p.of) and issubclass(p.of, Part):
         value = p.of.accept(value)
     if not isinstance(value, p.of):
-        raise ValueError(f"needs {_an(p.of.__name__)}, not {_show(value)}")
+        raise ValueError(f"needs {an(p.of.__name__)}, not {show(value)}")
     return value
 
 
@@ -307,27 +328,39 @@ def _array(p: Parameter, value: Any) -> FrozenArray:
         return value
     try:
         array = FrozenArray(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"needs an array of numbers, not {_show(value)}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"needs an array of numbers, not {show(value)}") from None
     if not np.isfinite(array.data).all():
         raise ValueError("needs finite numbers; some are not")
     return array
 
 
 def _numbers(p: Parameter, value: Any) -> tuple[tuple[str, float], ...]:
-    items = value.items() if isinstance(value, Mapping) else value
-    try:
-        return tuple(sorted((str(k), _number(p, v)) for k, v in items))
-    except TypeError:
-        raise ValueError(f"needs names with numbers, not {_show(value)}") from None
+    return tuple(sorted((k, _number(p, v)) for k, v in _named(value, "numbers")))
 
 
 def _pairs(p: Parameter, value: Any) -> tuple[tuple[str, str], ...]:
-    items = value.items() if isinstance(value, Mapping) else value
+    return tuple((k, _text(p, v)) for k, v in _named(value, "names"))
+
+
+def _named(value: Any, what: str) -> list[tuple[str, Any]]:
+    """Pairs of a name and something, from a mapping or from a sequence of pairs; each name occurs once."""
+    items = list(value.items()) if isinstance(value, Mapping) else _items(value)
+    if not all(isinstance(item, (tuple, list)) and len(typing.cast(Any, item)) == 2 and isinstance(item[0], str) for item in items):
+        raise ValueError(f"needs names with {what}, not {show(value)}")
+    names = [k for k, _ in items]
+    if len(set(names)) < len(names):
+        raise ValueError(f"holds the same name twice: {show(value)}")
+    return [(k, v) for k, v in items]
+
+
+def is_text(value: str) -> bool:
+    """Whether text can be written to a file: no halves of characters."""
     try:
-        return tuple((str(k), str(v)) for k, v in items)
-    except (TypeError, ValueError):
-        raise ValueError(f"needs names with names, not {_show(value)}") from None
+        value.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 _NORMAL: dict[Form, Callable[[Parameter, Any], Any]] = {
@@ -338,17 +371,26 @@ _NORMAL: dict[Form, Callable[[Parameter, Any], Any]] = {
 
 def _items(value: Any) -> list[Any]:
     if isinstance(value, (str, bytes)) or not isinstance(value, collections.abc.Iterable):
-        raise ValueError(f"needs a list, not {_show(value)}")
+        raise ValueError(f"needs a list, not {show(value)}")
     return list(typing.cast(Any, value))
 
 
-def _show(value: Any) -> str:
-    text = repr(value)
+def show(value: Any) -> str:
+    """A value as messages show it: in one short line, whatever it is."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    try:
+        text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
+    except Exception as error:  # a number of thousands of digits, an object whose repr is broken
+        text = f"{type(value).__name__} ({error})"
+    if " at 0x" in text:
+        text = f"{an(type(value).__name__)}"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def _an(name: str) -> str:
-    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+def an(name: str) -> str:
+    """A name with its article: an Axis, a Kernel."""
+    return f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}"
 
 
 # ------------------------------------------------------------------------------------------------ traced leaves
@@ -491,169 +533,3 @@ def _child(holder: Any, step: str, path: str) -> Any:
             return named[step]
         raise UnknownName(f"{path}: there is no part {step!r}", fix=f"There are {len(items)}, counted from 0")
     raise UnknownName(f"{path}: nothing lies inside {step!r}")
-
-
-# ------------------------------------------------------------------------------------------------ JSON
-
-
-def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
-    """JSON Schema of a part; `reference(base)` gives the schema of the parts that may stand in its place."""
-    properties: dict[str, Any] = {"kind": {"const": cls.__name__}}
-    for p in parameters(cls):
-        if p.name == "name":
-            continue
-        form = _schema_form(p, reference)
-        if p.optional:
-            form = {"oneOf": [form, {"type": "null"}]}
-        for key, value in (("minimum", p.lower), ("maximum", p.upper)):
-            if value is not None and form.get("type") == "number":
-                form[key] = value
-        extra: dict[str, Any] = {"x-cost": p.cost}
-        for key, value in (("x-unit", p.unit), ("description", p.meaning)):
-            if value:
-                extra[key] = value
-        if isinstance(p.default, (bool, int, float, str)):
-            extra["default"] = p.default
-        properties[p.name] = form | extra
-    return {"type": "object", "title": cls.__name__, "properties": properties, "required": ["kind"]}
-
-
-def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
-    number: dict[str, Any] = {"type": "number"}
-    match p.form:
-        case "number":
-            return dict(number)
-        case "per_axis":
-            return {"oneOf": [number, {"type": "array", "items": number}]}
-        case "integer":
-            return {"type": "integer"}
-        case "flag":
-            return {"type": "boolean"}
-        case "text":
-            return {"enum": list(p.choices)} if p.choices else {"type": "string"}
-        case "texts":
-            return {"type": "array", "items": {"type": "string"}}
-        case "axes":
-            return {"type": "array", "items": {"type": "string"}, "description": "keys of the document's axes"}
-        case "axis":
-            return {"type": "string", "description": "key of one of the document's axes"}
-        case "part":
-            return reference(typing.cast(Any, p.of))
-        case "parts":
-            return {"type": "array", "items": reference(typing.cast(Any, p.of))}
-        case "array":
-            return {"type": "object", "properties": {"array": {"type": "string"}}, "required": ["array"]}
-        case "numbers":
-            return {"type": "object", "additionalProperties": number}
-        case "pairs":
-            return {"type": "object", "additionalProperties": {"type": "string"}}
-
-
-def to_json(part: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]) -> dict[str, Any]:
-    """Plain data of a part: its kind and every parameter, in the order of the fields."""
-    out: dict[str, Any] = {"kind": type(part).__name__}
-    for p in parameters(type(part)):
-        value = getattr(part, p.name)
-        if p.name == "name":
-            continue
-        match p.form if value is not None else "text":
-            case "axes":
-                value = [axis_key(a) for a in value]
-            case "axis":
-                value = axis_key(value)
-            case "part":
-                value = to_json(value, axis_key, array_key)
-            case "parts":
-                value = [to_json(v, axis_key, array_key) for v in value]
-            case "array":
-                value = {"array": array_key(value)}
-            case "numbers" | "pairs":
-                value = dict(value)
-            case _:
-                value = list(typing.cast(Any, value)) if isinstance(value, tuple) else value
-        out[p.name] = value
-    return out
-
-
-def from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any]) -> Any:
-    """The part that plain data describe; raises with every problem found, each with its path."""
-    problems: list[Problem] = []
-    part = _from_json(data, where, axes, arrays, base, problems, {})
-    if problems:
-        raise ParameterError(problems)
-    return part
-
-
-def _from_json(
-    data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any], problems: list[Problem], given: dict[str, Any],
-) -> Any:  # fmt: skip
-    if not isinstance(data, dict) or not isinstance(typing.cast(Any, data).get("kind"), str):
-        problems.append(Problem(where, f"needs an object with a kind, not {_show(data)}"))
-        return None
-    data = typing.cast("dict[str, Any]", data)
-    try:
-        cls = registry.kind(data["kind"])
-    except UnknownName as error:
-        problems.append(Problem(where, error.problems[0].what, error.problems[0].fix))
-        return None
-    if not issubclass(cls, base):
-        problems.append(Problem(where, f"{_an(cls.__name__)} cannot stand here, where {_an(base.__name__)} belongs"))
-        return None
-    known = {p.name: p for p in parameters(cls)}
-    values: dict[str, Any] = dict(given)
-    before = len(problems)
-    for name, value in data.items():
-        if name in ("kind", *given):
-            continue
-        if name not in known:
-            problems.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known)))
-            continue
-        p, here = known[name], f"{where}.{name}"
-        if value is None:
-            values[name] = None
-        elif p.form in ("axes", "axis"):
-            keys = value if p.form == "axes" else [value]
-            if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)):
-                problems.append(Problem(here, f"{_show(value)} is not among the document's axes", f"There are: {', '.join(axes) or 'none'}"))
-                continue
-            found = [axes[k] for k in typing.cast("list[str]", keys)]
-            values[name] = found if p.form == "axes" else found[0]
-        elif p.form == "part":
-            values[name] = _from_json(value, here, axes, arrays, typing.cast(Any, p.of), problems, {})
-        elif p.form == "parts":
-            if not isinstance(value, list):
-                problems.append(Problem(here, f"needs a list, not {_show(value)}"))
-                continue
-            items = typing.cast("list[Any]", value)
-            values[name] = [_from_json(v, f"{here}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
-        elif p.form == "array":
-            key = typing.cast(Any, value).get("array") if isinstance(value, dict) else None
-            if not isinstance(key, str) or key not in arrays:
-                problems.append(Problem(here, f"the array {key!r} is not in the document's array file"))
-                continue
-            values[name] = arrays[key]
-        else:
-            values[name] = value
-    if len(problems) > before:
-        return None
-    try:
-        return cls(**values)
-    except (ParameterError, UnknownName) as error:
-        problems += [Problem(_under(where, cls, q.where), q.what, q.fix) for q in error.problems]
-    except TypeError as error:
-        problems.append(Problem(where, str(error)))
-    return None
-
-
-def _under(where: str, cls: type[Any], inner: str) -> str:
-    rest = inner.removeprefix(cls.__name__)
-    return f"{where}{rest}" if rest.startswith(".") else where
-
-
-def part_from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any], name: str) -> Any:
-    """Like `from_json`, for a part that carries a name of its own."""
-    problems: list[Problem] = []
-    part = _from_json(data, where, axes, arrays, base, problems, {"name": name})
-    if problems:
-        raise ParameterError(problems)
-    return part

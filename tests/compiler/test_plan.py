@@ -129,3 +129,15 @@ def test_uniform_weights_in_large_batches_are_finite() -> None:
     u >> model.add(Weights(np.ones((200, 200)), [wide], name="w")) >> u
     data = dd.simulate(model, 5, trials=100)
     assert np.isfinite(data["u.activation"].values).all()
+
+
+def test_a_port_that_takes_what_comes_takes_the_largest_whatever_the_ids() -> None:
+    y = dd.Axis("y", 0, 5, samples=6)
+    for names in (("a", "b"), ("b", "a"), ("wide", "narrow")):
+        model = dd.Model("sum")
+        narrow, wide = model.add(dd.Field(names[0], [x])), model.add(dd.Field(names[1], [x, y]))
+        total = model.add(Sum(name="total"))
+        narrow >> total
+        wide >> total
+        data = dd.simulate(model, 2, record=["total.output"])
+        assert data["total.output"].dims == ("time", "x", "y")

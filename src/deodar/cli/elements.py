@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import inspect
 import json
+from collections.abc import Iterator
 
 HELP = "list elements, couplings, kernels, sigmoids and worlds, or show one of them with its equation and parameters"
 
@@ -18,15 +19,20 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """The list, or one page."""
     from deodar import registry
+    from deodar.model.parts import schema
     from deodar.model.schema import reference
-    from deodar.parameters import Part, schema
+    from deodar.parameters import Part
 
     if args.kind:
         cls = registry.kind(args.kind)
-        if args.json and issubclass(cls, Part):
-            print(json.dumps(schema(cls, reference), indent=2, ensure_ascii=False))
+        if args.json:
+            found = schema(cls, reference) if issubclass(cls, Part) else {"title": cls.__name__, "description": inspect.getdoc(cls)}
+            print(json.dumps(found, indent=2, ensure_ascii=False))
         else:
             print(f"{cls.__name__}  ({cls.__module__})\n\n{inspect.getdoc(cls)}")
+            values = list(_values(cls)) if issubclass(cls, Part) else []
+            if values:
+                print("\n".join(["", "Values:", *values]))
         return 0
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
     if args.json:
@@ -37,6 +43,19 @@ def run(args: argparse.Namespace) -> int:
         for name, cls in found.items():
             print(f"  {name:18}{_line(cls)}")
     return 0
+
+
+def _values(cls: type) -> Iterator[str]:
+    """For each parameter its default, unit, range and what a change costs, from the declaration."""
+    from deodar.parameters import parameters, show
+
+    rows = [p for p in parameters(cls) if p.name != "name"]
+    width = max((len(p.name) for p in rows), default=0)
+    for p in rows:
+        lower, upper = ("" if bound is None else f"{bound:g}" for bound in (p.lower, p.upper))
+        bounds = f"{lower} to {upper}".strip() if lower and upper else f"from {lower}" if lower else f"to {upper}" if upper else ""
+        about = [show(p.default), p.unit, bounds, " | ".join(p.choices), p.cost]
+        yield f"    {p.name:{width}}  {'; '.join(a for a in about if a)}"
 
 
 def _line(cls: type) -> str:

@@ -6,6 +6,7 @@ One executable runs any number of steps: the numbers of steps and of records are
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 import time
 from collections.abc import Hashable, Sequence
 from typing import Any
@@ -49,7 +50,7 @@ class Batch:
     @property
     def size(self) -> int:
         """Number of copies."""
-        return int(np.prod(self.shape, dtype=int))
+        return math.prod(self.shape)
 
 
 class Executable:

@@ -21,7 +21,7 @@ class Sum(Coupling):
         none.
 
     Ports:
-        input: any axes; the first connection decides them.
+        input: any axes; the connection with most axes (then most samples) decides them, the others expand.
         output: the same axes.
 
     Reference:

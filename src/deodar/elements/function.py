@@ -94,7 +94,8 @@ class Function(Element):
             ) from error
         if new.shape != here or new.dtype.kind not in "fiu":
             raise ModelError(
-                f"the function {self.function} returned {new.dtype} numbers of shape {list(new.shape)}; its state has real numbers of shape {list(here)}",
+                f"the function {self.function} returned {new.dtype} numbers of shape {list(new.shape)};"
+                f" its state has real numbers of shape {list(here)}",
                 where=self.name,
                 fix="It returns the new state, one number for each sample of the axes",
             )

@@ -11,6 +11,8 @@ from deodar.model.paths import Names, display
 
 VERSION = 1
 READS = ("", "previous", "current", "delayed")
+KEYS = ("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "arrays", "notes", "layout")
+"""Keys of a document file, in their order."""
 
 
 @dc.dataclass(frozen=True)

@@ -16,17 +16,20 @@ from deodar.errors import ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, Entry, Knob
 from deodar.model.paths import Names, display, stored_id
-from deodar.parameters import get, leaves, parameter, parameters, replace
+from deodar.parameters import get, is_text, leaves, parameter, parameters, real, replace, show
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
+
+GENERAL = ("name", "time_unit", "dt", "t0", "notes", "layout")
+MOST_TICKS = 1_000_000
+"""Longest step of a part, in ticks; a thousand seconds at 1 ms (a guess: longer is a slip of the pen)."""
 
 
 def add(doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None) -> tuple[Document, Entry]:
     """A document with one more element. Without a name it is called after what it follows: `u>Gain`, `u>Gain2`."""
     if not isinstance(element, Element):
         raise ModelError(f"{element!r} is no element", fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))")
-    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
-        raise ParameterError(f"every is {every!r}; it is a whole number of ticks, at least 1", where=element.name)
+    require_ticks(every, element.name)
     taken = doc.by_names()
     if element.name:
         names = (*group, element.name)
@@ -69,11 +72,10 @@ def move_group(doc: Document, group: Names, to: Names) -> Document:
     """A document in which a group, with everything in it, stands under another path."""
     if to[: len(group)] == group and to != group:
         raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
+    if to == group:
+        return doc
+    _vacant(doc, to)
     inside = [e for e in doc.entries if e.names[: len(group)] == group]
-    others = {e.names for e in doc.entries} - {e.names for e in inside}
-    for e in inside:
-        if to + e.names[len(group) :] in others:
-            raise ModelError(f"there is already an element {display(to + e.names[len(group) :])!r}")
     renamed = {e.id: to + e.names[len(group) :] for e in inside}
     entries = tuple(
         dc.replace(e, names=renamed[e.id], element=dc.replace(e.element, name=renamed[e.id][-1])) if e.id in renamed else e for e in doc.entries
@@ -91,7 +93,10 @@ def ungroup(doc: Document, group: Names) -> Document:
 
 
 def group(doc: Document, names: Names) -> Document:
-    """A document with an (empty) group."""
+    """A document with an (empty) group; where it stands already, the same document."""
+    if names in doc.groups:
+        return doc
+    _vacant(doc, names)
     return dc.replace(doc, groups=_with_groups(doc.groups, [names]))
 
 
@@ -168,21 +173,25 @@ def put(doc: Document, ident: str, path: str, value: Any) -> Document:
 
 def every(doc: Document, ident: str, ticks: int) -> Document:
     """A document in which an element runs at another step."""
-    if isinstance(ticks, bool) or not isinstance(ticks, int) or ticks < 1:
-        raise ParameterError(f"every is {ticks!r}; it is a whole number of ticks, at least 1")
+    require_ticks(ticks, doc.by_id()[ident].path)
     return dc.replace(doc, entries=tuple(dc.replace(e, every=ticks) if e.id == ident else e for e in doc.entries))
 
 
 def knob(doc: Document, name: str, value: float) -> Document:
     """A document with a named parameter of its own, new or changed, and everything linked to it at that value."""
-    if isinstance(value, (bool, str)) or not math.isfinite(float(value)):
-        raise ParameterError(f"needs a finite number, not {value!r}", where=name)
-    if not name or name in [e.path for e in doc.entries]:
-        raise ModelError(f"a document parameter cannot be called {name!r}: {'an element is' if name else 'it needs a name'}")
+    number = real(value)
+    if number is None or not math.isfinite(number):
+        raise ParameterError(f"needs a finite number, not {show(value)}", where=str(name))
+    if not isinstance(name, str) or not name or not is_text(name):
+        raise ModelError(f"a document parameter needs a name, not {name!r}")
+    for e in doc.entries:
+        if name == e.path or any(name == f"{e.path}.{p.name}" for p in parameters(type(e.element))):
+            what = "an element" if name == e.path else f"a parameter of {e.path}"
+            raise ModelError(f"a document parameter cannot be called {name!r}: {what} is", fix="Give it another name")
     links = next((k.links for k in doc.knobs if k.name == name), ())
     for ident, leaf in links:
-        doc = _put(doc, ident, leaf, value)
-    new = Knob(name, float(value), links)
+        doc = _put(doc, ident, leaf, number)
+    new = Knob(name, number, links)
     kept = tuple(new if k.name == name else k for k in doc.knobs)
     return dc.replace(doc, knobs=kept if any(k.name == name for k in doc.knobs) else (*doc.knobs, new))
 
@@ -218,16 +227,26 @@ def unlink(doc: Document, ident: str, leaf: str) -> Document:
 
 
 def describe(doc: Document, **values: Any) -> Document:
-    """A document with other general properties: name, time_unit, dt, t0, notes."""
+    """A document with other general properties: name, time_unit, dt, t0, notes, layout."""
+    strange = [key for key in values if key not in GENERAL]
+    if strange:
+        raise UnknownName(f"a document has no property {strange[0]!r}", fix=did_you_mean(strange[0], GENERAL))
+    for key in ("name", "notes"):
+        text = values.get(key, "")
+        if not isinstance(text, str) or not is_text(text):
+            raise ParameterError(f"{key} needs text, not {show(text)}")
     unit = values.get("time_unit", doc.time_unit)
     if not isinstance(unit, str) or not TIME_UNIT.match(unit):
-        raise ParameterError(f"time_unit is {unit!r}", fix="Write us, ms, s, min, abstract, or for steps of your own: '1 = 64 ms'")
+        raise ParameterError(f"time_unit is {show(unit)}", fix="Write us, ms, s, min, abstract, or for steps of your own: '1 = 64 ms'")
     dt = values.get("dt", doc.dt)
-    if dt is not None and (isinstance(dt, (bool, str)) or not math.isfinite(dt) or dt <= 0):
-        raise ParameterError(f"dt is {dt!r}; it is a number above 0")
+    if dt is not None and not 0 < (real(dt) or 0) < math.inf:
+        raise ParameterError(f"dt is {show(dt)}; it is a number above 0")
+    t0 = real(values.get("t0", 0.0))
+    if t0 is None or not math.isfinite(t0):
+        raise ParameterError(f"t0 is {show(values['t0'])}; it is a finite number")
     for key in ("dt", "t0"):
         if values.get(key) is not None:
-            values[key] = float(values[key])
+            values[key] = real(values[key])
     return dc.replace(doc, **values)
 
 
@@ -282,8 +301,8 @@ def _put(doc: Document, ident: str, path: str, value: Any) -> Document:
 
 
 def _vacant(doc: Document, names: Names) -> None:
-    if any(not n for n in names):
-        raise ModelError("an element needs a name")
+    if any(not isinstance(n, str) or not n or not is_text(n) for n in names):
+        raise ModelError(f"elements and groups need names, not {next(n for n in names if not isinstance(n, str) or not n or not is_text(n))!r}")
     found = doc.by_names().get(names)
     if found is not None:
         raise ModelError(f"there is already an element {found.path!r}", fix="Give one of them another name")
@@ -294,6 +313,12 @@ def _vacant(doc: Document, names: Names) -> None:
             raise ModelError(f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group")
     if display(names) in [k.name for k in doc.knobs]:
         raise ModelError(f"a document parameter is called {display(names)!r}", fix="Give one of them another name")
+
+
+def require_ticks(every: Any, where: str) -> None:
+    """Refuse what is no number of ticks that a part could run at."""
+    if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= MOST_TICKS:
+        raise ParameterError(f"every is {show(every)}; it is a whole number of ticks, 1 to {MOST_TICKS}", where=where)
 
 
 def _free(base: str, taken: set[str]) -> str:

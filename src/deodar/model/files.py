@@ -16,18 +16,24 @@ from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
+import psutil
 
-from deodar.element import Element
-from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
-from deodar.model import edit, find, output
-from deodar.model.document import READS, VERSION, Connection, Document, Entry, Knob
-from deodar.model.paths import Names, display, split, stored_id
+from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
+from deodar.model import output
+from deodar.model.document import KEYS, VERSION, Document
+from deodar.model.parts import to_json
+from deodar.model.paths import display
+from deodar.model.reader import from_data
 from deodar.numerics.axes import Axis
-from deodar.parameters import FrozenArray, leaves, part_from_json, to_json
+from deodar.parameters import FrozenArray, show
 
 MOST_BYTES = 64 * 2**20
+"""Longest document file; larger things are arrays (a guess, hundreds of times the largest known architecture)."""
+
+ARRAY_SHARE = 0.5
+"""Share of the free memory that the arrays of a document may take (a guess that leaves room to run it)."""
+
 DEEPEST = 64
-KEYS = ("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "arrays", "notes", "layout")
 
 
 # ------------------------------------------------------------------------------------------------ out
@@ -89,8 +95,7 @@ def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
 
 def save(doc: Document, path: str | Path, force: bool = False) -> None:
     """Write the document, its array file first; refuses to replace a file unless `force`."""
-    path = Path(path)
-    output.claim(path, force)
+    path = output.claim(path, force)
     text, packed = dumps(doc, path.stem)
     old = _old_arrays(path) if force else None
     new = None
@@ -135,21 +140,23 @@ def _axis_data(axis: Axis) -> dict[str, Any]:
 
 def load(path: str | Path) -> Document:
     """Read a document; every problem is listed at once, nothing is half-loaded."""
+    if not isinstance(path, (str, Path)):
+        raise DocumentError(f"needs the path of a file, not {show(path)}")
     path = Path(path)
-    if not path.exists():
-        near = did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")]) if path.parent.is_dir() else ""
-        raise DocumentError("there is no such file", where=str(path), fix=near)
-    if not path.is_file():
-        raise DocumentError("is not a file", where=str(path))
-    size = path.stat().st_size
-    if size > MOST_BYTES:
-        raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}", where=str(path))
     try:
+        if not path.exists():
+            near = did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")]) if path.parent.is_dir() else ""
+            raise DocumentError("there is no such file", fix=near)
+        if not path.is_file():
+            raise DocumentError("is not a file")
+        size = path.stat().st_size
+        if size > MOST_BYTES:
+            raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
         data = parse(path.read_bytes())
         arrays = _arrays(data, path.parent) if isinstance(data, dict) else {}
         return from_data(data, arrays)
     except DeodarError as error:
-        problems = [Problem(f"{path.name}: {p.where}" if p.where else path.name, p.what, p.fix) for p in error.problems]
+        problems = [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
         raise DocumentError(problems) from None
     except OSError as error:
         raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
@@ -160,6 +167,11 @@ def parse(text: bytes | str) -> Any:
 
     def refuse(constant: str) -> Any:
         raise DocumentError(f"holds the number {constant}, which is not finite")
+
+    def whole(text: str) -> int:
+        if len(text) > 300:
+            raise DocumentError(f"holds a number of {len(text)} digits, {text[:20]}...")
+        return int(text)
 
     def number(text: str) -> float:
         value = float(text)
@@ -175,16 +187,18 @@ def parse(text: bytes | str) -> Any:
         return out
 
     try:
-        data = json.loads(text, parse_constant=refuse, parse_float=number, object_pairs_hook=unique)
+        data = json.loads(text, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=unique)
     except json.JSONDecodeError as error:
         raise DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
     except UnicodeDecodeError:
         raise DocumentError("is not JSON: it is not text in UTF-8") from None
     except RecursionError:
         raise DocumentError(f"is nested deeper than {DEEPEST} levels") from None
-    except ValueError as error:  # a whole number of thousands of digits
-        raise DocumentError(f"is not JSON: {error}") from None
     _depth(data)
+    try:
+        json.dumps(data, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        raise DocumentError("holds half a character (a lone surrogate), which is not text") from None
     return data
 
 
@@ -203,18 +217,27 @@ def _inside(item: Any) -> list[Any]:
     return cast("list[Any]", item) if isinstance(item, list) else []
 
 
+def _require_room(size: int, name: str) -> None:
+    """Refuse arrays that would not fit into memory, before they are unpacked."""
+    free = psutil.virtual_memory().available
+    if size > ARRAY_SHARE * free:
+        what = f"the arrays in {name!r} take {size / 2**30:,.1f} GiB; {free / 2**30:,.1f} GiB are free"
+        raise DocumentError(what, where="arrays")
+
+
 def _arrays(data: dict[str, Any], folder: Path) -> dict[str, FrozenArray]:
     entry = data.get("arrays")
     if entry is None:
         return {}
-    if not isinstance(entry, dict) or not isinstance(cast(Any, entry).get("file"), str) or not isinstance(cast(Any, entry).get("sha256"), str):
+    if not isinstance(entry, dict) or set(cast(Any, entry)) != {"file", "sha256"} or not all(isinstance(v, str) for v in cast(Any, entry).values()):
         raise DocumentError("needs a file and its sha256", where="arrays")
     name, digest = cast("dict[str, str]", entry)["file"], cast("dict[str, str]", entry)["sha256"]
     path = folder / name
     if Path(name).name != name or name in ("", ".", "..") or "\\" in name or path.is_symlink():
         raise DocumentError(f"the array file {name!r} lies outside the document's folder", where="arrays")
     if not path.is_file():
-        raise DocumentError(f"the array file {name!r} is missing; it belongs beside the document", where="arrays")
+        raise DocumentError(f"the array file {show(name)} is missing; it belongs beside the document", where="arrays")
+    _require_room(path.stat().st_size, name)
     content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != digest:
         raise DocumentError(f"the array file {name!r} is not the one this document was saved with: its hash differs", where="arrays")
@@ -224,6 +247,8 @@ def _arrays(data: dict[str, Any], folder: Path) -> dict[str, FrozenArray]:
 def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
     """The arrays of an array file; objects that would need pickle are refused."""
     try:
+        with zipfile.ZipFile(io.BytesIO(content)) as z:
+            _require_room(sum(entry.file_size for entry in z.infolist()), name)
         with np.load(io.BytesIO(content), allow_pickle=False) as z:
             out: dict[str, FrozenArray] = {}
             for key in z.files:
@@ -238,199 +263,4 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
         raise DocumentError(f"the array file {name!r} cannot be read as plain arrays ({type(error).__name__}: {error})", where="arrays") from None
 
 
-def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
-    """The document that plain data describe; raises with every problem found."""
-    return _Reader(data, arrays).read()
-
-
-class _Reader:
-    def __init__(self, data: Any, arrays: Mapping[str, FrozenArray]) -> None:
-        if not isinstance(data, dict):
-            raise DocumentError(f"is not a deodar document: it holds {type(data).__name__}, not an object")
-        self.data = cast("dict[str, Any]", data)
-        self.arrays = arrays
-        self.problems: list[Problem] = []
-
-    def read(self) -> Document:
-        version = self.data.get("deodar")
-        if version is None:
-            raise DocumentError(
-                "is not a deodar document: it has no key 'deodar'", fix="Files of other programs are opened with: deodar import FILE -o OUT"
-            )
-        if version != VERSION or isinstance(version, bool):
-            raise DocumentError(
-                f"is a document of version {version!r}; this deodar reads version {VERSION}", fix="Type: pip install --upgrade deodar"
-            )
-        for key in self.data:
-            if key not in KEYS:
-                self.problem(key, "is no key of a document", did_you_mean(key, KEYS))
-        doc = self.general(Document(self.text("name", "model")))
-        axes = self.axes()
-        doc = self.elements(doc, axes)
-        doc = self.groups(doc)
-        if not self.problems:  # connections and links of elements that could not be read would only repeat their problems
-            doc = self.knobs(self.connections(doc))
-        if self.problems:
-            raise DocumentError(self.problems)
-        return doc
-
-    def problem(self, where: str, what: str, fix: str = "") -> None:
-        self.problems.append(Problem(where, what, fix))
-
-    def attempt(self, where: str, doc: Document, change: Any) -> Document:
-        try:
-            return change(doc)
-        except DeodarError as error:
-            self.problems += [Problem(where if p.where in ("", where) else f"{where}: {p.where}", p.what, p.fix) for p in error.problems]
-            return doc
-
-    def text(self, key: str, default: str) -> str:
-        value = self.data.get(key, default)
-        if not isinstance(value, str):
-            self.problem(key, f"needs text, not {value!r}")
-            return default
-        return value
-
-    def table(self, key: str) -> dict[str, Any]:
-        value = self.data.get(key, {})
-        if not isinstance(value, dict):
-            self.problem(key, f"needs an object, not {type(value).__name__}")
-            return {}
-        return cast("dict[str, Any]", value)
-
-    def rows(self, key: str) -> list[Any]:
-        value = self.data.get(key, [])
-        if not isinstance(value, list):
-            self.problem(key, f"needs a list, not {type(value).__name__}")
-            return []
-        return cast("list[Any]", value)
-
-    def general(self, doc: Document) -> Document:
-        doc = self.attempt("time_unit", doc, lambda d: edit.describe(d, time_unit=self.data.get("time_unit", "ms")))
-        doc = self.attempt("dt", doc, lambda d: edit.describe(d, dt=self.data.get("dt")))
-        t0 = self.data.get("t0", 0.0)
-        if isinstance(t0, bool) or not isinstance(t0, (int, float)):
-            self.problem("t0", f"needs a number, not {t0!r}")
-            t0 = 0.0
-        return edit.describe(doc, t0=t0, notes=self.text("notes", ""), layout=self.table("layout"))
-
-    def axes(self) -> dict[str, Axis]:
-        out: dict[str, Axis] = {}
-        known = ("name", "lower", "upper", "samples", "periodic", "unit")
-        for key, value in self.table("axes").items():
-            if not isinstance(value, dict):
-                self.problem(f"axes.{key}", f"needs an object, not {value!r}")
-                continue
-            values = cast("dict[str, Any]", value)
-            strange = [k for k in values if k not in known]
-            missing = [k for k in ("lower", "upper", "samples") if k not in values]
-            if strange or missing:
-                what = f"has no {missing[0]}" if missing else f"{strange[0]!r} is no property of an axis"
-                self.problem(f"axes.{key}", what, did_you_mean(strange[0], known) if strange else "")
-                continue
-            try:
-                out[key] = Axis(**({"name": key} | values))
-            except AxesError as error:
-                self.problems += [Problem(f"axes.{key}", p.what, p.fix) for p in error.problems]
-        return out
-
-    def elements(self, doc: Document, axes: Mapping[str, Axis]) -> Document:
-        entries: list[Entry] = []
-        ids: set[str] = set()
-        for path, value in self.table("elements").items():
-            where = f"elements.{path}"
-            if not isinstance(value, dict):
-                self.problem(where, f"needs an object, not {value!r}")
-                continue
-            body = dict(cast("dict[str, Any]", value))
-            ident, every = body.pop("id", None), body.pop("every", 1)
-            if "name" in body:
-                self.problem(f"{where}.name", "a name is the last part of the path, not a parameter")
-                continue
-            try:
-                names = split(path)
-                part = part_from_json(body, path, axes, self.arrays, Element, names[-1])
-            except (ParameterError, UnknownName) as error:
-                self.problems += error.problems
-                continue
-            if ident is None:
-                ident = stored_id(path, ids)
-            if not isinstance(ident, str) or len(ident) != 8 or any(c not in "0123456789abcdef" for c in ident):
-                self.problem(f"{where}.id", f"is {ident!r}; it is eight hexadecimal digits")
-                continue
-            if ident in ids:
-                self.problem(f"{where}.id", f"{ident} belongs to another element too")
-                continue
-            if isinstance(every, bool) or not isinstance(every, int) or every < 1:
-                self.problem(f"{where}.every", f"is {every!r}; it is a whole number of ticks, at least 1")
-                continue
-            ids.add(ident)
-            entries.append(Entry(ident, names, part, every))
-        paths = {e.names for e in entries}
-        for e in entries:
-            if any(e.names[:k] in paths for k in range(1, len(e.names))) or any(not n for n in e.names):
-                self.problem(f"elements.{e.path}", "cannot stand inside an element as in a group")
-        return edit.dc.replace(doc, entries=tuple(entries), groups=_groups(e.group for e in entries))
-
-    def groups(self, doc: Document) -> Document:
-        for g in self.rows("groups"):
-            if not isinstance(g, str) or not g:
-                self.problem("groups", f"needs paths, not {g!r}")
-                continue
-            doc = edit.group(doc, split(g))
-        return doc
-
-    def connections(self, doc: Document) -> Document:
-        for k, row in enumerate(self.rows("connections")):
-            where = f"connections.{k}"
-            if not isinstance(row, dict) or not all(isinstance(cast(Any, row).get(key), str) for key in ("source", "target")):
-                self.problem(where, "needs a source and a target")
-                continue
-            value = cast("dict[str, str]", row)
-            strange = [key for key in value if key not in ("source", "target", "reads")]
-            if strange:
-                self.problem(where, f"{strange[0]!r} is no property of a connection")
-                continue
-            doc = self.attempt(where, doc, lambda d, v=value: _connected(d, v))
-        return doc
-
-    def knobs(self, doc: Document) -> Document:
-        for name, value in self.table("parameters").items():
-            where = f"parameters.{name}"
-            body = cast("dict[str, Any]", value) if isinstance(value, dict) else {"value": value}
-            number, links = body.get("value"), body.get("links", [])
-            if isinstance(number, bool) or not isinstance(number, (int, float)) or not isinstance(links, list):
-                self.problem(where, "needs a value (a number) and links (a list of paths)")
-                continue
-            doc = self.attempt(where, doc, lambda d, n=name, v=number: edit.knob(d, n, v))
-            for path in cast("list[Any]", links):
-                doc = self.attempt(where, doc, lambda d, n=name, p=path: _linked(d, str(p), n))
-        return doc
-
-
-def _connected(doc: Document, row: Mapping[str, str]) -> Document:
-    source, source_port = find.port(doc, row["source"])
-    target, target_port = find.port(doc, row["target"], "")
-    reads = row.get("reads", "")
-    if reads not in READS:
-        raise DocumentError(f"reads is {reads!r}; it is one of previous, current, delayed")
-    return edit.connect(doc, source, source_port, target, target_port, reads)
-
-
-def _linked(doc: Document, path: str, name: str) -> Document:
-    found = find.target(doc, path)
-    if found.entry is None:
-        raise UnknownName(f"{path!r} names no parameter of an element")
-    if found.parameter not in [leaf for leaf, _, _ in leaves(found.entry.element)]:
-        raise UnknownName(f"{path!r} is not a number that can change while the model runs")
-    return edit.link(doc, found.entry.id, found.parameter, name)
-
-
-def _groups(groups: Any) -> tuple[Names, ...]:
-    out: list[Names] = []
-    for g in groups:
-        out += [g[:k] for k in range(1, len(g) + 1) if g[:k] not in out]
-    return tuple(out)
-
-
-__all__ = ["Connection", "Knob", "dumps", "from_data", "load", "pack", "parse", "save", "to_data", "unpack"]
+__all__ = ["dumps", "from_data", "load", "pack", "parse", "save", "to_data", "unpack"]

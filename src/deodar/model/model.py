@@ -14,7 +14,7 @@ from deodar.model import edit, files, find
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
 from deodar.model.paths import Names, display, readings, split
-from deodar.parameters import get
+from deodar.parameters import get, show
 
 
 @dc.dataclass(frozen=True)
@@ -133,9 +133,11 @@ class Model:
         self.history.commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
     def insert(self, template: Model, group: str) -> None:
-        """Copy another model into this one, as a group."""
+        """Copy another model into this one, as a group. Functions of one that nobody trusts are not trusted here either."""
         target = split(group)
         self.history.commit(edit.insert(self.document, template.document, lambda n: target + n))
+        if not template.trusted and any(getattr(e.element, "function", None) is not None for e in template.document.entries):
+            self.trusted = False
 
     def set(self, path: str, value: Any) -> None:
         """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`)."""
@@ -251,11 +253,15 @@ class Model:
     # -------------------------------------------------------------------------------- inside
 
     def _entry(self, what: Handle | str) -> Entry:
-        return find.element(self.document, what) if isinstance(what, str) else self.entry(what.id)
+        if isinstance(what, str):
+            return find.element(self.document, what)
+        return self._end(what, "")[0]
 
     def _end(self, what: Handle | str, default: str) -> tuple[Entry, str]:
         if isinstance(what, str):
             return find.port(self.document, what, default)
+        if not isinstance(what, Handle):
+            raise ModelError(f"{show(what)} cannot be connected", fix="Give a path, or what model.add returned")
         if what.model is not self:
             raise ModelError(f"{what!r} belongs to another model", fix="Add it to this one, or insert the other model as a group")
         return self.entry(what.id), what.port

@@ -6,13 +6,31 @@ import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from deodar.errors import OutputError, OutputExists
 
 
-def claim(path: Path, force: bool = False) -> Path:
+def location(path: Any) -> Path:
+    """A path from what a script gave; what cannot be one is an error."""
+    try:
+        found = Path(path)
+        os.fsencode(found)
+    except (TypeError, ValueError):
+        raise OutputError(f"needs the path of a file, not {path!r}") from None
+    if "\0" in str(found):
+        raise OutputError(f"{path!r} cannot be the path of a file")
+    return found
+
+
+def claim(path: str | Path, force: bool = False) -> Path:
     """The path, if it may be written: free, or a regular file that `force` allows to be replaced."""
-    if path.is_symlink() or path.exists():
+    path = location(path)
+    try:
+        taken = path.is_symlink() or path.exists()
+    except OSError as error:
+        raise OutputError(f"cannot be written: {error.strerror}", where=str(path)) from None
+    if taken:
         if not path.is_file() or path.is_symlink():
             raise OutputExists("exists and is not a regular file", where=str(path), fix="Choose another name")
         if not force:

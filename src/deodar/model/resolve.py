@@ -7,6 +7,7 @@ connections between equal axes.
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -15,7 +16,7 @@ from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.model.document import Connection, Document, Entry
-from deodar.numerics.axes import Axes, describe
+from deodar.numerics.axes import Axes, describe, shape
 from deodar.parameters import leaves, parameters
 
 Instant = Literal[0, 1]
@@ -61,6 +62,8 @@ class _Resolver:
         for c in sorted(doc.connections, key=lambda c: (c.source, c.source_port)):
             self.into.setdefault((c.target, c.target_port), []).append(c)
         self.visiting: list[str] = []
+        self.delayed: set[str] = set()
+        self.later: list[tuple[Node, str, Connection]] = []
         self.failed: set[str] = set()
 
     def run(self) -> list[Node]:
@@ -70,9 +73,14 @@ class _Resolver:
             node = self.nodes.get(entry.id)
             if node is not None and not node.deferred:
                 self.wire(node)
+        for node, port, c in self.later:
+            if c.source in self.nodes and node.id not in self.failed:
+                slot = self.slot(self.nodes[c.source], c, node)
+                if slot is not None:
+                    self.attach(self.nodes[c.source], slot, node, port)
         for entry in self.doc.entries:
             node = self.nodes.get(entry.id)
-            if node is not None and entry.id not in self.failed:
+            if node is not None:
                 self.inspect(entry, node)
         return list(self.nodes.values())
 
@@ -82,8 +90,13 @@ class _Resolver:
             return self.nodes[ident]
         entry = self.entries[ident]
         if ident in self.visiting:
-            loop = [self.entries[i].path for i in self.visiting[self.visiting.index(ident) :]] + [entry.path]
-            self.problem(ident, f"a loop without a state in it: {' -> '.join(loop)}", "Put a field, or a connection with reads='delayed', into it")
+            ring = self.visiting[self.visiting.index(ident) :]
+            loop = " -> ".join(self.entries[i].path for i in [*reversed(ring), ring[-1]])
+            if self.delayed & {*ring}:
+                what = f"the axes of a loop follow only from themselves and are unknown: {loop}"
+                self.problem(ident, what, "Connect something to it whose axes are known, or put a Project into it")
+            else:
+                self.problem(ident, f"a loop without a state in it: {loop}", "Put a field, or a connection with reads='delayed', into it")
             return None
         node = Node(ident, entry.path, entry.element, entry.every, {}, {}, {port: [] for port in entry.element.ports()})
         deferred = bool(type(entry.element).direct) and any(type(entry.element).direct.values())
@@ -93,8 +106,6 @@ class _Resolver:
             self.visiting.pop()
             if ident in self.failed:
                 return None
-        elif not self.per_axis(entry, node):
-            return None
         try:
             node.outs = dict(entry.element.outputs(node.ins))
         except KeyError:
@@ -104,6 +115,20 @@ class _Resolver:
             self.wire(node, skip=self._direct_ports(entry.element))
         return node
 
+    def follows(self, ident: str, other: str) -> bool:
+        """Whether the axes of a coupling follow, through couplings, from those of another."""
+        seen: set[str] = set()
+        ahead = [ident]
+        while ahead:
+            i = ahead.pop()
+            if i == other:
+                return True
+            if i not in seen:
+                seen.add(i)
+                ports = self._direct_ports(self.entries[i].element)
+                ahead += [c.source for port in ports for c in self.into.get((i, port), [])]
+        return False
+
     def _direct_ports(self, element: Element) -> set[str]:
         return {port for ports in type(element).direct.values() for port in ports}
 
@@ -112,14 +137,13 @@ class _Resolver:
         for port in node.element.ports():
             if (only is not None and port not in only) or (skip is not None and port in skip):
                 continue
-            for c in self.into.get((node.id, port), []):
-                source = self.visit(c.source)
-                if source is None:
-                    self.failed.add(node.id)
-                    continue
-                slot = self.slot(source, c, node)
-                if slot is not None:
-                    self.attach(source, slot, node, port)
+            arriving = self.into.get((node.id, port), [])
+            closing = [c for c in arriving if c.reads == "delayed" and self.follows(c.source, node.id)]
+            self.join(node, port, [c for c in arriving if c not in closing])
+            if port in node.ins:  # loops that a delay breaks: the others have decided the axes
+                self.later += [(node, port, c) for c in closing]
+            else:
+                self.join(node, port, closing)
             if port not in node.ins:
                 axes = node.element.wants(port, None)
                 if axes is None and not node.reads[port]:
@@ -132,6 +156,22 @@ class _Resolver:
                         continue
                     axes = node.ins.get("input", ())
                 node.ins[port] = axes if axes is not None else ()
+
+    def join(self, node: Node, port: str, connections: Sequence[Connection]) -> None:
+        """Connections into one port; where the port takes what comes, the source with most axes and samples decides, others expand."""
+        found: list[tuple[Node, Slot, Axes]] = []
+        for c in connections:
+            if c.reads == "delayed":
+                self.delayed.add(c.source)
+            source = self.visit(c.source)
+            if source is None:
+                self.failed.add(node.id)
+                continue
+            slot = self.slot(source, c, node)
+            if slot is not None:
+                found.append((source, slot, source.outs[c.source_port]))
+        for source, slot, _ in sorted(found, key=lambda f: (-len(f[2]), -math.prod(shape(f[2])))):
+            self.attach(source, slot, node, port)
 
     def slot(self, source: Node, c: Connection, node: Node) -> Slot | None:
         """What a connection reads; a delay becomes a node of its own."""
@@ -207,11 +247,23 @@ class _Resolver:
         if twice:
             self.problem(node.id, f"two of its axes are called {twice[0]!r}", "Give each axis a name of its own")
             return
+        if node.id in self.failed:
+            return  # what does not arrive as it should would only show once more
         for what in entry.element.misfits(node.ins):
-            self.problem(node.id, what)
+            self.problem(node.id, *self.between(node, what))
         clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
         if clash:
             self.problem(node.id, f"a port and a parameter are both called {sorted(clash)[0]!r}", "Rename one of them in the element's class")
+
+    def between(self, node: Node, what: str) -> tuple[str, str]:
+        """A misfit of what comes to a coupling, with both of its ends; and what to type."""
+        for port in node.ins if node.deferred else ():
+            for c in self.into.get((node.id, port), []):
+                source, own = self.entries[c.source].path, describe(getattr(node.element, "axes", node.ins[port]))
+                names = ", ".join(a.name for a in getattr(node.element, "axes", node.ins[port]))
+                ends = f"{source}.{c.source_port} {describe(node.ins[port])} does not fit {node.path}.{port} {own}: {what}"
+                return ends, f"Give both the same axes, or write: {source} >> Project([{names}]) or Resample([{names}]) >> {node.path}"
+        return what, ""
 
     def per_axis(self, entry: Entry, node: Node) -> bool:
         """Whether values given one for each axis are as many as there are axes."""
@@ -240,4 +292,5 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
     """The nodes of a document, and everything that is wrong with it."""
     resolver = _Resolver(doc)
     nodes = resolver.run()
-    return nodes, resolver.problems
+    place = {e.path: k for k, e in enumerate(doc.entries)}
+    return nodes, sorted(resolver.problems, key=lambda p: place.get(p.where, len(place)))

@@ -9,7 +9,8 @@ from typing import Any
 from deodar import registry
 from deodar.element import Element
 from deodar.model.document import READS, VERSION
-from deodar.parameters import Part, schema
+from deodar.model.parts import schema
+from deodar.parameters import Part
 
 SHIPPED = Path(__file__).with_name("document.schema.json")
 """The generated schema, shipped with the package; write it anew with `python -m deodar.model.schema`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import psutil
@@ -10,7 +11,7 @@ import psutil
 from deodar.errors import TooLarge
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
-from deodar.parameters import leaves
+from deodar.parameters import is_neutral, leaves
 
 SHARE = 0.8
 """Share of the free memory that a run may ask for (a guess that leaves the rest of the machine alive)."""
@@ -43,7 +44,10 @@ def _cells(n: Node) -> int:
 
 
 def _constants(n: Node) -> int:
-    """Matrices of kernels (one for each axis) and arrays given as parameters."""
-    kernels = len(getattr(n.element, "kernel", ()) or ())
-    arrays = sum(int(np.size(value)) for _, value, _ in leaves(n.element) if np.ndim(value))
-    return 2 * kernels * sum(a.samples**2 for a in _axes(n)) + arrays
+    """Matrices of kernels, of correlated noise, of shifts and of resampling (one for each axis), and arrays given as parameters."""
+    e: Any = n.element
+    square = len(getattr(e, "kernel", ()) or ()) + sum(not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount"))
+    arrays = sum(int(np.size(value)) for _, value, _ in leaves(e) if np.ndim(value))
+    there = {a.name: a.samples for axes in n.ins.values() for a in axes}
+    between = sum(a.samples * there[a.name] for axes in n.outs.values() for a in axes if there.get(a.name, a.samples) != a.samples)
+    return 2 * (square * sum(a.samples**2 for a in _axes(n)) + between) + arrays

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 import time
 from collections.abc import Callable, Sequence
-from typing import Any, cast
+from typing import Any
 
 import jax
 import numpy as np

@@ -213,7 +213,7 @@ def _list(record: Sequence[str] | str) -> list[str]:
 def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
     node = next(n for n in nodes if n.id == ident)
     axes = node.outs[port] if port in node.outs else node.ins[port]
-    return int(np.prod(shape(axes), dtype=int))
+    return math.prod(shape(axes))
 
 
 def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, Sequence[int]]:

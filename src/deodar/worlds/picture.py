@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import struct
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
@@ -11,6 +14,7 @@ import numpy as np
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import World
 
@@ -39,6 +43,8 @@ class Picture(World):
     sensors: ClassVar[Mapping[str, str]] = {"picture": "colour over two dimensions; the last axis is red, green, blue"}
 
     def __init__(self, file: str | Path | np.ndarray) -> None:
+        if not isinstance(file, (str, Path, np.ndarray)):
+            raise WorldError(f"a picture is a file or an array of height x width x 3, not {show(file)}")
         self.name = "array" if isinstance(file, np.ndarray) else str(file)
         self.pixels: np.ndarray = _array(file) if isinstance(file, np.ndarray) else _read(Path(file))
 
@@ -111,6 +117,8 @@ def _resized(canvas: Any, box: tuple[float, float, float, float], size: tuple[in
 def _array(pixels: np.ndarray) -> np.ndarray:
     if pixels.ndim != 3 or pixels.shape[2] != CHANNELS or 0 in pixels.shape:
         raise WorldError(f"a picture is an array of height x width x 3, not {list(pixels.shape)}")
+    if pixels.dtype.kind not in "iufb":
+        raise WorldError(f"a picture holds numbers, not {pixels.dtype}")
     values = pixels.astype(np.float64) / (255.0 if pixels.dtype.kind in "iu" else 1.0)
     if not np.isfinite(values).all() or values.min() < 0 or values.max() > 1:
         raise WorldError("a picture holds values of 0 to 255 (whole numbers) or 0 to 1")
@@ -120,14 +128,17 @@ def _array(pixels: np.ndarray) -> np.ndarray:
 def _read(path: Path) -> np.ndarray:
     from PIL import Image, UnidentifiedImageError
 
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise WorldError("there is no such picture", where=str(path), fix="Name a picture file, for example --world picture:photo.jpg")
     try:
-        with Image.open(path) as picture:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # the bound below is ours
+            opened = Image.open(path)
+        with opened as picture:
             if picture.width * picture.height > MOST_PIXELS:
                 raise WorldError(f"has {picture.width} x {picture.height} pixels; at most {MOST_PIXELS} are read", where=str(path))
             return _array(np.asarray(picture.convert("RGB")))
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
         raise WorldError(f"cannot be read as a picture ({type(error).__name__}: {error})", where=str(path)) from None
     except Image.DecompressionBombError:
         raise WorldError("has too many pixels", where=str(path)) from None

@@ -1,0 +1,179 @@
+"""Parts as JSON: their schema, out, and in again with every problem listed."""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from deodar import registry
+from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
+from deodar.parameters import PLAIN, FrozenArray, Parameter, an, normal, parameters, show
+
+
+def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
+    """JSON Schema of a part; `reference(base)` gives the schema of the parts that may stand in its place."""
+    properties: dict[str, Any] = {"kind": {"const": cls.__name__}}
+    for p in parameters(cls):
+        if p.name == "name":
+            continue
+        form: dict[str, Any] = _schema_form(p, reference)
+        if p.optional:
+            form = {"oneOf": [form, {"type": "null"}]}
+        for key, value in (("minimum", p.lower), ("maximum", p.upper)):
+            if value is not None and form.get("type") == "number":
+                form[key] = value
+        extra: dict[str, Any] = {"x-cost": p.cost}
+        for key, value in (("x-unit", p.unit), ("description", p.meaning)):
+            if value:
+                extra[key] = value
+        if isinstance(p.default, (bool, int, float, str)):
+            extra["default"] = p.default
+        properties[p.name] = form | extra
+    return {"type": "object", "title": cls.__name__, "properties": properties, "required": ["kind"]}
+
+
+def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
+    number: dict[str, Any] = {"type": "number"}
+    match p.form:
+        case "number":
+            return dict(number)
+        case "per_axis":
+            return {"oneOf": [number, {"type": "array", "items": number}]}
+        case "integer":
+            return {"type": "integer"}
+        case "flag":
+            return {"type": "boolean"}
+        case "text":
+            return {"enum": list(p.choices)} if p.choices else {"type": "string"}
+        case "texts":
+            return {"type": "array", "items": {"type": "string"}}
+        case "axes":
+            return {"type": "array", "items": {"type": "string"}, "description": "keys of the document's axes"}
+        case "axis":
+            return {"type": "string", "description": "key of one of the document's axes"}
+        case "part":
+            return reference(typing.cast(Any, p.of))
+        case "parts":
+            return {"type": "array", "items": reference(typing.cast(Any, p.of))}
+        case "array":
+            return {"type": "object", "properties": {"array": {"type": "string"}}, "required": ["array"]}
+        case "numbers":
+            return {"type": "object", "additionalProperties": number}
+        case "pairs":
+            return {"type": "object", "additionalProperties": {"type": "string"}}
+
+
+def to_json(part: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]) -> dict[str, Any]:
+    """Plain data of a part: its kind and every parameter, in the order of the fields."""
+    out: dict[str, Any] = {"kind": type(part).__name__}
+    for p in parameters(type(part)):
+        if p.name != "name":
+            value = getattr(part, p.name)
+            out[p.name] = None if value is None else _plain(p, value, axis_key, array_key)
+    return out
+
+
+def _plain(p: Parameter, value: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]) -> Any:
+    match p.form:
+        case "axes":
+            return [axis_key(a) for a in value]
+        case "axis":
+            return axis_key(value)
+        case "part":
+            return to_json(value, axis_key, array_key)
+        case "parts":
+            return [to_json(v, axis_key, array_key) for v in value]
+        case "array":
+            return {"array": array_key(value)}
+        case "numbers" | "pairs":
+            return dict(value)
+        case _:
+            return list(typing.cast(Any, value)) if isinstance(value, tuple) else value
+
+
+def _from_json(
+    data: Any,
+    where: str,
+    axes: Mapping[str, Any],
+    arrays: Mapping[str, FrozenArray],
+    base: type[Any],
+    problems: list[Problem],
+    given: dict[str, Any],
+) -> Any:
+    if not isinstance(data, dict) or not isinstance(typing.cast(Any, data).get("kind"), str):
+        problems.append(Problem(where, f"needs an object with a kind, not {show(data)}"))
+        return None
+    data = typing.cast("dict[str, Any]", data)
+    try:
+        cls = registry.kind(data["kind"])
+    except UnknownName as error:
+        problems.append(Problem(where, error.problems[0].what, error.problems[0].fix))
+        return None
+    if not issubclass(cls, base):
+        problems.append(Problem(where, f"{an(cls.__name__)} cannot stand here, where {an(base.__name__)} belongs"))
+        return None
+    known = {p.name: p for p in parameters(cls)}
+    values: dict[str, Any] = dict(given)
+    before = len(problems)
+    for name, value in data.items():
+        if name in ("kind", *given):
+            continue
+        if name not in known:
+            problems.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known)))
+            continue
+        p, here = known[name], f"{where}.{name}"
+        if value is None:
+            values[name] = None
+        elif p.form in ("axes", "axis"):
+            keys = value if p.form == "axes" else [value]
+            if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)):
+                problems.append(Problem(here, f"{show(value)} is not among the document's axes", f"There are: {', '.join(axes) or 'none'}"))
+                continue
+            found = [axes[k] for k in typing.cast("list[str]", keys)]
+            values[name] = found if p.form == "axes" else found[0]
+        elif p.form == "part":
+            values[name] = _from_json(value, here, axes, arrays, typing.cast(Any, p.of), problems, {})
+        elif p.form == "parts":
+            if not isinstance(value, list):
+                problems.append(Problem(here, f"needs a list, not {show(value)}"))
+                continue
+            items = typing.cast("list[Any]", value)
+            values[name] = [_from_json(v, f"{here}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
+        elif p.form == "array":
+            key = typing.cast(Any, value).get("array") if isinstance(value, dict) else None
+            if not isinstance(key, str) or key not in arrays:
+                problems.append(Problem(here, f"the array {key!r} is not in the document's array file"))
+                continue
+            values[name] = arrays[key]
+        else:
+            values[name] = value
+    if len(problems) > before:
+        for name, value in values.items():  # what else is wrong, as far as it can be told without the parts that failed
+            if name in known and known[name].form in PLAIN:
+                try:
+                    normal(known[name], value)
+                except ValueError as error:
+                    problems.append(Problem(f"{where}.{name}", str(error)))
+        return None
+    try:
+        return cls(**values)
+    except (ParameterError, UnknownName) as error:
+        problems += [Problem(_under(where, cls, q.where), q.what, q.fix) for q in error.problems]
+    except TypeError as error:
+        problems.append(Problem(where, str(error)))
+    return None
+
+
+def _under(where: str, cls: type[Any], inner: str) -> str:
+    rest = inner.removeprefix(cls.__name__)
+    return f"{where}{rest}" if rest.startswith(".") else where
+
+
+def part_from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any], name: str) -> Any:
+    """The named part that plain data describe; raises with every problem found, each with its path."""
+    problems: list[Problem] = []
+    part = _from_json(data, where, axes, arrays, base, problems, {"name": name})
+    if problems:
+        raise ParameterError(problems)
+    return part

@@ -1,0 +1,215 @@
+"""From plain data to a document: everything is checked, every problem is listed at once, nothing is half-read."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping
+from typing import Any, cast
+
+from deodar.element import Element
+from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.model import edit, find
+from deodar.model.document import KEYS, READS, VERSION, Document, Entry
+from deodar.model.parts import part_from_json
+from deodar.model.paths import Names, display, split, stored_id
+from deodar.numerics.axes import Axis
+from deodar.parameters import FrozenArray, leaves, show
+
+
+def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
+    """The document that plain data describe; raises with every problem found."""
+    return _Reader(data, arrays).read()
+
+
+class _Reader:
+    def __init__(self, data: Any, arrays: Mapping[str, FrozenArray]) -> None:
+        if not isinstance(data, dict):
+            raise DocumentError(f"is not a deodar document: it holds {type(data).__name__}, not an object")
+        self.data = cast("dict[str, Any]", data)
+        self.arrays = arrays
+        self.problems: list[Problem] = []
+
+    def read(self) -> Document:
+        version = self.data.get("deodar")
+        if version is None:
+            raise DocumentError(
+                "is not a deodar document: it has no key 'deodar'", fix="Files of other programs are opened with: deodar import FILE -o OUT"
+            )
+        if version != VERSION or isinstance(version, bool):
+            raise DocumentError(
+                f"is a document of version {show(version)}; this deodar reads version {VERSION}", fix="Type: pip install --upgrade deodar"
+            )
+        for key in self.data:
+            if key not in KEYS:
+                self.problem(key, "is no key of a document", did_you_mean(key, KEYS))
+        doc = self.general(Document(self.text("name", "model")))
+        axes = self.axes()
+        doc = self.elements(doc, axes)
+        doc = self.groups(doc)
+        if not self.problems:  # connections and links of elements that could not be read would only repeat their problems
+            doc = self.knobs(self.connections(doc))
+        if self.problems:
+            raise DocumentError(self.problems)
+        return doc
+
+    def problem(self, where: str, what: str, fix: str = "") -> None:
+        self.problems.append(Problem(where, what, fix))
+
+    def attempt(self, where: str, doc: Document, change: Any) -> Document:
+        try:
+            return change(doc)
+        except DeodarError as error:
+            self.problems += [Problem(where if p.where in ("", where) else f"{where}: {p.where}", p.what, p.fix) for p in error.problems]
+            return doc
+
+    def text(self, key: str, default: str) -> str:
+        value = self.data.get(key, default)
+        if not isinstance(value, str):
+            self.problem(key, f"needs text, not {show(value)}")
+            return default
+        return value
+
+    def table(self, key: str) -> dict[str, Any]:
+        value = self.data.get(key, {})
+        if not isinstance(value, dict):
+            self.problem(key, f"needs an object, not {type(value).__name__}")
+            return {}
+        return cast("dict[str, Any]", value)
+
+    def rows(self, key: str) -> list[Any]:
+        value = self.data.get(key, [])
+        if not isinstance(value, list):
+            self.problem(key, f"needs a list, not {type(value).__name__}")
+            return []
+        return cast("list[Any]", value)
+
+    def general(self, doc: Document) -> Document:
+        doc = self.attempt("time_unit", doc, lambda d: edit.describe(d, time_unit=self.data.get("time_unit", "ms")))
+        doc = self.attempt("dt", doc, lambda d: edit.describe(d, dt=self.data.get("dt")))
+        doc = self.attempt("t0", doc, lambda d: edit.describe(d, t0=self.data.get("t0", 0.0)))
+        notes, layout = self.text("notes", ""), self.table("layout")
+        return self.attempt("", doc, lambda d: edit.describe(d, notes=notes, layout=layout))
+
+    def axes(self) -> dict[str, Axis]:
+        out: dict[str, Axis] = {}
+        known = ("name", "lower", "upper", "samples", "periodic", "unit")
+        for key, value in self.table("axes").items():
+            if not isinstance(value, dict):
+                self.problem(f"axes.{key}", f"needs an object, not {show(value)}")
+                continue
+            values = cast("dict[str, Any]", value)
+            strange = [k for k in values if k not in known]
+            missing = [k for k in ("lower", "upper", "samples") if k not in values]
+            if strange or missing:
+                what = f"has no {missing[0]}" if missing else f"{strange[0]!r} is no property of an axis"
+                self.problem(f"axes.{key}", what, did_you_mean(strange[0], known) if strange else "")
+                continue
+            try:
+                given: dict[str, Any] = {"name": key} | values
+                out[key] = Axis(**given)
+            except AxesError as error:
+                self.problems += [Problem(f"axes.{key}", p.what, p.fix) for p in error.problems]
+        return out
+
+    def elements(self, doc: Document, axes: Mapping[str, Axis]) -> Document:
+        entries: list[Entry] = []
+        ids: set[str] = set()
+        for path, value in self.table("elements").items():
+            where = f"elements.{path}"
+            if not isinstance(value, dict):
+                self.problem(where, f"needs an object, not {show(value)}")
+                continue
+            body = dict(cast("dict[str, Any]", value))
+            ident, every = body.pop("id", None), body.pop("every", 1)
+            if "name" in body:
+                self.problem(f"{where}.name", "a name is the last part of the path, not a parameter")
+                continue
+            try:
+                names = split(path)
+                part = part_from_json(body, path, axes, self.arrays, Element, names[-1])
+            except (ParameterError, UnknownName) as error:
+                self.problems += error.problems
+                continue
+            if ident is None:
+                ident = stored_id(display(names), ids)
+            if not isinstance(ident, str) or len(ident) != 8 or any(c not in "0123456789abcdef" for c in ident):
+                self.problem(f"{where}.id", f"is {show(ident)}; it is eight hexadecimal digits")
+                continue
+            if ident in ids:
+                self.problem(f"{where}.id", f"{ident} belongs to another element too")
+                continue
+            try:
+                edit.require_ticks(every, where)
+            except ParameterError as error:
+                self.problems += error.problems
+                continue
+            ids.add(ident)
+            entries.append(Entry(ident, names, part, every))
+        paths = {e.names for e in entries}
+        for e in {e.names: e for e in entries if [o.names for o in entries].count(e.names) > 1}.values() if len(paths) < len(entries) else ():
+            self.problem(f"elements.{e.path}", "stands there twice, written in two ways")
+        for e in entries:
+            if any(e.names[:k] in paths for k in range(1, len(e.names))) or any(not n for n in e.names):
+                self.problem(f"elements.{e.path}", "cannot stand inside an element as in a group")
+        return dc.replace(doc, entries=tuple(entries), groups=_groups(e.group for e in entries))
+
+    def groups(self, doc: Document) -> Document:
+        for g in self.rows("groups"):
+            if not isinstance(g, str) or not g:
+                self.problem("groups", f"needs paths, not {show(g)}")
+                continue
+            doc = self.attempt(f"groups.{g}", doc, lambda d, g=g: edit.group(d, split(g)))
+        return doc
+
+    def connections(self, doc: Document) -> Document:
+        for k, row in enumerate(self.rows("connections")):
+            where = f"connections.{k}"
+            if not isinstance(row, dict) or not all(isinstance(cast(Any, row).get(key), str) for key in ("source", "target")):
+                self.problem(where, "needs a source and a target")
+                continue
+            value = cast("dict[str, str]", row)
+            strange = [key for key in value if key not in ("source", "target", "reads")]
+            if strange:
+                self.problem(where, f"{strange[0]!r} is no property of a connection")
+                continue
+            doc = self.attempt(where, doc, lambda d, v=value: _connected(d, v))
+        return doc
+
+    def knobs(self, doc: Document) -> Document:
+        for name, value in self.table("parameters").items():
+            where = f"parameters.{name}"
+            body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
+            number, links = body.get("value"), body.get("links", [])
+            texts = isinstance(links, list) and all(isinstance(path, str) for path in cast("list[Any]", links))
+            if isinstance(number, bool) or not isinstance(number, (int, float)) or not texts or set(body) - {"value", "links"}:
+                self.problem(where, "needs a value (a number) and links (a list of paths), and nothing else")
+                continue
+            doc = self.attempt(where, doc, lambda d, n=name, v=number: edit.knob(d, n, v))
+            for path in cast("list[Any]", links):
+                doc = self.attempt(where, doc, lambda d, n=name, p=path: _linked(d, p, n))
+        return doc
+
+
+def _connected(doc: Document, row: Mapping[str, str]) -> Document:
+    source, source_port = find.port(doc, row["source"])
+    target, target_port = find.port(doc, row["target"], "")
+    reads = row.get("reads", "")
+    if reads not in READS:
+        raise DocumentError(f"reads is {show(reads)}; it is one of previous, current, delayed")
+    return edit.connect(doc, source, source_port, target, target_port, reads)
+
+
+def _linked(doc: Document, path: str, name: str) -> Document:
+    found = find.target(doc, path)
+    if found.entry is None:
+        raise UnknownName(f"{path!r} names no parameter of an element")
+    if found.parameter not in [leaf for leaf, _, _ in leaves(found.entry.element)]:
+        raise UnknownName(f"{path!r} is not a number that can change while the model runs")
+    return edit.link(doc, found.entry.id, found.parameter, name)
+
+
+def _groups(groups: Any) -> tuple[Names, ...]:
+    out: list[Names] = []
+    for g in groups:
+        out += [g[:k] for k in range(1, len(g) + 1) if g[:k] not in out]
+    return tuple(out)

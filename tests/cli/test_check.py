@@ -1,0 +1,72 @@
+"""`deodar check FILE`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import deodar as dd
+from deodar import cli
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+def _good(path: Path) -> Path:
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("left", [X])) >> dd.Gain(2) >> model.add(dd.Field("u", [X]))
+    dd.save(model, path)
+    return path
+
+
+def _bad(path: Path) -> Path:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [dd.Axis("y", 0, 1, 3)]))
+    model.add(dd.Gain(2, name="loose"))
+    dd.save(model, path)
+    return path
+
+
+def test_a_good_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = _good(tmp_path / "m.json")
+    assert cli.main(["check", str(path)]) == 0
+    assert capsys.readouterr() == (f"{path}: good. 3 elements, 2 connections.\n", "")
+
+
+def test_a_document_with_problems_lists_them_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["check", str(_bad(tmp_path / "m.json"))]) == 1
+    out, err = capsys.readouterr()
+    lines = out.splitlines()
+    assert len(lines) == 2 and not err
+    assert lines[0].startswith("v: u.output [x 0..10, 11 samples] does not fit v.input [y 0..1, 3 samples]")
+    assert "Write: u >> Project([y], rename={'x': 'y'}) >> v" in lines[0]
+    assert lines[1].startswith("loose: nothing is connected to loose.input")
+
+
+def test_json_of_a_good_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["check", str(_good(tmp_path / "m.json")), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"problems": []}
+
+
+def test_json_of_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["check", str(_bad(tmp_path / "m.json")), "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)["problems"]
+    assert [p["where"] for p in found] == ["v", "loose"]
+    assert all(set(p) == {"where", "what", "fix"} and p["fix"] for p in found)
+
+
+def test_json_of_a_file_that_cannot_be_read_lists_its_problems_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "m.json"
+    path.write_text('{"deodar": 1, "elements": {"u": {"kind": "Field", "tua": 1}, "v": {"kind": "Feild"}}}')
+    assert cli.main(["check", str(path), "--json"]) == 1
+    out, err = capsys.readouterr()
+    assert len(json.loads(out)["problems"]) == 2 and not err
+
+
+def test_checking_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _good(tmp_path / "m.json")
+    before = sorted(tmp_path.iterdir())
+    cli.main(["check", str(tmp_path / "m.json")])
+    assert sorted(tmp_path.iterdir()) == before
+    capsys.readouterr()

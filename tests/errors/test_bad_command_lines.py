@@ -1,0 +1,121 @@
+"""The command line: whatever is typed, one paragraph on stderr, status 1 or 2, nothing written."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import deodar as dd
+from deodar import cli
+from tests.errors.refused import paragraph
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+GOOD, BAD = "good.json", "bad.json"
+
+CALLS: dict[str, tuple[list[str], int, tuple[str, ...]]] = {
+    "no command": ([], 2, ("COMMAND", "deodar --help")),
+    "a misspelt command": (["chek"], 2, ("there is no command 'chek'", "Did you mean 'check'?")),
+    "no such command": (["zzz"], 2, ("there is no command 'zzz'", "There is: ")),
+    "a command that is nothing": ([""], 2, ("there is no command ''",)),
+    "an unknown option": (["--verbos"], 2, ("deodar --help",)),
+    "check: nothing": (["check"], 2, ("FILE", "Type: deodar check --help")),
+    "check: an unknown option": (["check", GOOD, "--force"], 2, ("--force",)),
+    "check: missing": (["check", "god.json"], 1, ("god.json: there is no such file", "Did you mean 'good.json'?")),
+    "check: a folder": (["check", "."], 1, ("is not a file",)),
+    "check: a pipe": (["check", "pipe"], 1, ("is not a file",)),
+    "check: no JSON": (["check", BAD], 1, ("bad.json: is not JSON",)),
+    "check: a name too long": (["check", "x" * 300], 1, ("cannot be read",)),
+    "check: not readable": (["check", "unreadable.json"], 1, ("unreadable.json",)),
+    "elements: misspelt": (["elements", "Feild"], 1, ("Did you mean 'Field'?",)),
+    "elements: too many": (["elements", "Field", "Gain"], 2, ("unrecognized arguments: Gain",)),
+}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder with a good document, a broken one, and a pipe."""
+    import os
+
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X]))
+    dd.save(model, tmp_path / GOOD)
+    (tmp_path / BAD).write_text("{")
+    (tmp_path / "unreadable.json").mkdir()
+    os.mkfifo(tmp_path / "pipe")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _status(argv: list[str]) -> int:
+    try:
+        return cli.main(argv)
+    except SystemExit as stop:
+        return int(stop.code or 0)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_call_that_cannot_be(folder: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    argv, status, says = CALLS[name]
+    before = sorted(folder.iterdir())
+    assert _status(argv) == status
+    out, err = capsys.readouterr()
+    assert not out
+    paragraph(err)
+    assert err.endswith("\n") and err.startswith("deodar")
+    for piece in says:
+        assert piece in err, err
+    assert sorted(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize("command", ["", *cli.commands()])
+def test_every_command_has_help(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert _status([*([command] if command else []), "--help"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("usage: deodar") and not err
+    if command:
+        assert cli.commands()[command].HELP.split()[0] in out
+
+
+def test_the_version(capsys: pytest.CaptureFixture[str]) -> None:
+    assert _status(["--version"]) == 0
+    assert capsys.readouterr().out == f"deodar {dd.__version__}\n"
+
+
+def _raising(error: BaseException) -> Callable[..., int]:
+    def run(args: object) -> int:
+        raise error
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [
+        (KeyboardInterrupt(), "stopped"),
+        (PermissionError(13, "Permission denied", "secret.json"), "Permission denied: secret.json"),
+        (OSError(28, "No space left on device"), "No space left on device"),
+        (MemoryError(), "not enough memory"),
+        (dd.errors.MissingExtra("cv2", "vision", "the camera"), "pip install 'deodar[vision]'"),
+    ],
+)
+def test_what_stops_a_command_is_told_in_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], error: BaseException, says: str
+) -> None:
+    monkeypatch.setattr(cli.commands()["elements"], "run", _raising(error))
+    assert _status(["elements"]) == 1
+    out, err = capsys.readouterr()
+    assert not out and err.startswith("deodar elements: ") and says in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_real_process_shows_no_traceback(folder: Path) -> None:
+    for argv, status in ((["check", BAD], 1), (["chek"], 2), (["check"], 2), (["check", GOOD], 0)):
+        done = subprocess.run([sys.executable, "-m", "deodar", *argv], capture_output=True, text=True)
+        assert done.returncode == status
+        assert "Traceback" not in done.stderr
+        assert bool(done.stderr) == bool(status)

@@ -1,0 +1,181 @@
+"""Functions of a stranger's: inert until trusted; and a user's own that go wrong."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar import cli
+from deodar.elements.function import Function
+from deodar.errors import ModelError, NotFinite, UnknownName, Untrusted
+from tests.errors.refused import refused
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+@pytest.fixture
+def stranger(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A module that leaves a mark when it is imported, and a document that names a function of it."""
+    mark = tmp_path / "it ran"
+    (tmp_path / "strangers_module.py").write_text(
+        f"from pathlib import Path\nPath({str(mark)!r}).write_text('x')\ndef step(state, inputs, time):\n    return state + inputs['input']\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    model = dd.Model("strange")
+    f = model.add(Function("f", [X], function="strangers_module:step"))
+    model.add(dd.GaussianStimulus("s", [X])) >> f
+    dd.save(model, tmp_path / "strange.json")
+    assert not mark.exists()
+    yield mark
+    sys.modules.pop("strangers_module", None)
+
+
+def test_reading_checking_and_editing_never_import_it(stranger: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = stranger.with_name("strange.json")
+    model = dd.load(path)
+    assert model.check() == []
+    model.set("f.initial", 1.0)
+    model.copy  # noqa: B018
+    model.rename("f", "g")
+    model.to_json()
+    model._repr_html_()
+    dd.save(model, stranger.with_name("copy.json"))
+    assert cli.main(["check", str(path)]) == 0
+    assert cli.main(["check", str(path), "--json"]) == 0
+    assert not stranger.exists() and "strangers_module" not in sys.modules
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize("run", [lambda m: dd.simulate(m, 5, record="f.output"), dd.Session], ids=["simulate", "Session"])
+def test_running_it_is_refused_until_it_is_trusted(stranger: Path, run: Callable[[dd.Model], Any]) -> None:
+    path = stranger.with_name("strange.json")
+    refused(lambda: run(dd.load(path)), Untrusted, "f: the document asks to run the function 'strangers_module:step'", "trust=True", "--trust")
+    assert not stranger.exists()
+
+
+def test_trust_runs_it(stranger: Path) -> None:
+    model = dd.load(stranger.with_name("strange.json"), trust=True)
+    data = dd.simulate(model, 5, record="f.output")
+    assert stranger.exists()
+    assert float(data["f.output"].isel(time=-1).max()) > 4
+
+
+def test_a_trusted_model_does_not_lend_its_trust(stranger: Path) -> None:
+    """A stranger's document inserted into a model of one's own is as foreign as before; trust is said where it is read."""
+    path = stranger.with_name("strange.json")
+    loaded = dd.load(path)
+    loaded.insert(dd.load(path), "twin")
+    refused(lambda: dd.simulate(loaded, 5, record="f.output"), Untrusted)
+    own = dd.Model("own")
+    own.insert(loaded, "theirs")
+    refused(lambda: dd.simulate(own, 5, record="theirs.f.output"), Untrusted)
+    assert not stranger.exists()
+
+
+def raises(state: Any, inputs: Any, time: Any) -> Any:
+    raise RuntimeError("no luck today\nand a second line")
+
+
+def wrong_shape(state: Any, inputs: Any, time: Any) -> Any:
+    return np.zeros(3)
+
+
+def one_number(state: Any, inputs: Any, time: Any) -> Any:
+    return 1.0
+
+
+def nothing(state: Any, inputs: Any, time: Any) -> Any:
+    return None
+
+
+def words(state: Any, inputs: Any, time: Any) -> Any:
+    return "words"
+
+
+def imaginary(state: Any, inputs: Any, time: Any) -> Any:
+    return state * 1j
+
+
+def branches(state: Any, inputs: Any, time: Any) -> Any:
+    return state if state.sum() > 0 else -state
+
+
+def too_few(state: Any) -> Any:
+    return state
+
+
+def undefined(state: Any, inputs: Any, time: Any) -> Any:
+    return state / 0.0
+
+
+NOT_A_FUNCTION = 5
+
+FUNCTIONS: dict[str, tuple[Any, type[Exception], tuple[str, ...]]] = {
+    "raises": (
+        raises, ModelError,
+        ("f: ", "tests.errors.test_bad_functions:raises", "raised RuntimeError: no luck today", "function(state, inputs, time, **values)"),
+    ),
+    "another shape": (wrong_shape, ModelError, ("f: ", "wrong_shape returned", "of shape [3]; its state has real numbers of shape [11]")),
+    "one number": (one_number, ModelError, ("of shape []; its state has real numbers of shape [11]",)),
+    "nothing": (nothing, ModelError, ("f: ", "nothing raised")),
+    "words": (words, ModelError, ("f: ", "words raised")),
+    "imaginary": (imaginary, ModelError, ("returned complex64 numbers",)),
+    "not for JAX": (branches, ModelError, ("branches raised TracerBoolConversionError", "traced by JAX")),
+    "too few arguments": (too_few, ModelError, ("too_few raised TypeError",)),
+    "not there": ("tests.errors.test_bad_functions:absent", UnknownName, ("f: ", "cannot be found", "module:name")),
+    "no such module": ("no_such_module_here:step", UnknownName, ("no_such_module_here",)),
+    "no function": ("tests.errors.test_bad_functions:NOT_A_FUNCTION", ModelError, ("is 5, which is no function",)),
+    "no colon": ("math", UnknownName, ("cannot be found", "module:name")),
+    "nothing named": ("", UnknownName, ("cannot be found",)),
+    "a colon alone": (":", UnknownName, ("cannot be found",)),
+    "a relative name": (".module:step", UnknownName, ("cannot be found",)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_that_goes_wrong(name: str) -> None:
+    function, error, says = FUNCTIONS[name]
+    model = dd.Model("m")
+    model.add(Function("f", [X], function=function))
+    refused(lambda: dd.simulate(model, 5, record="f.output"), error, *says)  # type: ignore[arg-type]
+
+
+def test_a_module_that_raises_when_it_is_imported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "broken_module_of_mine.py").write_text("raise RuntimeError('broken')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    model = dd.Model("m")
+    model.add(Function("f", [X], function="broken_module_of_mine:step"))
+    refused(lambda: dd.simulate(model, 5, record="f.output"), UnknownName, "cannot be found (RuntimeError: broken)")
+
+
+def test_where_a_users_function_raised_stays_visible() -> None:
+    """The message is ours; the cause, with its line, is kept for those who look."""
+    model = dd.Model("m")
+    model.add(Function("f", [X], function=raises))
+    with pytest.raises(ModelError) as caught:
+        dd.simulate(model, 5, record="f.output")
+    assert isinstance(caught.value.__cause__, RuntimeError)
+
+
+def test_a_value_that_the_function_does_not_take() -> None:
+    model = dd.Model("m")
+    model.add(Function("f", [X], function="deodar.elements.function:leaky", values={"rat": 1.0}))
+    refused(lambda: dd.simulate(model, 5, record="f.output"), ModelError, "raised TypeError", "'rat'")
+
+
+def test_an_input_that_the_element_does_not_have() -> None:
+    model = dd.Model("m")
+    model.add(Function("f", [X], function="deodar.elements.function:leaky", ports_in=["drive"]))
+    refused(lambda: dd.simulate(model, 5, record="f.output"), ModelError, "raised KeyError: 'input'")
+
+
+def test_a_function_that_divides_by_zero_names_element_and_step() -> None:
+    model = dd.Model("m")
+    model.add(Function("f", [X], function=undefined))
+    refused(lambda: dd.simulate(model, 5, record="f.output"), NotFinite, "f became infinite or undefined in step 1 (time 1 ms, dt 1)")

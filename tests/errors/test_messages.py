@@ -1,0 +1,62 @@
+"""What an error says: what is wrong, where, and what to type."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+from deodar import errors
+from deodar.errors import DeodarError, Interrupted, MissingExtra, Problem, did_you_mean
+
+KINDS = [e for e in vars(errors).values() if isinstance(e, type) and issubclass(e, DeodarError)]
+
+
+def test_what_where_and_fix_stand_in_one_paragraph() -> None:
+    error = errors.ParameterError("is -1, below its lower bound 0", where="u.noise", fix="Take a number above 0")
+    assert str(error) == "u.noise: is -1, below its lower bound 0. Take a number above 0"
+    assert error.problems == (Problem("u.noise", "is -1, below its lower bound 0", "Take a number above 0"),)
+
+
+def test_several_problems_are_numbered() -> None:
+    error = errors.ModelError([Problem("u", "one"), Problem("v", "two", "Type this")])
+    assert str(error) == "2 problems\n  1. u: one\n  2. v: two. Type this"
+
+
+def test_one_problem_is_no_list() -> None:
+    assert str(errors.ModelError([Problem("u", "one")])) == "u: one"
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "hint"),
+    [
+        ("restng_level", ["tau", "resting_level"], "Did you mean 'resting_level'?"),
+        ("zzz", ["tau", "noise"], "There is: noise, tau"),
+        ("zzz", [], ""),
+        ("zzz", [f"name{i:02}" for i in range(30)], "There is: " + ", ".join(f"name{i:02}" for i in range(12)) + ", ..."),
+    ],
+)
+def test_did_you_mean(name: str, known: list[str], hint: str) -> None:
+    assert did_you_mean(name, known) == hint
+
+
+def test_a_missing_extra_says_what_to_install() -> None:
+    error = MissingExtra("cv2", "vision", "the camera")
+    assert str(error) == "the camera needs the package cv2, which is not installed. Type: pip install 'deodar[vision]'"
+
+
+def test_an_interrupted_run_holds_its_data() -> None:
+    data = object()
+    assert Interrupted("stopped at 5 of 10 ms", data).data is data
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda k: k.__name__)
+def test_every_error_is_one_of_ours_and_says_when_it_is_raised(kind: type[DeodarError]) -> None:
+    assert kind.__doc__ and (kind is DeodarError or "aised" in kind.__doc__)
+
+
+@pytest.mark.parametrize("kind", [k for k in KINDS if k not in (MissingExtra, Interrupted)], ids=lambda k: k.__name__)
+def test_errors_travel_between_processes(kind: type[DeodarError]) -> None:
+    error = kind([Problem("u", "one"), Problem("v", "two")])
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is kind and str(again) == str(error)

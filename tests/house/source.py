@@ -1,0 +1,77 @@
+"""The files of the repository, and what a module imports: read by the tests of the house."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+SRC = ROOT / "src" / "deodar"
+MODULES = sorted(SRC.rglob("*.py"))
+
+NEVER = {".git", ".venv", ".ruff_cache", ".pytest_cache", "__pycache__", "node_modules", "site", "dist", "shared"}
+TEXT = {
+    "",
+    ".py",
+    ".pyi",
+    ".md",
+    ".toml",
+    ".json",
+    ".cff",
+    ".txt",
+    ".yml",
+    ".yaml",
+    ".cfg",
+    ".ini",
+    ".css",
+    ".html",
+    ".js",
+    ".ts",
+    ".svg",
+    ".csv",
+    ".sh",
+}
+
+
+@functools.cache
+def tree(path: Path) -> ast.Module:
+    """The syntax tree of a file."""
+    return ast.parse(path.read_text(encoding="utf-8"), str(path))
+
+
+def module(path: Path) -> str:
+    """The dotted name of a file of the package, the package itself left out: `numerics.axes`."""
+    names = list(path.relative_to(SRC).with_suffix("").parts)
+    return ".".join(names[:-1] if names[-1] == "__init__" else names)
+
+
+def imported(path: Path) -> list[tuple[int, str]]:
+    """(line, module of the package) of everything of deodar that a file imports: at its top, in functions, for types."""
+    found: list[tuple[int, str]] = []
+    for node in ast.walk(tree(path)):
+        if isinstance(node, ast.Import):
+            found += [(node.lineno, alias.name) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            # `from deodar.model import edit` imports deodar.model.edit; a plain name of a module counts as the module
+            for alias in node.names:
+                whole = f"{node.module}.{alias.name}"
+                found.append((node.lineno, whole if _is_module(whole) else node.module))
+    return [(line, name.removeprefix("deodar").removeprefix(".")) for line, name in found if name.split(".")[0] == "deodar"]
+
+
+def _is_module(name: str) -> bool:
+    parts = name.split(".")
+    if parts[0] != "deodar":
+        return False
+    path = SRC.joinpath(*parts[1:])
+    return path.with_suffix(".py").is_file() or path.is_dir()
+
+
+def texts() -> list[Path]:
+    """Every text file of the repository that git knows or would take, without what is built or installed."""
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True)
+    names = [ROOT / line for line in listed.stdout.splitlines()] if listed.returncode == 0 else list(ROOT.rglob("*"))
+    kept = [p for p in names if p.is_file() and p.suffix in TEXT and not NEVER & set(p.relative_to(ROOT).parts)]
+    return sorted(kept)

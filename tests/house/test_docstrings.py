@@ -1,0 +1,159 @@
+"""Everything registered says what it is: equation, symbols in field order, ports, shapes, units, source."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import inspect
+import re
+from typing import Any
+
+import pytest
+
+from deodar import registry
+from deodar.element import Coupling, Element
+from deodar.parameters import Part, parameters
+
+KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
+ELEMENTS = {name: cls for name, cls in KINDS.items() if issubclass(cls, Element)}
+SECTION = re.compile(r"^([A-Z][a-z]+):[ ]*(.*)$")
+
+# What the description of a parameter has to say for the unit it declares. Activation has no unit of its own and needs no word.
+UNIT_WORDS = {
+    "time": ("time",),
+    "axis": ("axis", "axes"),
+    "activation": (),
+    "1/activation": ("per unit of activation",),
+    "hue": ("hue",),
+    "motor": ("motor", "phi"),
+    "motor/axis": ("motor units per axis unit",),
+    "motor/time": ("per unit of the document's time",),
+    "time x input": ("document time times",),
+    "input x axis": ("N ", "integral"),
+}
+
+
+def sections(cls: type[Any]) -> dict[str, str]:
+    """The sections of a docstring by title; what stands before the first is under ""."""
+    out: dict[str, list[str]] = {"": []}
+    title = ""
+    for line in (inspect.cleandoc(cls.__doc__ or "")).splitlines():
+        found = SECTION.match(line)
+        if found:
+            title = found[1]
+            out[title] = [found[2]] if found[2] else []
+        else:
+            out[title].append(line)
+    return {title: inspect.cleandoc("\n" + "\n".join(lines)).strip() for title, lines in out.items()}
+
+
+def entries(text: str) -> dict[str, str]:
+    """`name: description` lines of a section, in order; indented lines belong to the entry before."""
+    out: dict[str, str] = {}
+    last = ""
+    for line in text.splitlines():
+        found = re.match(r"^(\w+): (.*)$", line)
+        if found:
+            last = found[1]
+            out[last] = found[2]
+        elif last:
+            out[last] += " " + line.strip()
+    return out
+
+
+def fields(cls: type[Any]) -> list[str]:
+    """Parameters in the order in which they are written down: those by position, then those by name; `name` is every element's."""
+    if not dc.is_dataclass(cls):
+        return [p for p in inspect.signature(cls.__init__).parameters if p != "self"]
+    found = dc.fields(cls)
+    ordered = [f.name for f in found if not f.kw_only] + [f.name for f in found if f.kw_only]
+    return [f for f in ordered if f != "name"]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_one_sentence_then_an_equation(name: str) -> None:
+    text = sections(KINDS[name])
+    first = text[""].splitlines()[0] if text[""] else ""
+    assert first.endswith(".") and len(first) < 150, "begin with one sentence on one line"
+    assert text.get("Equation"), "write a section Equation:"
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_parameters_are_named_in_field_order(name: str) -> None:
+    text = sections(KINDS[name]).get("Parameters", "")
+    if fields(KINDS[name]):
+        assert list(entries(text)) == fields(KINDS[name])
+        assert all(entries(text).values())
+    else:
+        assert text == "none."
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_every_port_is_named_with_its_axes(name: str) -> None:
+    cls = ELEMENTS[name]
+    element = cls.example()
+    axes = {port: element.wants(port, ()) or () for port in element.ports()}
+    outputs = list(element.outputs(axes))
+    listed = entries(sections(cls).get("Ports", ""))
+    # the inputs of a user's function are named by its own parameter
+    wanted = {*outputs, *(() if "ports_in" in fields(cls) else element.ports())}
+    assert set(listed) == wanted
+    for port, says in listed.items():
+        assert re.search(r"\baxes\b|\baxis\b|one number|picture", says), f"{port}: say over which axes"
+
+
+@pytest.mark.parametrize("name", [n for n in KINDS if n not in ELEMENTS])
+def test_shapes_are_stated(name: str) -> None:
+    assert sections(KINDS[name]).get("Shapes")
+
+
+@pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part) and any(p.form == "array" for p in parameters(cls))])
+def test_arrays_state_their_shape(name: str) -> None:
+    shapes = entries(sections(KINDS[name]).get("Shapes", ""))
+    assert {p.name for p in parameters(KINDS[name]) if p.form == "array"} <= set(shapes)
+
+
+@pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
+def test_units_are_said_where_they_are_declared(name: str) -> None:
+    cls = KINDS[name]
+    listed = entries(sections(cls).get("Parameters", ""))
+    for p in parameters(cls):
+        if p.unit:
+            assert p.unit in UNIT_WORDS, f"{p.name}: the unit {p.unit!r} is new; say here how a description names it"
+            words = UNIT_WORDS[p.unit]
+            assert not words or any(w in listed[p.name] for w in words), f"{p.name}: the unit is {p.unit}, the description says: {listed[p.name]}"
+
+
+@pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
+def test_every_parameter_says_what_it_means(name: str) -> None:
+    """The meaning stands in the declaration too: forms and the JSON Schema show it."""
+    silent = [p.name for p in parameters(KINDS[name]) if not p.meaning]
+    assert not silent
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_source_or_the_words_no_reference(name: str) -> None:
+    says = sections(KINDS[name]).get("Reference", "")
+    assert says == "no reference" or re.search(r"\((19|20)\d\d\)", says), f"give authors, year and place, or: no reference ({says!r})"
+
+
+@pytest.mark.parametrize("name", [n for n, cls in ELEMENTS.items() if issubclass(cls, Coupling)])
+def test_couplings_pass_their_input_on(name: str) -> None:
+    assert any(ELEMENTS[name].direct.values())
+
+
+def test_the_reader_of_docstrings_sees_what_is_missing() -> None:
+    class Silent:
+        """Does nothing."""
+
+    class Mixed:
+        """Does nothing.
+
+        Parameters:
+            b: second
+                and more.
+            a: first.
+        """
+
+    assert sections(Silent).get("Equation") is None
+    assert list(entries(sections(Mixed)["Parameters"])) == ["b", "a"]
+    assert entries(sections(Mixed)["Parameters"])["b"] == "second and more."

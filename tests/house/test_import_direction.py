@@ -1,0 +1,100 @@
+"""Imports point one way: a module may import what stands on an earlier floor, or its own folder."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from tests.house.source import MODULES, SRC, imported, module, tree
+
+# The floors of the house, from the ground up. Rooms of one floor do not see each other; a file sees its own folder. `registry`
+# stands below `parameters`, which looks kinds up in it; `recording` below `runtime`, whose runs it labels; the root package
+# resolves its names lazily and stands above all, like `__main__`.
+FLOORS: tuple[frozenset[str], ...] = tuple(
+    frozenset(floor.split())
+    for floor in (
+        "errors",
+        "registry",
+        "parameters",
+        "numerics",
+        "element",
+        "elements couplings worlds",
+        "model",
+        "compiler",
+        "recording",
+        "runtime",
+        "analysis",
+        "experiments",
+        "figures importers architectures",
+        "demos",
+        "server",
+        "cli",
+        "__main__",
+    )
+)
+
+# Only these look modules up by name while they run: the folder is the registry, the root is lazy, a user's function is a name.
+DYNAMIC = {"", "registry", "cli", "elements.function", "figures._panels"}
+
+
+def _floor(name: str) -> int:
+    room = name.split(".")[0]
+    for level, rooms in enumerate(FLOORS):
+        if room in rooms:
+            return level
+    raise AssertionError(f"deodar.{room} stands on no floor: name it in FLOORS")
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_imports_point_one_way(path: Path) -> None:
+    name = module(path)
+    if not name:
+        return  # the root package: checked by the names it gives
+    wrong = []
+    for line, other in imported(path):
+        if not other:
+            continue  # `from deodar import __version__`: the root imports nothing when it is imported
+        same_room = other.split(".")[0] == name.split(".")[0]
+        if not same_room and _floor(other) >= _floor(name):
+            wrong.append(f"{path.name}:{line} imports deodar.{other}")
+    assert not wrong, wrong
+
+
+def test_every_room_has_a_floor_and_every_floor_of_the_ground_is_there() -> None:
+    rooms = {module(p).split(".")[0] for p in MODULES} - {""}
+    for room in rooms:
+        _floor(room)
+    assert {"errors", "parameters", "registry", "numerics", "element", "elements", "couplings", "worlds", "model", "cli"} <= rooms
+
+
+def test_the_root_package_imports_nothing_of_the_house_at_run_time() -> None:
+    top = tree(SRC / "__init__.py")
+    found = [n for n in top.body if isinstance(n, (ast.Import, ast.ImportFrom))]
+    assert not [n for n in found if isinstance(n, ast.ImportFrom) and (n.module or "").startswith("deodar")]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_modules_are_named_where_they_are_imported(path: Path) -> None:
+    """A module that is imported through a string escapes the rule above: only the registries may do that."""
+    if module(path) in DYNAMIC:
+        return
+    calls = [n for n in ast.walk(tree(path)) if isinstance(n, ast.Call)]
+    names = [n.func.attr if isinstance(n.func, ast.Attribute) else getattr(n.func, "id", "") for n in calls]
+    assert not {"import_module", "__import__"} & set(names)
+
+
+def test_no_relative_imports() -> None:
+    wrong = [p.name for p in MODULES for n in ast.walk(tree(p)) if isinstance(n, ast.ImportFrom) and n.level]
+    assert not wrong
+
+
+def test_the_rule_sees_what_it_forbids(tmp_path: Path) -> None:
+    """The reader finds imports at the top, inside functions and those for types only."""
+    bad = tmp_path / "bad.py"
+    bad.write_text(
+        "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from deodar.runtime.run import Run\n"
+        "def f():\n    import deodar.cli.check\n    from deodar.errors import DeodarError\n"
+    )
+    assert sorted(imported(bad)) == [(2, "model.edit"), (4, "runtime.run"), (6, "cli.check"), (7, "errors")]

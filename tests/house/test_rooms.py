@@ -1,0 +1,95 @@
+"""Every file of an extension folder registers exactly one thing."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import types
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import deodar
+from deodar import registry
+from deodar.errors import ModelError, UnknownName
+
+MODULES = [module for room in registry.ROOMS for module in registry.modules(room)]
+
+ONE = """
+from dataclasses import dataclass
+from deodar.parameters import Part
+from deodar.registry import register
+"""
+
+
+def _kind(name: str) -> str:
+    return f"\n@register\n@dataclass(frozen=True)\nclass {name}(Part):\n    pass\n"
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """An extension folder of the test's own, `deodar.annexe`, and a registry that forgets it afterwards."""
+    folder = tmp_path / "annexe"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    package = types.ModuleType("deodar.annexe")
+    package.__path__ = [str(folder)]
+    monkeypatch.setitem(sys.modules, "deodar.annexe", package)
+    monkeypatch.setattr(deodar, "annexe", package, raising=False)
+    monkeypatch.setattr(registry, "ROOMS", (*registry.ROOMS, "annexe"))
+    before = dict(registry._kinds)
+    yield folder
+    registry._kinds.clear()
+    registry._kinds.update(before)
+    for name in [n for n in sys.modules if n.startswith("deodar.annexe.")]:
+        del sys.modules[name]
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_every_file_of_a_room_registers_exactly_one_kind(module: str) -> None:
+    importlib.import_module(module)
+    assert len([cls for cls in registry.kinds().values() if cls.__module__ == module]) == 1
+
+
+def test_the_rooms_hold_what_a_first_model_needs() -> None:
+    for room, some in {
+        "elements": {"Field", "GaussianStimulus", "Boost", "Noise", "Sensor"},
+        "couplings": {"Gain", "Project", "Resample", "Weights"},
+        "numerics.kernels": {"Gaussian", "Box", "MexicanHat", "Custom", "Shifted"},
+        "numerics.sigmoids": {"Logistic", "Absolute", "Step", "Linear", "SemiLinear"},
+        "worlds": {"Picture"},
+    }.items():
+        assert some <= set(registry.kinds(room))
+
+
+def test_a_file_that_registers_one_kind_is_found(room: Path) -> None:
+    (room / "alone.py").write_text(ONE + _kind("Alone"))
+    assert registry.kind("Alone").__name__ == "Alone"
+    assert list(registry.kinds("annexe")) == ["Alone"]
+
+
+@pytest.mark.parametrize(
+    ("text", "count"), [(ONE, "registers 0 kinds (none)"), (ONE + _kind("Left") + _kind("Right"), "registers 2 kinds (Left, Right)")]
+)
+def test_a_file_that_registers_none_or_two_is_refused(room: Path, text: str, count: str) -> None:
+    (room / "odd.py").write_text(text)
+    with pytest.raises(ModelError) as caught:
+        registry.kinds()
+    assert f"deodar.annexe.odd {count}" in str(caught.value)
+
+
+def test_a_kind_that_is_registered_twice_is_refused(room: Path) -> None:
+    (room / "field.py").write_text(ONE + _kind("Field"))
+    with pytest.raises(ModelError, match=r"'Field' is registered twice, by deodar\.elements\.field and by deodar\.annexe\.field"):
+        registry.kinds()
+
+
+def test_files_with_an_underscore_are_no_extensions(room: Path) -> None:
+    (room / "_base.py").write_text(ONE)
+    assert registry.modules("annexe") == []
+
+
+def test_an_unknown_kind_suggests_the_nearest() -> None:
+    with pytest.raises(UnknownName, match=r"'Feild'.*Did you mean 'Field'"):
+        registry.kind("Feild")

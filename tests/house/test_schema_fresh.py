@@ -1,0 +1,72 @@
+"""The shipped JSON Schema is the one the declarations give, and what we commit and write is valid under it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from deodar import registry
+from deodar.element import Element
+from deodar.model import files, schema
+from deodar.model.model import Model
+from tests.house.source import ROOT, texts
+
+SHIPPED: dict[str, Any] = json.loads(schema.SHIPPED.read_text(encoding="utf-8"))
+VALIDATOR = jsonschema.Draft202012Validator(SHIPPED)
+
+
+def _documents() -> list[Path]:
+    """Every committed JSON file that says it is a deodar document."""
+    found = []
+    for path in texts():
+        if path.suffix == ".json" and path != schema.SHIPPED:
+            data = json.loads(path.read_text(encoding="utf-8"))
+            if isinstance(data, dict) and "deodar" in data and "elements" in data:
+                found.append(path)
+    return found
+
+
+def test_the_shipped_schema_is_fresh() -> None:
+    assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), "write it anew: python -m deodar.model.schema"
+
+
+def test_the_schema_is_one() -> None:
+    jsonschema.Draft202012Validator.check_schema(SHIPPED)
+
+
+@pytest.mark.parametrize("name", [n for n, cls in registry.kinds().items() if issubclass(cls, Element) and cls.__module__.startswith("deodar.")])
+def test_what_we_write_is_valid(name: str) -> None:
+    model = Model("one")
+    model.add(registry.kind(name).example())
+    VALIDATOR.validate(json.loads(model.to_json()))
+
+
+def test_the_schema_refuses_what_load_refuses() -> None:
+    model = Model("one")
+    model.add(registry.kind("Field").example())
+    for change in (
+        lambda d: d.update(deodar=2),
+        lambda d: d.update(elements=[]),
+        lambda d: d.update(strange=1),
+        lambda d: d["elements"]["example"].update(kind="Feild"),
+        lambda d: d["elements"]["example"].update(tau="20"),
+        lambda d: d["elements"]["example"].update(tua=20),
+        lambda d: d["elements"]["example"].update(tau=0),
+        lambda d: d["axes"]["x"].update(samples=2.5),
+    ):
+        data = json.loads(model.to_json())
+        change(data)
+        assert list(VALIDATOR.iter_errors(data))
+        with pytest.raises(files.DeodarError):
+            files.from_data(data, {})
+
+
+def test_committed_documents_are_valid_and_good() -> None:
+    for path in _documents():
+        VALIDATOR.validate(json.loads(path.read_text(encoding="utf-8")))
+        model = Model(document=files.load(path), trusted=False)
+        assert not model.check(), path.relative_to(ROOT)

@@ -1,0 +1,166 @@
+"""Rules for the files themselves: length, words, state, printing, paths."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.house.source import MODULES, ROOT, SRC, module, texts, tree
+
+MOST_LINES = 400
+# Files that are longer, each with its reason. A line here is a debt: take it away when the file is divided.
+LONGER = {
+    "parameters.py": "one declaration and all its readers: what they share is private, and each is read against the others",
+}
+
+# Written in pieces, so that this file does not hold what it looks for.
+FORBIDDEN = {
+    "hosts of package registries": [
+        rf"{a}\.{b}" for a, b in [("pypi", "org"), ("pythonhosted", "org"), ("npmjs", "org"), ("npmjs", "com"), ("yarnpkg", "com")]
+    ],
+    "paths of one machine": [rf"/{a}/" for a in ("work", "root")] + [rf"/home/{'[a-z]+'}/", r"[A-Z]:\\Users\\"],
+    "unfinished work": [rf"\b{a}{b}\b" for a, b in [("TO", "DO"), ("FIX", "ME"), ("XX", "X")]],
+}
+
+# Names that are written once, when their module is imported, and hold something that could change.
+STATE = {
+    ("registry", "_kinds"): "the registry itself",
+}
+MUTABLE_CALLS = {
+    "dict",
+    "list",
+    "set",
+    "defaultdict",
+    "Counter",
+    "deque",
+    "OrderedDict",
+    "WeakValueDictionary",
+    "WeakKeyDictionary",
+    "ContextVar",
+    "local",
+}
+CHANGES = {"append", "add", "update", "pop", "clear", "extend", "insert", "remove", "setdefault", "discard"}
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_files_are_short(path: Path) -> None:
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    name = path.relative_to(SRC).as_posix()
+    assert lines <= MOST_LINES or name in LONGER, f"{name} has {lines} lines; divide it"
+
+
+def test_the_list_of_longer_files_holds_no_shorter_ones() -> None:
+    lengths = {name: len((SRC / name).read_text(encoding="utf-8").splitlines()) for name in LONGER}
+    assert all(n > MOST_LINES for n in lengths.values()), lengths
+
+
+def test_the_median_file_is_short() -> None:
+    lengths = sorted(len(p.read_text(encoding="utf-8").splitlines()) for p in MODULES)
+    assert lengths[len(lengths) // 2] <= 150
+
+
+@pytest.mark.parametrize("what", FORBIDDEN)
+def test_no_file_holds_forbidden_words(what: str) -> None:
+    pattern = re.compile("|".join(FORBIDDEN[what]))
+    found = [
+        f"{path.relative_to(ROOT)}:{number}: {line.strip()[:80]}"
+        for path in texts()
+        for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1)
+        if pattern.search(line)
+    ]
+    assert not found, found
+
+
+def test_the_words_are_found_where_they_stand() -> None:
+    for what, line in {
+        "hosts of package registries": "see https://py" + "pi.org/simple",
+        "paths of one machine": "open('/wo" + "rk/main/file')",
+        "unfinished work": "# TO" + "DO: more",
+    }.items():
+        assert re.search("|".join(FORBIDDEN[what]), line)
+
+
+def _mutable(value: ast.expr | None) -> bool:
+    if isinstance(value, (ast.Dict, ast.List, ast.Set, ast.ListComp, ast.DictComp, ast.SetComp)):
+        return True
+    if isinstance(value, ast.Call):
+        name = value.func.attr if isinstance(value.func, ast.Attribute) else getattr(value.func, "id", "")
+        return name in MUTABLE_CALLS
+    return False
+
+
+def _state(path: Path) -> list[str]:
+    """Module-level names bound to something mutable, and names that functions declare global."""
+    found: list[str] = []
+    for node in tree(path).body:
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+        for target in targets:
+            # constants of the theory and tables are written in capitals and never changed
+            if isinstance(target, ast.Name) and _mutable(node.value) and not target.id.isupper() and not target.id.startswith("__"):  # type: ignore[attr-defined]
+                found.append(target.id)
+    for node in ast.walk(tree(path)):
+        if isinstance(node, (ast.Global, ast.Nonlocal)) and isinstance(node, ast.Global):
+            found += node.names
+    return found
+
+
+def _written(path: Path) -> list[str]:
+    """Module-level names in capitals that a function changes after all."""
+    constants = {
+        t.id
+        for n in tree(path).body
+        for t in (n.targets if isinstance(n, ast.Assign) else [n.target] if isinstance(n, ast.AnnAssign) else [])
+        if isinstance(t, ast.Name) and _mutable(n.value)  # type: ignore[attr-defined]
+    }
+    changed: list[str] = []
+    for node in ast.walk(tree(path)):
+        if isinstance(node, ast.Subscript) and isinstance(node.ctx, (ast.Store, ast.Del)) and isinstance(node.value, ast.Name):
+            changed.append(node.value.id)
+        method = node.func if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) else None
+        if method is not None and isinstance(method.value, ast.Name) and method.attr in CHANGES:
+            changed.append(method.value.id)
+    return sorted(constants & set(changed))
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_no_state_at_module_level(path: Path) -> None:
+    name = module(path) or "__init__"
+    known = {n for m, n in STATE if m == name}
+    extra = (set(_state(path)) | set(_written(path))) - known
+    assert not extra, f"{name} keeps state in {sorted(extra)}: give it to an object that somebody holds"
+
+
+def test_the_list_of_state_is_needed() -> None:
+    held = {(module(p) or "__init__", n) for p in MODULES for n in _state(p)}
+    assert set(STATE) <= held, set(STATE) - held
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_only_the_command_line_prints(path: Path) -> None:
+    if module(path).split(".")[0] == "cli":
+        return
+    calls = [
+        n.lineno for n in ast.walk(tree(path)) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name) and n.func.id in ("print", "input", "exit")
+    ]
+    assert not calls
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_every_module_and_public_function_says_what_it_is(path: Path) -> None:
+    assert path.name == "__init__.py" or ast.get_docstring(tree(path))
+    silent = [
+        n.name for n in tree(path).body if isinstance(n, (ast.FunctionDef, ast.ClassDef)) and not n.name.startswith("_") and not ast.get_docstring(n)
+    ]
+    assert not silent
+
+
+def test_no_drawer_for_everything() -> None:
+    drawers = [p.name for p in MODULES if re.search("util|helper|misc|common|manager", p.stem)]
+    assert not drawers, "one noun is one file"
+
+
+def test_warnings_are_errors() -> None:
+    assert 'filterwarnings = ["error"]' in (ROOT / "pyproject.toml").read_text(encoding="utf-8")

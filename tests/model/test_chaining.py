@@ -1,0 +1,89 @@
+"""`a >> Gain(2) >> b`: sugar that names couplings after what they follow."""
+
+from __future__ import annotations
+
+import pytest
+
+import deodar as dd
+from deodar.couplings.product import Product
+from deodar.errors import ModelError, UnknownName
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+@pytest.fixture
+def model() -> dd.Model:
+    model = dd.Model("m")
+    model.add(dd.Field("a", [X]))
+    model.add(dd.Field("b", [X]))
+    return model
+
+
+def _paths(model: dd.Model) -> list[str]:
+    return [h.path for h in model]
+
+
+def _edges(model: dd.Model) -> list[tuple[str, str, str, str]]:
+    by = model.document.by_id()
+    return [(by[c.source].path, c.source_port, by[c.target].path, c.target_port) for c in model.document.connections]
+
+
+def test_couplings_are_named_after_what_they_follow(model: dd.Model) -> None:
+    a, b = model["a"], model["b"]
+    a >> dd.Gain(2) >> b
+    a >> dd.Gain(3) >> b
+    a >> dd.Gain(4) >> b
+    assert _paths(model) == ["a", "b", "a>Gain", "a>Gain2", "a>Gain3"]
+    assert [model.get(f"a>Gain{n}.factor") for n in ("", "2", "3")] == [2, 3, 4]
+    assert not model.check()
+
+
+def test_a_chain_of_couplings(model: dd.Model) -> None:
+    model["a"] >> dd.Gain(2) >> dd.Project([X]) >> model["b"]
+    assert _paths(model)[2:] == ["a>Gain", "a>Gain>Project"]
+    assert [(s, t) for s, _, t, _ in _edges(model)] == [("a", "a>Gain"), ("a>Gain", "a>Gain>Project"), ("a>Gain>Project", "b")]
+
+
+def test_a_name_of_ones_own(model: dd.Model) -> None:
+    model["a"] >> dd.Gain(2, name="push") >> model["b"]
+    assert _paths(model)[2] == "push"
+
+
+def test_couplings_stand_in_the_group_of_what_they_follow() -> None:
+    model = dd.Model("m")
+    a = model.add(dd.Field("a", [X]), group="g")
+    b = model.add(dd.Field("b", [X]))
+    a >> dd.Gain(2) >> b
+    assert _paths(model) == ["g.a", "b", "g.a>Gain"]
+
+
+def test_ports_by_name(model: dd.Model) -> None:
+    product = model.add(Product(name="p"))
+    model["a"]["activation"] >> product["input"]
+    model["b"] >> product["factor"]
+    assert _edges(model) == [("a", "activation", "p", "input"), ("b", "output", "p", "factor")]
+    assert not model.check()
+
+
+def test_paths_connect_as_handles_do(model: dd.Model) -> None:
+    model.connect("a.activation", "b.input")
+    assert _edges(model) == [("a", "activation", "b", "input")]
+
+
+def test_the_right_side_is_what_a_chain_gives(model: dd.Model) -> None:
+    gain = model["a"] >> dd.Gain(2)
+    assert gain.path == "a>Gain"
+    assert repr(gain) == "<Gain a>Gain>"
+
+
+@pytest.mark.parametrize("other", ["b", 2.0, None, dd.Gaussian(), dd.Gain])
+def test_what_is_no_element_is_refused(model: dd.Model, other: object) -> None:
+    before = model.document
+    with pytest.raises(ModelError, match="is no element"):
+        model["a"] >> other  # type: ignore[operator]
+    assert model.document is before
+
+
+def test_an_unknown_port_suggests_the_nearest(model: dd.Model) -> None:
+    with pytest.raises(UnknownName, match=r"a has no port 'activaton'.*Did you mean 'activation'"):
+        model["a"]["activaton"]

@@ -1,0 +1,241 @@
+"""Operations: undo and redo give the identical document back; ids survive what does not make a new element."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName
+from deodar.model import edit
+from deodar.model.document import Document
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+def make() -> dd.Model:
+    """A group with two connected fields, a stimulus outside, a document parameter that drives one tau."""
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [X], kernel=[dd.Gaussian()]), group="g")
+    v = model.add(dd.Field("v", [X]), group="g.inner")
+    left = model.add(dd.GaussianStimulus("left", [X]))
+    u >> dd.Gain(2) >> v
+    left >> u
+    model.parameter("gain", 3.0)
+    model.link("g.u.tau", "gain")
+    return model
+
+
+OPERATIONS: dict[str, Callable[[dd.Model], object]] = {
+    "add": lambda m: m.add(dd.Field("new", [X])),
+    "add into a group": lambda m: m.add(dd.Field("new", [X]), group="a.b", every=2),
+    "connect": lambda m: m.connect("left", "g.inner.v", reads="delayed"),
+    "disconnect": lambda m: m.disconnect("left", "g.u"),
+    "remove": lambda m: m.remove("g.u"),
+    "remove a group": lambda m: m.remove("g"),
+    "rename": lambda m: m.rename("g.u", "w"),
+    "rename a group": lambda m: m.rename("g", "h"),
+    "move": lambda m: m.move("left", "g"),
+    "move to the top": lambda m: m.move("g.u", ""),
+    "move a group": lambda m: m.move("g.inner", ""),
+    "group": lambda m: m.group("empty"),
+    "ungroup": lambda m: m.ungroup("g"),
+    "copy": lambda m: m.copy("g", "h"),
+    "insert": lambda m: m.insert(make(), "twin"),
+    "set": lambda m: m.set("g.inner.v.tau", 5),
+    "set a part": lambda m: m.set("g.u.kernel.0.sigma", 2),
+    "set a knob": lambda m: m.set("gain", 7),
+    "every": lambda m: m.every("left", 3),
+    "parameter": lambda m: m.parameter("other", 1.0),
+    "link": lambda m: m.link("g.inner.v.tau", "gain"),
+    "unlink": lambda m: m.unlink("g.u.tau"),
+    "describe": lambda m: m.describe(name="other", notes="a note", time_unit="s", dt=0.5, t0=3),
+}
+
+
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_undo_and_redo_give_the_identical_document(name: str) -> None:
+    model = make()
+    before = model.document
+    OPERATIONS[name](model)
+    after = model.document
+    assert after != before, "the operation does something"
+    assert model.undo()
+    assert model.document is before
+    assert model.redo()
+    assert model.document is after
+    assert not model.redo()
+
+
+def test_undo_goes_back_through_everything_to_the_start() -> None:
+    model = dd.Model("m")
+    start = model.document
+    seen = [start]
+    for operation in (
+        lambda: model.add(dd.Field("u", [X])),
+        lambda: model.set("u.tau", 5),
+        lambda: model.rename("u", "w"),
+        lambda: model.remove("w"),
+    ):
+        operation()
+        seen.append(model.document)
+    for expected in reversed(seen[:-1]):
+        assert model.undo()
+        assert model.document is expected
+    assert not model.undo()
+    for expected in seen[1:]:
+        assert model.redo()
+        assert model.document is expected
+
+
+def test_a_new_change_forgets_what_was_undone() -> None:
+    model = make()
+    model.set("g.u.resting_level", -4)
+    model.undo()
+    model.set("g.u.resting_level", -3)
+    assert not model.redo()
+    assert model.get("g.u.resting_level") == -3
+
+
+REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {
+    "a name twice": (ModelError, lambda m: m.add(dd.Field("left", [X]))),
+    "a name that is a group": (ModelError, lambda m: m.add(dd.Field("g", [X]))),
+    "inside an element": (ModelError, lambda m: m.add(dd.Field("new", [X]), group="left")),
+    "a connection twice": (ModelError, lambda m: m.connect("left", "g.u")),
+    "no such connection": (UnknownName, lambda m: m.disconnect("left", "g.inner.v")),
+    "no such element": (UnknownName, lambda m: m.remove("nobody")),
+    "rename onto another": (ModelError, lambda m: m.rename("left", "g")),
+    "rename to nothing": (ModelError, lambda m: m.rename("left", "")),
+    "rename a group to nothing": (ModelError, lambda m: m.rename("g", "")),
+    "rename a group onto an element": (ModelError, lambda m: m.rename("g", "left")),
+    "rename a group onto a group": (ModelError, lambda m: m.rename("g.inner", "g") or m.move("g.g", "")),
+    "move a group into itself": (ModelError, lambda m: m.move("g", "g.inner")),
+    "move into an element": (ModelError, lambda m: m.move("g", "left")),
+    "a group without a name": (ModelError, lambda m: m.group("")),
+    "a group where an element is": (ModelError, lambda m: m.group("left")),
+    "a group inside an element": (ModelError, lambda m: m.group("left.inner")),
+    "ungroup what is none": (UnknownName, lambda m: m.ungroup("gg")),
+    "copy onto itself": (ModelError, lambda m: m.copy("g", "g")),
+    "copy to the top": (ModelError, lambda m: m.copy("g", "")),
+    "insert over something": (ModelError, lambda m: m.insert(make(), "left")),
+    "a parameter that does not exist": (UnknownName, lambda m: m.set("g.u.tua", 1)),
+    "a value out of range": (ParameterError, lambda m: m.set("g.u.noise", -1)),
+    "the name": (ParameterError, lambda m: m.set("g.u.name", "w")),
+    "a driven parameter": (ParameterError, lambda m: m.set("g.u.tau", 5)),
+    "a knob beyond what it drives": (ParameterError, lambda m: m.set("gain", -1)),
+    "every 0": (ParameterError, lambda m: m.every("left", 0)),
+    "every half": (ParameterError, lambda m: m.every("left", 0.5)),  # type: ignore[arg-type]
+    "every for ever": (ParameterError, lambda m: m.every("left", 10**400)),
+    "a time unit": (ParameterError, lambda m: m.describe(time_unit="hours")),
+    "a name of numbers": (ParameterError, lambda m: m.describe(name=5)),
+    "a property": (UnknownName, lambda m: m.describe(note="x")),
+    "a start that is no number": (ParameterError, lambda m: m.describe(t0=float("nan"))),
+    "a step of nothing": (ParameterError, lambda m: m.describe(dt=0)),
+    "a step that is a list": (ParameterError, lambda m: m.describe(dt=[1])),
+    "no element": (ModelError, lambda m: m.add(dd.Gaussian())),  # type: ignore[arg-type]
+    "a class": (ModelError, lambda m: m.add(dd.Field)),  # type: ignore[arg-type]
+    "no handle": (ModelError, lambda m: m.connect(1, "g.u")),  # type: ignore[arg-type]
+    "remove a number": (ModelError, lambda m: m.remove(1)),  # type: ignore[arg-type]
+    "another model": (ModelError, lambda m: m.connect(make()["left"], m["g.u"])),
+    "reads what is not": (ParameterError, lambda m: m.connect("left", "g.inner.v", reads="later")),
+    "a parameter as a port": (UnknownName, lambda m: m.connect("left", "g.u.tau")),
+    "into a stimulus": (ModelError, lambda m: m.connect("g.u", "left")),
+    "from an input": (UnknownName, lambda m: m.connect("g.u.input", "g.inner.v")),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_refused_changes_nothing(name: str) -> None:
+    error, operation = REFUSED[name]
+    model = make()
+    before = model.document
+    with pytest.raises(error) as caught:
+        operation(model)
+    assert str(caught.value)
+    while model.document is not before:  # a refusal after a first, good step: only that step is there
+        assert model.undo()
+    assert model.document is before
+
+
+def _ids(doc: Document) -> dict[str, str]:
+    return {e.path: e.id for e in doc.entries}
+
+
+def test_ids_survive_rename_move_group_and_ungroup() -> None:
+    model = make()
+    u, links = model["g.u"], model.document.connections
+    model.rename("g.u", "w")
+    model.move("g.w", "far.away")
+    model.rename("far", "near")
+    model.move("near.away", "g")
+    model.ungroup("g.away")
+    model.ungroup("g")
+    assert u.path == "w"
+    assert u.element.name == "w"
+    assert model.document.connections == links
+    assert model.document.links() == {(u.id, "tau"): "gain"}
+    assert sorted(_ids(model.document)) == ["inner.u>Gain", "inner.v", "left", "w"] or "w" in _ids(model.document)
+
+
+def test_handles_follow_and_say_when_their_element_is_gone() -> None:
+    model = make()
+    u = model["g.u"]
+    model.rename("g", "other")
+    assert u.path == "other.u"
+    model.remove(u)
+    with pytest.raises(UnknownName, match="was removed"):
+        u.path  # noqa: B018
+
+
+def test_ids_do_not_depend_on_the_order_of_declaration() -> None:
+    def build(names: list[str]) -> dict[str, str]:
+        model = dd.Model("m")
+        for name in names:
+            model.add(dd.Field(name, [X]))
+        return _ids(model.document)
+
+    assert build(["a", "b", "c"]) == build(["c", "a", "b"])
+
+
+def test_a_name_given_again_gets_another_id() -> None:
+    model = dd.Model("m")
+    first = model.add(dd.Field("u", [X]))
+    model.rename("u", "w")
+    second = model.add(dd.Field("u", [X]))
+    assert first.id != second.id
+
+
+def test_removing_takes_connections_and_links_along() -> None:
+    model = make()
+    u = model["g.u"]
+    model.remove("g.u")
+    assert all(u.id not in (c.source, c.target) for c in model.document.connections)
+    assert not model.document.links()
+    model.set("gain", 9)  # drives nothing now, and may have any value
+    assert model.get("gain") == 9
+
+
+def test_the_document_is_immutable() -> None:
+    model = make()
+    with pytest.raises(AttributeError):
+        model.document.name = "other"  # type: ignore[misc]
+    with pytest.raises(AttributeError):
+        model["g.u"].element.tau = 5  # type: ignore[misc]
+
+
+def test_layout_stays_apart_from_science() -> None:
+    doc = make().document
+    arranged = edit.arrange(doc, {"left": [1, 2]})
+    assert (arranged.entries, arranged.connections, arranged.knobs) == (doc.entries, doc.connections, doc.knobs)
+    assert arranged.layout == {"left": [1, 2]} and doc.layout == {}
+
+
+def test_setting_the_same_value_is_no_surprise() -> None:
+    model = dd.Model("m")
+    model.add(Boost("b", [X]))
+    model.set("b.amplitude", 2)
+    model.set("b.amplitude", 2)
+    assert model.undo() and model.undo()
+    assert model.get("b.amplitude") == 1.0

@@ -1,0 +1,106 @@
+"""Document parameters: one knob for many."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import deodar as dd
+from deodar.errors import ModelError, ParameterError, UnknownName
+from deodar.model import files
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+@pytest.fixture
+def model() -> dd.Model:
+    """Two fields whose time constants, and a kernel width, hang on one knob."""
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2)]))
+    model.add(dd.Field("v", [X]))
+    model.parameter("gain", 3.0)
+    for path in ("u.tau", "v.tau", "u.kernel.0.sigma"):
+        model.link(path, "gain")
+    return model
+
+
+def test_linking_takes_the_value_of_the_knob(model: dd.Model) -> None:
+    assert [model.get(p) for p in ("gain", "u.tau", "v.tau", "u.kernel.0.sigma")] == [3.0, 3.0, 3.0, 3.0]
+
+
+def test_one_knob_turns_all(model: dd.Model) -> None:
+    model.set("gain", 4)
+    assert [model.get(p) for p in ("gain", "u.tau", "v.tau", "u.kernel.0.sigma")] == [4.0, 4.0, 4.0, 4.0]
+    model.parameter("gain", 5)
+    assert model.get("v.tau") == 5.0
+
+
+@pytest.mark.parametrize("path", ["u.tau", "u.kernel.0.sigma", "u.kernel.0", "u.kernel"])
+def test_what_a_knob_drives_is_not_set_directly(model: dd.Model, path: str) -> None:
+    before = model.document
+    with pytest.raises(ParameterError) as caught:
+        model.set(path, 9 if path.endswith(("tau", "sigma")) else [dd.Gaussian()])
+    assert "driven by the document parameter 'gain'" in str(caught.value)
+    assert "Set 'gain' instead, or unlink" in str(caught.value)
+    assert model.document is before
+
+
+def test_a_value_that_one_of_them_refuses_changes_none(model: dd.Model) -> None:
+    before = model.document
+    with pytest.raises(ParameterError, match="below its lower bound"):
+        model.set("gain", 0)
+    assert model.document is before
+
+
+def test_unlinked_parameters_keep_their_value_and_stand_alone(model: dd.Model) -> None:
+    model.unlink("v.tau")
+    model.set("gain", 8)
+    assert (model.get("u.tau"), model.get("v.tau")) == (8.0, 3.0)
+    model.set("v.tau", 2)
+    assert model.get("v.tau") == 2.0
+
+
+def test_links_follow_rename_and_move(model: dd.Model) -> None:
+    model.rename("u", "w")
+    model.move("w", "deep.inside")
+    model.set("gain", 6)
+    assert model.get("deep.inside.w.tau") == 6.0
+    again = files.from_data(json.loads(model.to_json()), {})
+    assert again == model.document
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "says"),
+    [
+        (lambda m: m.link("u.tau", "gain"), ModelError, "already linked to 'gain'"),
+        (lambda m: m.link("u.resting_level", "gian"), UnknownName, "Did you mean 'gain'"),
+        (lambda m: m.link("u.sigmoid", "gain"), ParameterError, "not a number that can change"),
+        (lambda m: m.link("u.axes", "gain"), ParameterError, "not a number that can change"),
+        (lambda m: m.link("gain", "gain"), UnknownName, "itself a document parameter"),
+        (lambda m: m.link("u.tua", "gain"), UnknownName, "Did you mean 'tau'"),
+        (lambda m: m.parameter("", 1.0), ModelError, "needs a name"),
+        (lambda m: m.parameter(5, 1.0), ModelError, "needs a name"),
+        (lambda m: m.parameter("u", 1.0), ModelError, "an element is"),
+        (lambda m: m.parameter("u.resting_level", 1.0), ModelError, "a parameter of u is"),
+        (lambda m: m.add(dd.Field("gain", [X])), ModelError, "a document parameter is called 'gain'"),
+        (lambda m: m.parameter("k", float("nan")), ParameterError, "finite number"),
+        (lambda m: m.parameter("k", "3"), ParameterError, "finite number"),
+        (lambda m: m.parameter("k", True), ParameterError, "finite number"),
+        (lambda m: m.parameter("k", [1]), ParameterError, "finite number"),
+        (lambda m: m.parameter("k", 10**400), ParameterError, "finite number"),
+    ],
+)
+def test_refusals(model: dd.Model, call: object, error: type[Exception], says: str) -> None:
+    before = model.document
+    with pytest.raises(error) as caught:
+        call(model)  # type: ignore[operator]
+    assert says in str(caught.value)
+    assert model.document is before
+
+
+def test_a_knob_without_one_says_how_to_make_it() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X]))
+    with pytest.raises(UnknownName, match=r"model.parameter\(name, value\)"):
+        model.link("u.tau", "gain")

@@ -1,0 +1,210 @@
+"""`check` lists everything that is wrong, at once, each with its path and the line that declared it."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+import deodar as dd
+from deodar.couplings.product import Product
+from deodar.couplings.sum import Sum
+from deodar.couplings.weights import Weights
+from deodar.elements.boost import Boost
+from deodar.errors import ModelError
+
+X = dd.Axis("x", 0, 10, samples=11)
+Y = dd.Axis("y", 0, 10, samples=11)
+WIDE = dd.Axis("x", 0, 20, samples=11)
+
+
+def _line() -> int:
+    return sys._getframe(1).f_lineno
+
+
+def test_a_good_model_has_no_problems() -> None:
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("left", [X])) >> dd.Gain(2) >> model.add(dd.Field("u", [X], kernel=[dd.Gaussian()]))
+    assert model.check() == []
+    model.require()
+
+
+def test_every_problem_is_listed_at_once_with_its_line() -> None:
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=[1, 2])]))
+    first = _line() - 1
+    v = model.add(dd.Field("v", [Y]))
+    second = _line() - 1
+    w = model.add(dd.Field("w", [WIDE]), group="g")
+    third = _line() - 1
+    loose = model.add(dd.Gain(2, name="loose"))
+    fourth = _line() - 1
+    u >> v
+    u >> w
+    loose >> u
+    found = {p.where: p.what for p in model.check()}
+    here = __file__.rsplit("/", 1)[-1].rsplit("\\", 1)[-1]
+    assert set(found) == {f"u ({here}:{first})", f"v ({here}:{second})", f"g.w ({here}:{third})", f"loose ({here}:{fourth})"}
+    assert "kernel.0.sigma has 2 values for 1 axes" in found[f"u ({here}:{first})"]
+    with pytest.raises(ModelError) as caught:
+        model.require()
+    assert "4 problems" in str(caught.value)
+    assert all(where in str(caught.value) for where in found)
+
+
+def test_axes_that_miss_on_both_sides_print_both_and_the_project_to_write() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [Y]))
+    (problem,) = model.check()
+    assert "u.output [x 0..10, 11 samples] does not fit v.input [y 0..10, 11 samples]" in problem.what
+    assert problem.fix == "Write: u >> Project([y], rename={'x': 'y'}) >> v"
+
+
+def test_axes_of_other_bounds_print_both_and_the_resample_to_write() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [WIDE]))
+    (problem,) = model.check()
+    assert "[x 0..10, 11 samples]" in problem.what and "[x 0..20, 11 samples]" in problem.what
+    assert "bounds, unit or periodicity of 'x' differ" in problem.what
+    assert "u >> Resample([x]) >> v" in problem.fix
+
+
+@pytest.mark.parametrize(
+    "other",
+    [dd.Axis("x", 0, 10, samples=11, unit="deg"), dd.Axis("x", 0, 10, samples=11, periodic=True), dd.Axis("x", 0, 10.001, samples=11)],
+)
+def test_unit_periodicity_and_bounds_must_be_equal(other: dd.Axis) -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [other]))
+    assert len(model.check()) == 1
+
+
+@pytest.mark.parametrize("other", [dd.Axis("x", 0, 10, samples=21), dd.Axis("x", 0, 10 + 1e-9, samples=11)])
+def test_another_sampling_of_the_same_axis_fits(other: dd.Axis) -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [other]))
+    assert model.check() == []
+
+
+def test_a_loop_without_a_state_is_named() -> None:
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [X]))
+    g, h = model.add(dd.Gain(1, name="g")), model.add(dd.Gain(1, name="h"))
+    u >> g
+    g >> h
+    h >> g
+    problems = model.check()
+    assert any("a loop without a state in it: g -> h -> g" in p.what or "a loop without a state in it: h -> g -> h" in p.what for p in problems)
+    assert any("reads='delayed'" in p.fix for p in problems)
+    model.disconnect(h, g)
+    model.connect(h, g, reads="delayed")
+    assert model.check() == []
+    assert float(dd.simulate(model, duration=3, record="h.output", dt=1)["h.output"].isel(time=-1).max()) < 1
+
+
+def test_a_delayed_loop_sums_up_what_came_before() -> None:
+    model = dd.Model("m")
+    one = model.add(Boost("one"))
+    total = model.add(Sum(name="total"))
+    one >> total
+    model.connect(total, total, reads="delayed")
+    assert model.check() == []
+    data = dd.simulate(model, duration=4, record="total.output", dt=1)
+    assert data["total.output"].values.tolist() == [1, 2, 3, 4, 5]
+
+
+def test_axes_that_follow_only_from_themselves_are_unknown() -> None:
+    model = dd.Model("m")
+    g, h = model.add(dd.Gain(1, name="g")), model.add(dd.Gain(1, name="h"))
+    g >> h
+    model.connect(h, g, reads="delayed")
+    assert any("follow only from themselves and are unknown: h -> g -> h" in p.what for p in model.check())
+
+
+def test_a_loop_of_current_reads_is_named() -> None:
+    model = dd.Model("m")
+    u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [X]))
+    model.connect(u, v, reads="current")
+    model.connect(v, u, reads="current")
+    (problem,) = model.check()
+    assert "a loop of connections that read 'current'" in problem.what
+    assert "u -> v" in problem.what or "v -> u" in problem.what
+    assert "'previous'" in problem.fix and "'delayed'" in problem.fix
+    model.disconnect(v, u)
+    model.connect(v, u, reads="previous")
+    assert model.check() == []
+
+
+def test_a_field_that_reads_its_own_current_output_is_a_loop() -> None:
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [X]))
+    model.connect(u, u, reads="current")
+    (problem,) = model.check()
+    assert "read 'current'" in problem.what and "u -> u" in problem.what
+
+
+@pytest.mark.parametrize("reads", ["previous", "current"])
+def test_what_leaves_a_coupling_has_no_instant_of_its_own(reads: str) -> None:
+    model = dd.Model("m")
+    u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [X]))
+    gain = u >> dd.Gain(2)
+    model.connect(gain, v, reads=reads)
+    (problem,) = model.check()
+    assert f"says {reads!r}, but u>Gain shows no state" in problem.what
+    assert "u>Gain.output -> v.input" in problem.what
+    assert "Leave reads out" in problem.fix
+
+
+def test_delayed_is_allowed_everywhere() -> None:
+    model = dd.Model("m")
+    u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [X]))
+    gain = u >> dd.Gain(2)
+    model.connect(gain, v, reads="delayed")
+    model.connect(u, v, reads="delayed")
+    assert model.check() == []
+
+
+def test_a_coupling_without_a_source_is_told_to_be_connected() -> None:
+    model = dd.Model("m")
+    model.add(dd.Gain(2, name="g"))
+    (problem,) = model.check()
+    assert "nothing is connected to g.input" in problem.what and "model.connect(..., 'g')" in problem.fix
+
+
+def test_weights_of_another_shape_name_both() -> None:
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [X]))
+    u >> Weights([[1.0, 2.0]], [Y], name="w")
+    (problem,) = model.check()
+    assert "weights has shape [1, 2]; target and source samples make [11, 11]" in problem.what
+
+
+def test_five_axes_are_too_many() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [dd.Axis(name, 0, 1, samples=2) for name in "abcde"]))
+    (problem,) = model.check()
+    assert "at most 4" in problem.what
+
+
+def test_two_axes_of_one_name() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X, X]))
+    (problem,) = model.check()
+    assert "two of its axes are called 'x'" in problem.what
+
+
+def test_a_product_of_fields_over_different_axes() -> None:
+    model = dd.Model("m")
+    u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [Y]))
+    p = model.add(Product(name="p"))
+    u >> p["input"]
+    v >> p["factor"]
+    assert any("v.output [y 0..10, 11 samples] does not fit p.factor [x 0..10, 11 samples]" in q.what for q in model.check())
+
+
+def test_problems_of_what_stands_before_are_not_repeated() -> None:
+    """A coupling whose source is wrong adds no problem of its own: one cause, one line."""
+    model = dd.Model("m")
+    loose = model.add(dd.Gain(1, name="loose"))
+    loose >> dd.Gain(2, name="after") >> model.add(dd.Field("u", [X]))
+    assert len(model.check()) == 1
