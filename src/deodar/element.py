@@ -92,7 +92,7 @@ class Element(Part):
         return self.inputs
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
-        """Axes that an input port takes; None where it takes what comes (the first connection decides)."""
+        """Axes that an input port takes; None where it takes what comes (the connection with most axes decides)."""
         axes: Axes | None = getattr(self, "axes", None)
         return axes
 

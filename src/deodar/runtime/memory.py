@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -20,10 +21,14 @@ COPIES = 6
 """Arrays that a step keeps for each output (state, new state, outputs, noise, intermediate; measured 4 to 6)."""
 
 
-def require(nodes: list[Node], precision: str, copies: int, recorded: int) -> None:
-    """Raise unless states, constants and `recorded` numbers fit into the memory that is free."""
+def require(nodes: list[Node], precision: str, copies: int, recorded: int, rebuilt: Collection[str] = (), points: int = 1) -> None:
+    """Raise unless states, constants and `recorded` numbers fit into the memory that is free.
+
+    `rebuilt` names the elements (by id) whose constants differ between the `points` of a sweep.
+    """
     size = 8 if precision == "float64" else 4
-    need = size * (copies * COPIES * sum(_cells(n) for n in nodes) + sum(_constants(n) for n in nodes) + recorded)
+    constants = sum(_constants(n) * (points if n.id in rebuilt else 1) for n in nodes)
+    need = size * (copies * COPIES * sum(_cells(n) for n in nodes) + constants + recorded)
     free = psutil.virtual_memory().available
     if need > SHARE * free:
         largest = max(nodes, key=lambda n: _cells(n) * copies + _constants(n))

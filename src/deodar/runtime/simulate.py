@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.compiler.executable import Batch, Executable, executable
-from deodar.compiler.plan import Leaf
+from deodar.compiler.plan import Leaf, cost
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
 from deodar.errors import Interrupted, ParameterError, TimeError
@@ -89,7 +89,7 @@ def simulate(
     batch = Batch(points.size if sweep else None, len(numbers) if names else None)
     nodes, _ = resolve(doc)
     cells = sum(_cells(nodes, entry, port) for entry, port in ports)
-    memory.require(nodes, precision, batch.size, cells * count * batch.size)
+    memory.require(nodes, precision, batch.size, cells * count * batch.size, points.rebuilt(), points.size)
     program = executable(model, doc, precision, batch, points.leaves if sweep else ())
     run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
     found = [program.port(i, port) for i, port in ports]
@@ -160,6 +160,13 @@ class _Points:
                     yield edit.knob(self.doc, found.knob, value)
                 else:
                     yield edit.put(self.doc, found.entry.id, found.parameter, value)
+
+
+    def rebuilt(self) -> set[str]:
+        """Ids of the elements whose constants differ from point to point."""
+        by = self.doc.by_id()
+        costs = {(i, path): cost(p) for i in {i for found in self.leaves for i, _ in found} for path, _, p in leaves(by[i].element)}
+        return {i for found in self.leaves for i, path in found if costs[i, path] == "rebuild"}
 
 
 def _driven(doc: Document, path: str) -> list[Leaf]:

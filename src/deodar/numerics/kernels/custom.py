@@ -63,6 +63,8 @@ class Custom(Kernel):
 
     def misfits(self, axes: Axes) -> Iterator[str]:
         yield from super().misfits(axes)
+        if isinstance(self.spacing, tuple) and len(self.spacing) != len(axes):
+            yield f"spacing has {len(self.spacing)} values for {len(axes)} axes"
         shape = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         if len(shape) != len(axes):
             yield f"weights has {len(shape)} axes, the field {len(axes)}"
