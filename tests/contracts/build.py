@@ -17,10 +17,11 @@ from deodar import registry
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.noise import Noise
+from deodar.leaves import leaves
 from deodar.model.check import check
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axes, shape
-from deodar.parameters import Part, leaves, parameters
+from deodar.parameters import Part, parameters
 from deodar.worlds._base import World
 
 KINDS = {**registry.kinds("elements"), **registry.kinds("couplings")}

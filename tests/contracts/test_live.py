@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.parameters import leaves, resting
+from deodar.leaves import leaves, resting
 from tests.contracts.build import KINDS, PARTS, any_example, around, changes, node, session
 
 EVENTS: list[str] = []

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from deodar.element import Setting, Time
+from deodar.leaves import leaves
 from deodar.model import find
 from deodar.numerics.axes import shape
-from deodar.parameters import leaves
 from tests.contracts.build import KINDS, PARTS, any_example, around, node, record, session
 
 STEPS = 1000

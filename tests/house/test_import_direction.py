@@ -18,6 +18,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "errors",
         "registry",
         "parameters",
+        "leaves",
         "numerics",
         "element",
         "elements couplings worlds",

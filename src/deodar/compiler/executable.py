@@ -20,11 +20,11 @@ from deodar.compiler import cache
 from deodar.compiler.plan import Leaf, Plan, plan
 from deodar.compiler.program import Port, Program, array_key, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
+from deodar.leaves import leaves, resting, structure
 from deodar.model.check import check
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
-from deodar.parameters import leaves, resting, structure
 
 Tree = Any
 PRECISIONS = ("float32", "float64")

@@ -14,11 +14,12 @@ import numpy as np
 
 from deodar.elements.sensor import Sensor
 from deodar.errors import ModelError
+from deodar.leaves import bind, leaves, resting, structure
 from deodar.model.document import Document
 from deodar.model.order import Role, order
 from deodar.model.resolve import Instant, Node, resolve
 from deodar.numerics.axes import Axes
-from deodar.parameters import Parameter, bind, leaves, resting, structure
+from deodar.parameters import Parameter
 
 Leaf = tuple[str, str]
 """Element id and path of a traced leaf inside the element."""

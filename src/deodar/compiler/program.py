@@ -18,9 +18,9 @@ from jax import Array, lax
 
 from deodar.compiler.plan import Call, Group, Plan, Read
 from deodar.element import Setting, Time
+from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.noise import element_keys, normal
-from deodar.parameters import bind
 
 Buffers = dict[tuple[int, str, int], Any]
 Tree = Any

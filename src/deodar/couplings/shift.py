@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.leaves import per_axis
 from deodar.numerics import resampling
 from deodar.numerics.convolution import along
-from deodar.parameters import PerAxis, Rebuild, per_axis
+from deodar.parameters import PerAxis, Rebuild
 from deodar.registry import register
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
+from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import interaction
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
@@ -16,7 +17,7 @@ from deodar.numerics.integrators import euler
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.parameters import Live, PerAxis, Rebuild, Recompile, is_neutral, per_axis
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 MOST_AXES = 4

@@ -9,7 +9,8 @@ import jax.numpy as jnp
 
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
-from deodar.parameters import Live, PerAxis, per_axis
+from deodar.leaves import per_axis
+from deodar.parameters import Live, PerAxis
 from deodar.registry import register
 
 

@@ -9,9 +9,10 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
+from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis
-from deodar.parameters import Live, PerAxis, Rebuild, Recompile, is_neutral, per_axis
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 

@@ -13,10 +13,11 @@ from typing import Any
 
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, UnknownName, did_you_mean
+from deodar.leaves import get, leaves, replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, Entry, Knob
 from deodar.model.paths import Names, display, stored_id
-from deodar.parameters import get, is_text, leaves, parameter, parameters, real, replace, show
+from deodar.parameters import is_text, parameter, parameters, real, show
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses as dc
 
 from deodar.errors import UnknownName, did_you_mean
+from deodar.leaves import leaves
 from deodar.model.document import Document, Entry
 from deodar.model.paths import readings
-from deodar.parameters import leaves, parameters
+from deodar.parameters import parameters
 
 
 @dc.dataclass(frozen=True)

@@ -10,11 +10,12 @@ from typing import Any
 
 from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, Problem, UnknownName
+from deodar.leaves import get
 from deodar.model import edit, files, find
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
 from deodar.model.paths import Names, display, readings, split
-from deodar.parameters import get, show
+from deodar.parameters import show
 
 
 @dc.dataclass(frozen=True)

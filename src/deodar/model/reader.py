@@ -8,12 +8,13 @@ from typing import Any, cast
 
 from deodar.element import Element
 from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import KEYS, READS, VERSION, Document, Entry
 from deodar.model.parts import part_from_json
 from deodar.model.paths import Names, display, split, stored_id
 from deodar.numerics.axes import Axis
-from deodar.parameters import FrozenArray, leaves, show
+from deodar.parameters import FrozenArray, show
 
 
 def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:

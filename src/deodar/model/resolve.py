@@ -15,9 +15,10 @@ from deodar.couplings.delay import Delay
 from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.errors import Problem
+from deodar.leaves import leaves
 from deodar.model.document import Connection, Document, Entry
 from deodar.numerics.axes import Axes, describe, shape
-from deodar.parameters import leaves, parameters
+from deodar.parameters import parameters
 
 Instant = Literal[0, 1]
 Slot = tuple[str, str, Instant]

@@ -10,9 +10,9 @@ import numpy as np
 import psutil
 
 from deodar.errors import TooLarge
+from deodar.leaves import is_neutral, leaves
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
-from deodar.parameters import is_neutral, leaves
 
 SHARE = 0.8
 """Share of the free memory that a run may ask for (a guess that leaves the rest of the machine alive)."""

@@ -11,11 +11,12 @@ from deodar.compiler.executable import Executable, executable
 from deodar.compiler.plan import cost
 from deodar.compiler.program import Port, array_key
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
+from deodar.leaves import get, leaves, structure
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
-from deodar.parameters import FrozenArray, get, leaves, show, structure
+from deodar.parameters import FrozenArray, show
 from deodar.runtime import memory
 from deodar.runtime.run import Clock, Run, host, require_step, whole
 from deodar.worlds._base import World

@@ -15,12 +15,13 @@ from deodar.compiler.plan import Leaf, cost
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
 from deodar.errors import Interrupted, ParameterError, TimeError
+from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
-from deodar.parameters import leaves, real, show
+from deodar.parameters import real, show
 from deodar.recording.provenance import provenance
 from deodar.runtime import memory
 from deodar.runtime.run import Run, require_step, whole

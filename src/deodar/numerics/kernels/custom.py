@@ -9,11 +9,12 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 import numpy as np
 
+from deodar.leaves import per_axis
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.convolution import along
 from deodar.numerics.kernels._base import Kernel, Term
-from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile, per_axis
+from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 

@@ -1,0 +1,157 @@
+"""The numbers inside a part: the traced leaves of a program, and one value by its path."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import typing
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+
+from deodar.errors import UnknownName
+from deodar.parameters import FrozenArray, Parameter, Part, parameter, parameters
+
+P = TypeVar("P", bound=Part)
+
+
+# ------------------------------------------------------------------------------------------------ traced leaves
+
+
+def leaves(part: Any, prefix: str = "") -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
+    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`."""
+    for p in parameters(type(part)):
+        value, path = getattr(part, p.name), prefix + p.name
+        if value is None:
+            continue
+        if p.form == "part":
+            yield from leaves(value, path + ".")
+        elif p.form == "parts":
+            for i, item in enumerate(value):
+                yield from leaves(item, f"{path}.{i}.")
+        elif p.traced:
+            if p.form == "numbers":
+                yield from ((f"{path}.{name}", number, p) for name, number in value)
+            elif isinstance(value, tuple):
+                yield from ((f"{path}.{i}", v, p) for i, v in enumerate(typing.cast(Any, value)))
+            else:
+                yield path, (value.data if isinstance(value, FrozenArray) else value), p
+
+
+def bind(part: P, values: Callable[[str], Any], prefix: str = "") -> P:
+    """A copy whose traced leaves are `values(path)`; leaves for which it gives None keep their own value."""
+    new = object.__new__(type(part))
+    for p in parameters(type(part)):
+        value, path = getattr(part, p.name), prefix + p.name
+        if value is None:
+            pass
+        elif p.form == "part":
+            value = bind(value, values, path + ".")
+        elif p.form == "parts":
+            value = tuple(bind(item, values, f"{path}.{i}.") for i, item in enumerate(value))
+        elif p.traced:
+            if p.form == "numbers":
+                value = tuple((name, _or(values(f"{path}.{name}"), number)) for name, number in value)
+            elif isinstance(value, tuple):
+                value = tuple(_or(values(f"{path}.{i}"), v) for i, v in enumerate(typing.cast(Any, value)))
+            else:
+                value = _or(values(path), value)
+        object.__setattr__(new, p.name, value)
+    return new
+
+
+def _or(value: Any, default: Any) -> Any:
+    return default if value is None else value
+
+
+def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = "") -> tuple[Any, ...]:
+    """Hashable description of all that is not a traced leaf, nor the name: equal structure, equal code.
+
+    Leaves named in `neutral` are left out of the program, which is a structure of its own.
+    """
+    out: list[Any] = [type(part).__qualname__]
+    for p in parameters(type(part)):
+        value, path = getattr(part, p.name), prefix + p.name
+        if p.name == "name" or value is None:
+            continue
+        if p.form == "part":
+            out.append((p.name, structure(value, neutral, path + ".")))
+        elif p.form == "parts":
+            out.append((p.name, tuple(structure(v, neutral, f"{path}.{i}.") for i, v in enumerate(value))))
+        elif p.traced:
+            if isinstance(value, FrozenArray):
+                form: Any = value.shape
+            elif p.form == "numbers":
+                form = tuple(k for k, _ in value)
+            else:
+                form = len(typing.cast(Any, value)) if isinstance(value, tuple) else 0
+            still = tuple(sorted(n for n in neutral if n == path or n.startswith(path + ".")))
+            out.append((p.name, form, still))
+        else:
+            out.append((p.name, value))
+    return tuple(out)
+
+
+def resting(part: Any) -> frozenset[str]:
+    """Leaves that have their declared neutral value."""
+    return frozenset(path for path, value, p in leaves(part) if p.neutral is not None and np.ndim(value) == 0 and value == p.neutral)
+
+
+def is_neutral(value: Any, neutral: float = 0.0) -> bool:
+    """Whether a bound value is the plain neutral number: the program is then compiled without it."""
+    values: tuple[Any, ...] = typing.cast(Any, value) if isinstance(value, tuple) else (value,)
+    return all(isinstance(v, float) and v == neutral for v in values)
+
+
+def per_axis(value: Any, axes: Sequence[Any]) -> tuple[Any, ...]:
+    """One value for each axis, from one for all or one for each."""
+    if isinstance(value, tuple):
+        return typing.cast("tuple[Any, ...]", value)
+    return (value,) * len(axes)
+
+
+# ------------------------------------------------------------------------------------------------ one value by its path
+
+
+def get(part: Any, path: str) -> Any:
+    """The value of a parameter: `get(field, "kernel.0.sigma")`."""
+    value = part
+    for step in path.split("."):
+        value = _child(value, step, path)
+    return value
+
+
+def replace(part: P, path: str, value: Any) -> P:
+    """A copy with one value changed, checked as at construction: `replace(field, "kernel.0.sigma", 3)`."""
+    head, _, rest = path.partition(".")
+    if rest:
+        inner = _child(part, head, path)
+        value = _replace_inside(inner, rest, value, path)
+    else:
+        parameter(type(part), head)
+    return dc.replace(typing.cast(Any, part), **{head: value})
+
+
+def _replace_inside(holder: Any, path: str, value: Any, whole: str) -> Any:
+    if isinstance(holder, Part):
+        return replace(holder, path, value)
+    head, _, rest = path.partition(".")
+    inner = _child(holder, head, whole)
+    new = _replace_inside(inner, rest, value, whole) if rest else value
+    if holder and isinstance(holder[0], tuple) and len(holder[0]) == 2:
+        return tuple((k, new if k == head else v) for k, v in holder)
+    return (*holder[: int(head)], new, *holder[int(head) + 1 :])
+
+
+def _child(holder: Any, step: str, path: str) -> Any:
+    if isinstance(holder, Part):
+        return getattr(holder, parameter(type(holder), step).name)
+    if isinstance(holder, tuple):
+        items = typing.cast("tuple[Any, ...]", holder)
+        if step.isdigit() and int(step) < len(items):
+            return items[int(step)]
+        named = {pair[0]: pair[1] for pair in items if isinstance(pair, tuple) and len(typing.cast(Any, pair)) == 2}
+        if step in named:
+            return named[step]
+        raise UnknownName(f"{path}: there is no part {step!r}", fix=f"There are {len(items)}, counted from 0")
+    raise UnknownName(f"{path}: nothing lies inside {step!r}")
