@@ -28,7 +28,7 @@ def dataset(
     """The record of a run.
 
     Variables are named by path. Dimensions are sweep paths, `trial` (where trials were asked for), `time`, and axes by name; an
-    axis whose name is taken by another sampling, or that occurs twice, becomes `PATH.axis`.
+    axis whose name is taken by another sampling, or that occurs twice, becomes `PATH.axis`, PATH being the path of the port.
     """
     lead = [*sweep, *(["trial"] if trials is not None else []), "time"]
     coords: dict[str, Any] = {path: (path, np.asarray(values, float)) for path, values in sweep.items()}
@@ -43,12 +43,15 @@ def dataset(
         for axis in axes:
             dim = axis.name
             if dim in dims or (dim in taken and taken[dim] != axis):
-                dim = f"{entry.path}.{axis.name}"
+                dim = f"{entry.path}.{port}.{axis.name}"
             taken[dim] = axis
             dims.append(dim)
             coords[dim] = (dim, axis.points, _axis_attributes(axis))
         shaped = array.reshape(*grid, *array.shape[1:]) if sweep else array
-        attributes = {"long_name": f"{port} of {entry.path}", "kind": type(entry.element).__name__}
+        attributes: dict[str, Any] = {"long_name": f"{port} of {entry.path}", "kind": type(entry.element).__name__, "port": port}
+        threshold = getattr(getattr(entry.element, "sigmoid", None), "threshold", None)
+        if port == "activation" and isinstance(threshold, float):
+            attributes["threshold"] = threshold
         out[f"{entry.path}.{port}"] = ([*lead, *dims], shaped, attributes)
     return xarray.Dataset(out, coords, {KEY: json.dumps(about, ensure_ascii=False), "title": doc.name})
 

@@ -162,7 +162,6 @@ class _Points:
                 else:
                     yield edit.put(self.doc, found.entry.id, found.parameter, value)
 
-
     def rebuilt(self) -> set[str]:
         """Ids of the elements whose constants differ from point to point."""
         by = self.doc.by_id()

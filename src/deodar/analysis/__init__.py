@@ -1,0 +1,1 @@
+"""Measuring: peaks, instabilities, regimes, phase plots."""

@@ -1,0 +1,168 @@
+"""Figures of what was measured, ready for print."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from deodar.analysis.phase import Phase, phase
+from deodar.analysis.regimes import Regimes
+from deodar.errors import OutputError
+from deodar.numerics.axes import Axis
+
+# Okabe & Ito's colours, which people of every colour vision can tell apart
+BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, GREY = "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#999999"
+FORMATS = (".png", ".svg")
+
+STYLE: Any = {
+    "font.size": 8.0,
+    "axes.titlesize": 8.0,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "lines.linewidth": 1.2,
+    "legend.frameon": False,
+    "legend.fontsize": 7.0,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "deodar",
+}
+
+
+def regimes_figure(found: Regimes) -> Figure:
+    """Two panels: the hysteresis of the field over its input, and its patterns (of a node: its phase plots)."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(7.0, 2.9), layout="constrained")
+        FigureCanvasAgg(figure)
+        left, right = figure.subplots(1, 2)
+        _hysteresis(left, found)
+        if found.isolated.axes:
+            _profiles(right, found)
+        else:
+            _phases(right, found)
+        return figure
+
+
+def phase_figure(shown: Phase, time_unit: str = "ms") -> Figure:
+    """The phase plot of a node."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(3.5, 2.8), layout="constrained")
+        FigureCanvasAgg(figure)
+        _phase_axes(figure.subplots(), [(shown, BLUE, f"input {shown.input:.3g}")], time_unit)
+        return figure
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write a figure; the ending of the name decides how.
+
+    Raises:
+        OutputError: if the ending is neither .png nor .svg.
+    """
+    require_format(path)
+    with rc_context(STYLE):
+        figure.savefig(path, dpi=300, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
+
+
+def require_format(path: Path) -> None:
+    """Refuse a file ending that no figure is written as."""
+    if path.suffix.lower() not in FORMATS:
+        raise OutputError(f"a figure is written as {' or '.join(FORMATS)}, not as {path.suffix or 'a file without an ending'}", where=str(path))
+
+
+# ------------------------------------------------------------------------------------------------ panels
+
+
+def _hysteresis(axes: Any, found: Regimes) -> None:
+    swept, threshold = found.ramp, found.isolated.threshold
+    axes.axhline(threshold, color=GREY, linewidth=0.6)
+    for branch, color, label, style in ((swept.down, VERMILION, "input falls", "-"), (swept.up, BLUE, "input grows", "--")):
+        axes.plot(swept.values, branch.activation, style, color=color, label=label)
+    axes.margins(x=0.02, y=0.12)
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(bottom, top + 0.12 * (top - bottom))
+    up, down = found.detection, found.reverse
+    marks = [(up, "detection", BLUE, "center"), (down, "reverse detection", VERMILION, "center")]
+    near = up is not None and down is not None and abs(up - down) < 0.35 * np.ptp(swept.values)
+    for value, label, color, align in marks:
+        if value is None:
+            continue
+        if near and up is not None and down is not None and up != down:
+            align = "left" if label == "detection" else "right"
+        axes.axvline(value, color=color, linewidth=0.7, linestyle=":")
+        if near and up == down and label != "detection":
+            continue
+        axes.annotate(
+            f"{label}\n{value:.3g}", (value, 1.0), xycoords=("data", "axes fraction"), ha=align, va="top", color=color, fontsize=7,
+            xytext=({"left": 3, "right": -3}.get(align, 0), 0), textcoords="offset points", backgroundcolor=(1, 1, 1, 0.8),
+        )  # fmt: skip
+    axes.set_xlabel("strength of the localised input" if found.isolated.axes else "input")
+    axes.set_ylabel("highest activation" if found.isolated.axes else "activation")
+    axes.set_title("a")
+    axes.legend(loc="lower right")
+
+
+def _profiles(axes: Any, found: Regimes) -> None:
+    isolated = found.isolated
+    axis = isolated.axes[0]
+    axes.axhline(isolated.threshold, color=GREY, linewidth=0.6)
+    _profile(axes, found, found.rest, BLACK, ":", "at rest")
+    if found.above is not None:
+        _profile(axes, found, found.above, BLUE, "-", "just above detection")
+    if found.memory is not None:
+        _profile(axes, found, found.memory.activation, VERMILION, "--", "after the input is gone")
+    axes.set_xlabel(_label(axis))
+    others = [f"{a.name} = {c:g}{' ' + a.unit if a.unit else ''}" for a, c in zip(isolated.axes[1:], isolated.center[1:], strict=True)]
+    axes.set_ylabel("activation" + (f" at {', '.join(others)}" if others else ""))
+    axes.margins(x=0.0, y=0.08)
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(bottom, top + 0.35 * (top - bottom))
+    axes.set_title("b")
+    axes.legend(loc="upper right")
+
+
+def _profile(axes: Any, found: Regimes, pattern: np.ndarray, color: str, style: str, label: str) -> None:
+    """The pattern along the first axis, through the centre of the input on the others."""
+    cut = pattern[(slice(None), *(a.samples // 2 for a in found.isolated.axes[1:]))]
+    axes.plot(found.isolated.axes[0].points, cut, style, color=color, label=label)
+
+
+def _phases(axes: Any, found: Regimes) -> None:
+    field = found.isolated.field
+    inputs = [(0.0, BLACK, "no input")]
+    marks = (("detection", found.detection, BLUE), ("reverse detection", found.reverse, VERMILION))
+    inputs += [(value, color, f"at {label}, input {value:.3g}") for label, value, color in marks if value is not None]
+    if found.detection is not None and found.reverse == found.detection:
+        inputs = inputs[:2]
+    each = [phase(field, value) for value, _, _ in inputs]
+    span = (min(p.u[0] for p in each), max(p.u[-1] for p in each))
+    plots = [(phase(field, value, span), color, label) for value, color, label in inputs]
+    _phase_axes(axes, plots, found.isolated.time_unit)
+    axes.set_title("b")
+
+
+def _phase_axes(axes: Any, plots: list[tuple[Phase, str, str]], time_unit: str) -> None:
+    axes.axhline(0.0, color=GREY, linewidth=0.6)
+    for shown, color, label in plots:
+        axes.plot(shown.u, shown.rate, color=color, label=label)
+        for p in shown.fixed_points:
+            axes.plot(p.u, 0.0, "o", markersize=4.5, color=color, markerfacecolor=color if p.stable else "white", zorder=3)
+    axes.plot([], [], "o", markersize=4.5, color=GREY, label="stable")
+    axes.plot([], [], "o", markersize=4.5, color=GREY, markerfacecolor="white", label="unstable")
+    axes.set_xlabel("activation u")
+    axes.set_ylabel(f"du/dt (1/{time_unit})" if time_unit.isalpha() and time_unit != "abstract" else "du/dt (per time unit)")
+    axes.margins(x=0.0, y=0.08)
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(bottom, top + 0.45 * (top - bottom))
+    axes.legend(loc="upper right")
+
+
+def _label(axis: Axis) -> str:
+    return f"{axis.name} ({axis.unit})" if axis.unit else axis.name

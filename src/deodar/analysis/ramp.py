@@ -1,0 +1,78 @@
+"""A slow ramp of input, up and down: the hysteresis of a field."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from deodar.analysis.isolated import Isolated, Knob
+from deodar.analysis.settle import LIMIT
+
+
+@dataclass(frozen=True)
+class Branch:
+    """What a field settled on at each value of a ramp, in one direction.
+
+    Attributes:
+        count: number of peaks.
+        activation: highest activation anywhere, with or without a peak.
+        width: of the highest peak along the first axis, in axis units; not a number where there is none, or on a node.
+        settled: whether it stood still before the limit.
+    """
+
+    count: np.ndarray
+    activation: np.ndarray
+    width: np.ndarray
+    settled: np.ndarray
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """A field settled at each of some values of its input, first upwards, then downwards.
+
+    Attributes:
+        by: what was turned, `input` or `boost`.
+        values: the inputs, growing; both branches are in this order.
+        up: from the resting level upwards.
+        down: from the highest value downwards.
+    """
+
+    by: Knob
+    values: np.ndarray
+    up: Branch
+    down: Branch
+
+    @property
+    def bistable(self) -> np.ndarray:
+        """The values at which the two branches differ in the number of peaks."""
+        return self.values[self.up.count != self.down.count]
+
+
+def ramp(isolated: Isolated, values: Sequence[float] | np.ndarray, by: Knob = "input", limit: float = LIMIT) -> Ramp:
+    """Settle a field at each value of its input, going up from rest and then down again.
+
+    Args:
+        isolated: the field.
+        values: strengths of the input, in any order; the ramp sorts them.
+        by: `input` for localised input, `boost` for homogeneous input.
+        limit: of settling, in time constants.
+    """
+    steps = np.sort(np.asarray(values, np.float64))
+    isolated.reset()
+    up = _branch(isolated, steps, by, limit)
+    down = _branch(isolated, steps[::-1], by, limit)
+    return Ramp(by, steps, up, Branch(down.count[::-1], down.activation[::-1], down.width[::-1], down.settled[::-1]))
+
+
+def _branch(isolated: Isolated, values: np.ndarray, by: Knob, limit: float) -> Branch:
+    count, activation, width, settled = [], [], [], []
+    for value in values:
+        isolated.put(**{by: value})
+        settled.append(bool(isolated.settle(limit=limit)))
+        found = isolated.peaks()
+        count.append(len(found))
+        activation.append(float(isolated.activation().max()))
+        width.append(found[0].width[0] if found and isolated.axes else np.nan)
+    return Branch(np.array(count), np.array(activation), np.array(width), np.array(settled))

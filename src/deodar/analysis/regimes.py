@@ -1,0 +1,232 @@
+"""The regime of a field: all its instabilities measured, and said in plain words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from deodar.analysis.isolated import Isolated, isolate
+from deodar.analysis.memory import Memory, forgetting, outlives
+from deodar.analysis.peaks import Peak, Peaks
+from deodar.analysis.ramp import Ramp, ramp
+from deodar.analysis.selection import Selection, selects
+from deodar.analysis.settle import LIMIT
+from deodar.analysis.thresholds import Thresholds, thresholds
+from deodar.elements.field import Field
+from deodar.model.model import Model
+
+ABOVE = 1.02
+"""Input that counts as just above detection, relative to the threshold."""
+STRONG = 1.2
+"""Input that makes peaks in the tests of memory and selection, relative to the detection threshold."""
+STEPS = 31
+
+
+@dataclass(frozen=True)
+class Regimes:
+    """What a field does with its input, measured on its own and without noise.
+
+    Attributes:
+        isolated: the field, with the inputs it was measured with.
+        thresholds: detection and reverse detection for localised input.
+        rest: activation without input.
+        above: activation just above detection; None where there is none.
+        driven: the peaks just above detection.
+        memory: what is left of a peak after its input is gone; None where no input makes a peak.
+        forgetting: homogeneous input below which no peak outlives its input; None where none does, and on a node.
+        selection: what two inputs end in; None where no input makes a peak, and on a node.
+        ramp: the field over a slow ramp of its input.
+    """
+
+    isolated: Isolated
+    thresholds: Thresholds
+    rest: np.ndarray
+    above: np.ndarray | None
+    driven: Peaks | None
+    memory: Memory | None
+    forgetting: float | None
+    selection: Selection | None
+    ramp: Ramp
+
+    @property
+    def detection(self) -> float | None:
+        """Input at which a peak appears."""
+        return self.thresholds.detection.value if self.thresholds.detection else None
+
+    @property
+    def reverse(self) -> float | None:
+        """Input at which it vanishes; None where it stays without input."""
+        return self.thresholds.reverse.value if self.thresholds.reverse else None
+
+    @property
+    def bistable(self) -> tuple[float, float] | None:
+        """Range of inputs with and without a peak, depending on the past; None where there is none. On a field it begins at 0
+        or above, as localised inhibition would only push the peak aside.
+        """
+        up, down = self.thresholds.detection, self.thresholds.reverse
+        if up is None or (down is not None and not up.jump):
+            return None
+        low = down.value if down is not None else (self.ramp.values[0] if not self.isolated.axes else 0.0)
+        return (float(low), up.value)
+
+    @property
+    def self_sustained(self) -> bool:
+        """Whether a peak outlives its input, and stays a peak."""
+        return self.memory is not None and self.memory.outlives and not self.unbounded
+
+    @property
+    def unbounded(self) -> bool:
+        """Whether excitation spreads over the whole field once there is a peak."""
+        patterns = [self.driven, self.memory.driven if self.memory else None, self.memory.left if self.memory else None]
+        return any(self.isolated.covers(p) for p in patterns if p is not None)
+
+    @property
+    def peak(self) -> Peak | None:
+        """The peak just above detection."""
+        return self.driven[0] if self.driven else None
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The regime in plain words, the most important first."""
+        if self.thresholds.active_at_rest:
+            return ("active without input",)
+        up = self.thresholds.detection
+        if up is None:
+            return (f"silent: no input up to {self.thresholds.searched:g} makes a peak",)
+        if self.unbounded:
+            return ("unbounded: a peak spreads over the whole field",)
+        kind = "node" if not self.isolated.axes else "peak"
+        if self.self_sustained:
+            first = "self-sustained (working memory)"
+        elif up.jump:
+            first = "input-driven, bistable near detection"
+        else:
+            first = "input-driven, graded (no detection instability)"
+        if self.selection is None:
+            return (first,)
+        equal, different = len(self.selection.equal), len(self.selection.different)
+        if equal == 1 and different == 1:
+            return (first, f"selective (two inputs, one {kind})")
+        if different == 1:
+            return (first, "selective between different inputs, multi-peak for equal ones")
+        return (first, "multi-peak (each input has its peak)" if equal >= 2 else "two inputs merge or suppress each other")
+
+    def data(self) -> dict[str, Any]:
+        """Everything as plain data, for JSON."""
+        i, peak = self.isolated, self.peak
+        selection = None
+        if self.selection is not None:
+            s = self.selection
+            selection = {"peaks_for_equal_inputs": len(s.equal), "peaks_for_different_inputs": len(s.different)}
+            selection |= {"stronger_wins": s.right, "peaks_left_without_input": len(s.left)}
+        return {
+            "element": i.path,
+            "axes": [a.name for a in i.axes],
+            "input": {"center": list(i.center), "sigma": list(i.sigma), "kept": list(i.background)},
+            "regime": list(self.words),
+            "detection_threshold": self.detection,
+            "detection_is_instability": self.thresholds.detection.jump if self.thresholds.detection else None,
+            "reverse_detection_threshold": self.reverse,
+            "bistable_range": list(self.bistable) if self.bistable else None,
+            "active_at_rest": self.thresholds.active_at_rest,
+            "self_sustained": self.self_sustained,
+            "unbounded": self.unbounded,
+            "forgetting_boost": self.forgetting,
+            "selective": self.selection.selects if self.selection is not None else None,
+            "selection": selection,
+            "peak": {"width": list(peak.width), "amplitude": peak.amplitude, "size": peak.size} if peak else None,
+            "peak_without_input": _remembered(self.memory),
+            "ramp": {
+                "input": self.ramp.values.tolist(),
+                "up": self.ramp.up.activation.tolist(),
+                "down": self.ramp.down.activation.tolist(),
+                "settled": bool(self.ramp.up.settled.all() and self.ramp.down.settled.all()),
+            },
+        }
+
+    def __repr__(self) -> str:
+        def show(value: float | None) -> str:
+            return "none" if value is None else f"{value:.4g}"
+
+        return f"<Regimes of {self.isolated.path}: {'; '.join(self.words)}; detection {show(self.detection)}, reverse {show(self.reverse)}>"
+
+
+def regimes(
+    model: Model | Field,
+    path: str = "",
+    *,
+    sigma: Any = None,
+    precision: str = "float32",
+    dt: float | None = None,
+    inputs: Sequence[str] = (),
+    accuracy: float = 0.01,
+    limit: float = LIMIT,
+    progress: Callable[[str], None] | None = None,
+) -> Regimes:
+    """Measure the instabilities of one field of a model.
+
+    Args:
+        model: the model, or a field that stands in none.
+        path: the field in the model.
+        sigma: width of the localised input; none: that of the kernel's excitation.
+        precision: float32 or float64.
+        dt: Euler step; none: see `isolate`.
+        inputs: elements of the model kept as constant inputs.
+        accuracy: of the thresholds, relative.
+        limit: of each settling, in time constants.
+        progress: called with what is measured next.
+
+    Raises:
+        UnknownName: if there is no such element.
+        AnalysisError: if it is no field.
+    """
+    tell = progress or (lambda what: None)
+    tell("compiling")
+    isolated = isolate(model, path, sigma=sigma, precision=precision, dt=dt, inputs=inputs)
+    tell("resting state")
+    isolated.reset()
+    isolated.settle(limit=limit)
+    rest = isolated.activation()
+    tell("thresholds")
+    found = thresholds(isolated, accuracy=accuracy, limit=limit)
+    above, driven, memory, forgets, selection = None, None, None, None, None
+    up = found.detection
+    if up is not None:
+        tell("working memory")
+        memory = outlives(isolated, STRONG * up.after, limit=limit)
+        isolated.restore(up.state)
+        isolated.put(input=ABOVE * up.after)
+        isolated.settle(limit=limit)
+        above, driven = isolated.activation(), isolated.peaks()
+        if isolated.axes:
+            tell("selection")
+            selection = selects(isolated, STRONG * up.after, limit=limit)
+            tell("forgetting")
+            lost = forgetting(isolated, STRONG * up.after, accuracy, limit)
+            forgets = lost.value if lost else None
+    tell("ramp")
+    swept = ramp(isolated, _span(isolated, found), limit=limit)
+    return Regimes(isolated, found, rest, above, driven, memory, forgets, selection, swept)
+
+
+def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:
+    """Inputs that show both thresholds."""
+    if found.detection is None:
+        return np.linspace(0.0, 2 * isolated.scale, STEPS)
+    high = found.detection.value
+    low = min(0.0, found.reverse.value) if found.reverse else 0.0
+    low -= 0.15 * (high - low) if low < 0 else 0.0
+    top = high + 0.3 * (high - low)
+    values = np.linspace(low, top, STEPS)
+    marks = [t for f in (found.detection, found.reverse) if f for t in (f.before, f.after)]
+    return np.unique([*values, *marks]) if math.isfinite(top) else values
+
+
+def _remembered(memory: Memory | None) -> dict[str, Any] | None:
+    if memory is None or not memory.left:
+        return None
+    return {"width": list(memory.left[0].width), "amplitude": memory.left[0].amplitude, "size": memory.left[0].size}

@@ -1,0 +1,101 @@
+"""Selection: whether two inputs end in one peak."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from deodar.analysis.isolated import Isolated
+from deodar.analysis.peaks import Peaks
+from deodar.analysis.settle import LIMIT
+from deodar.errors import AnalysisError, ParameterError
+
+HEAD_START = 0.01
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What a field makes of two inputs.
+
+    Attributes:
+        selects: whether both equal and different inputs end in one peak.
+        equal: peaks for two inputs of the same strength.
+        different: peaks for two inputs of which the first is stronger.
+        right: whether the one peak for different inputs stands at the stronger one; None where there is not one peak.
+        left: peaks after both inputs are taken away again.
+        activation: the pattern that the two equal inputs end in.
+    """
+
+    selects: bool
+    equal: Peaks
+    different: Peaks
+    right: bool | None
+    left: Peaks
+    activation: np.ndarray
+
+
+def selects(isolated: Isolated, amplitude: float, difference: float = 0.1, distance: float = 0.5, limit: float = LIMIT) -> Selection:
+    """Whether two inputs, given together, end in one peak.
+
+    Without noise two equal inputs would stay balanced even where the balance is unstable, so that the first one leads by a
+    hundredth until the field settles; then they are made equal and it settles again.
+
+    Args:
+        isolated: a field (a node has no room for two inputs).
+        amplitude: of each input, above the detection threshold.
+        difference: for the unequal pair, how much stronger the first is, relative to the amplitude; >= 0.
+        distance: between the two, as a share of each axis' range; above 0, below 1.
+        limit: of settling, in time constants.
+
+    Raises:
+        AnalysisError: on a node.
+
+    Reference:
+        Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2 (selection instability).
+    """
+    if not isolated.axes:
+        raise AnalysisError("a node cannot select between places", where=isolated.path)
+    if not 0 < distance < 1 or not difference >= 0:
+        raise ParameterError(f"distance is {distance} (above 0, below 1), difference {difference} (0 or above)")
+    home = isolated.session.get("input.center")
+    try:
+        first, second = _places(isolated, distance)
+        isolated.session.set("input.center", first)
+        isolated.session.set("second.center", second)
+        isolated.reset(input=amplitude * (1 + difference), second=amplitude)
+        isolated.settle(limit=limit)
+        different = isolated.peaks()
+        isolated.reset(input=amplitude * (1 + HEAD_START), second=amplitude)
+        isolated.settle(limit=limit)
+        isolated.put(input=amplitude)
+        isolated.settle(limit=limit)
+        equal, activation = isolated.peaks(), isolated.activation()
+        isolated.put(input=0.0, second=0.0)
+        isolated.settle(limit=limit)
+        left = isolated.peaks()
+    finally:
+        isolated.session.set("input.center", home)
+        isolated.session.set("second.center", home)
+    right = None
+    if len(different) == 1:
+        right = _apart(isolated, different[0].position, first) < _apart(isolated, different[0].position, second)
+    return Selection(len(equal) == 1 and len(different) == 1, equal, different, right, left, activation)
+
+
+def _places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Two samples, as far to one side of the middle as to the other."""
+    away = [max(1, round(distance * a.samples / 2)) for a in isolated.axes]
+    middle = [a.samples // 2 for a in isolated.axes]
+    first = tuple(float(a.points[max(0, m - k)]) for a, m, k in zip(isolated.axes, middle, away, strict=True))
+    second = tuple(float(a.points[min(a.samples - 1, m + k)]) for a, m, k in zip(isolated.axes, middle, away, strict=True))
+    return first, second
+
+
+def _apart(isolated: Isolated, a: tuple[float, ...], b: tuple[float, ...]) -> float:
+    total = 0.0
+    for axis, p, q in zip(isolated.axes, a, b, strict=True):
+        d = p - q
+        d -= axis.range * round(d / axis.range) if axis.periodic else 0.0
+        total += (d / axis.range) ** 2
+    return total

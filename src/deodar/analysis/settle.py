@@ -1,0 +1,68 @@
+"""Settling: running a session until its fields stand still."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from deodar.elements.field import Field
+from deodar.errors import AnalysisError
+from deodar.runtime.session import Session
+
+LIMIT = 2000.0
+"""Time constants after which settling gives up. Near an instability the slowest rate of change is the distance d from it and the
+passage takes about pi / sqrt(d) time constants: 200 for a distance of a hundredth of a percent of an activation of 2."""
+LEAST_STEPS = 50
+
+
+@dataclass(frozen=True)
+class Settled:
+    """How settling ended.
+
+    Attributes:
+        settled: whether the fields stood still before the limit.
+        time_constants: how long it took, in units of the longest time constant.
+        change: the last change of activation per time constant, the largest of all fields and places.
+    """
+
+    settled: bool
+    time_constants: float
+    change: float
+
+    def __bool__(self) -> bool:
+        return self.settled
+
+
+def settle(session: Session, tolerance: float = 1e-3, limit: float = LIMIT) -> Settled:
+    """Run until no field changes by more than `tolerance` per time constant, or until `limit` time constants have passed.
+
+    Noise has to be off, or below the tolerance; otherwise the limit is reached.
+
+    Args:
+        session: the session, which runs on from where it is.
+        tolerance: change of activation per time constant, anywhere, at which it counts as settled; > 0.
+        limit: in units of the longest time constant of the session's fields; > 0.
+
+    Raises:
+        AnalysisError: if the session has no field.
+    """
+    if not tolerance > 0 or not limit > 0:
+        raise AnalysisError(f"settling needs a tolerance and a limit above 0, not {tolerance} and {limit}")
+    fields = [(e.path, e.element.tau) for e in session.document.entries if isinstance(e.element, Field)]
+    if not fields:
+        raise AnalysisError("the session has no field that could settle", where=session.document.name)
+    longest = max(tau for _, tau in fields)
+    steps = max(LEAST_STEPS, math.ceil(longest / session.dt))
+    passed, change = 0.0, math.inf
+    before = [session.read(f"{path}.activation") for path, _ in fields]
+    while passed < limit:
+        session.step(steps)
+        passed += steps * session.dt / longest
+        now = [session.read(f"{path}.activation") for path, _ in fields]
+        moved = [float(np.max(np.abs(b - a))) * tau / (steps * session.dt) for a, b, (_, tau) in zip(before, now, fields, strict=True)]
+        before, change = now, max(moved)
+        if change <= tolerance:
+            return Settled(True, passed, change)
+    return Settled(False, passed, change)

@@ -1,0 +1,137 @@
+"""Detection and reverse detection: the inputs at which a field changes its mind, by bisection."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from deodar.analysis.isolated import Isolated, Knob
+from deodar.analysis.settle import LIMIT
+from deodar.runtime.session import Snapshot
+
+MOST_DOUBLINGS = 8
+JUMP = 20.0
+"""A change of activation this many times larger than the change of input that caused it is a jump, not a graded response."""
+
+
+@dataclass(frozen=True)
+class Transition:
+    """Where a peak appears or vanishes while an input is turned slowly.
+
+    Attributes:
+        value: the input at which it happens, the middle of the bracket.
+        before: the last input at which the field still settled on the old branch.
+        after: the first at which it did not.
+        jump: whether activation jumps there (an instability), or grows gradually through the threshold.
+        state: the field settled just after.
+    """
+
+    value: float
+    before: float
+    after: float
+    jump: bool
+    state: Snapshot
+
+    def __repr__(self) -> str:
+        return f"Transition({self.value:.4g} +- {abs(self.after - self.before) / 2:.2g}, {'jump' if self.jump else 'gradual'})"
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """Both thresholds of a field for one kind of input.
+
+    Attributes:
+        detection: where a peak appears as the input grows; None where none does up to `searched`, or one is there without input.
+        reverse: where it vanishes as the input shrinks; None where it stays down to 0 (a node: down to -`searched`).
+        active_at_rest: whether there is a peak without any input.
+        searched: the largest input tried.
+    """
+
+    detection: Transition | None
+    reverse: Transition | None
+    active_at_rest: bool
+    searched: float
+
+
+def thresholds(isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, limit: float = LIMIT) -> Thresholds:
+    """Detection and reverse-detection thresholds of a field.
+
+    The input grows from 0 until a peak appears, and shrinks from there until it vanishes. Every trial of the bisection starts
+    from the last settled state before the change, so that the field stays on its branch as long as the branch exists.
+
+    Args:
+        isolated: the field.
+        by: `input` for localised input, `boost` for homogeneous input.
+        accuracy: width of the final bracket relative to the threshold; > 0.
+        limit: of settling, in time constants.
+
+    Reference:
+        Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2 (detection and reverse detection).
+    """
+    isolated.reset()
+    isolated.settle(limit=limit)
+    rest = isolated.snapshot()
+    if isolated.peaks():
+        return Thresholds(None, None, True, 0.0)
+    low, high = 0.0, isolated.scale
+    searched = isolated.scale * 2.0**MOST_DOUBLINGS
+    while True:
+        isolated.restore(rest)
+        isolated.put(**{by: high})
+        isolated.settle(limit=limit)
+        if isolated.peaks():
+            break
+        low, rest = high, isolated.snapshot()
+        if high >= searched:
+            return Thresholds(None, None, False, searched)
+        high *= 2
+    up = bisect(isolated, by, low, high, rest, lambda: bool(isolated.peaks()), accuracy, limit)
+    isolated.restore(up.state)
+    floor = 0.0 if isolated.axes else -searched
+    down = descend(isolated, by, up.after, floor, accuracy, limit)
+    return Thresholds(up, down, False, searched)
+
+
+def descend(isolated: Isolated, by: Knob, start: float, floor: float, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
+    """From a settled peak at `start` downwards: where it vanishes, or None where it is still there at `floor`."""
+    held, state, reach = start, isolated.snapshot(), isolated.scale / 2
+    while True:
+        trial = max(floor, held - reach)
+        isolated.restore(state)
+        isolated.put(**{by: trial})
+        isolated.settle(limit=limit)
+        if not isolated.peaks():
+            return bisect(isolated, by, held, trial, state, lambda: not isolated.peaks(), accuracy, limit)
+        if trial <= floor:
+            return None
+        held, state, reach = trial, isolated.snapshot(), reach * 2
+
+
+def bisect(
+    isolated: Isolated,
+    by: Knob,
+    before: float,
+    after: float,
+    state: Snapshot,
+    changed: Callable[[], bool],
+    accuracy: float = 0.01,
+    limit: float = LIMIT,
+) -> Transition:
+    """The input between `before` (settled at `state`, unchanged) and `after` (changed) at which the field changes."""
+    least = 0.01 * isolated.scale  # below this the bracket is measured against the scale: a threshold may be 0
+    isolated.restore(state)
+    last = isolated.activation()
+    settled: tuple[Snapshot, np.ndarray] | None = None
+    while settled is None or abs(after - before) > accuracy / 2 * max(abs(before + after) / 2, least):
+        trial = (before + after) / 2 if settled is not None else after
+        isolated.restore(state)
+        isolated.put(**{by: trial})
+        isolated.settle(limit=limit)
+        if changed() or settled is None:
+            after, settled = trial, (isolated.snapshot(), isolated.activation())
+        else:
+            before, state, last = trial, isolated.snapshot(), isolated.activation()
+    moved = float(np.max(np.abs(settled[1] - last)))
+    return Transition((before + after) / 2, before, after, moved > JUMP * abs(after - before), settled[0])

@@ -1,0 +1,113 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from deodar.worlds._base import World
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """`--json`."""
+    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+
+
+def add_force(parser: argparse.ArgumentParser) -> None:
+    """`--force`."""
+    parser.add_argument("--force", action="store_true", help="replace what an earlier run wrote there")
+
+
+def add_world(parser: argparse.ArgumentParser) -> None:
+    """`--world` and `--trust`."""
+    parser.add_argument("--world", metavar="KIND:ARGUMENT", help="what the model's sensors read, for example picture:photo.jpg")
+    parser.add_argument("--trust", action="store_true", help="allow functions that the document names to be imported and run")
+
+
+def add_run(parser: argparse.ArgumentParser) -> None:
+    """`--seed`, `--precision` and `--no-progress`."""
+    parser.add_argument("--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)")
+    parser.add_argument("--precision", choices=("float32", "float64"), help="of all numbers (default float32)")
+    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+
+
+def wrong(parser: argparse.ArgumentParser) -> None:
+    """Let `run` refuse a call as argparse does: `args.wrong(text)` prints it and ends with status 2."""
+    parser.set_defaults(wrong=parser.error)
+
+
+def whole(text: str) -> int:
+    """A whole number, 0 or above."""
+    value = int(text)
+    if value < 0:
+        raise ValueError
+    return value
+
+
+whole.__name__ = "whole number"
+
+
+def pair(text: str) -> tuple[str, str]:
+    """`PATH=VALUE`; a path may itself hold an equals sign."""
+    path, sign, value = text.rpartition("=")
+    if not sign or not path or not value:
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form PATH=VALUE")
+    return path.strip(), value.strip()
+
+
+def setting(text: str) -> tuple[str, Any]:
+    """`PATH=VALUE`, the value in JSON: a number, true, false, [1, 2]; anything else is text."""
+    path, value = pair(text)
+    try:
+        return path, json.loads(value)
+    except ValueError:
+        return path, value
+
+
+def values(text: str) -> tuple[str, list[float]]:
+    """`PATH=V1,V2,...`."""
+    path, listed = pair(text)
+    try:
+        return path, [float(v) for v in listed.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{listed!r} is not a list of numbers such as 4,6,8") from None
+
+
+def world(text: str | None) -> World | None:
+    """The world that `--world KIND:ARGUMENT` names, opened."""
+    from deodar import registry
+    from deodar.errors import WorldError, did_you_mean
+
+    if text is None:
+        return None
+    name, _, argument = text.partition(":")
+    kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
+    found = kinds.get(name.casefold())
+    if found is None:
+        raise WorldError(f"there is no world {name!r}", where=f"--world {text}", fix=did_you_mean(name.casefold(), kinds))
+    if not argument:
+        raise WorldError("needs to know what to open", where=f"--world {text}", fix=f"For example --world {name.lower()}:photo.jpg")
+    return found.open(argument)
+
+
+def shown(path: Path) -> str:
+    """A path as one types it: relative where it lies below the working folder, quoted where a shell would take it apart."""
+    import shlex
+
+    try:
+        text = str(path.resolve().relative_to(Path.cwd()))
+    except (OSError, ValueError):
+        text = str(path)
+    return shlex.quote(text)
+
+
+def paragraph(parts: Sequence[str]) -> str:
+    """Sentences, each closed by a full stop."""
+    return " ".join(p if p.endswith((".", "!", "?", ":")) else f"{p}." for p in parts if p)
+
+
+Printer = Callable[[str], None]

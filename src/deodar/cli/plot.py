@@ -1,0 +1,92 @@
+"""`deodar plot RECORD`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    import xarray
+
+HELP = "draw the variables of a record as SVG, PDF or PNG"
+EPILOG = """Without --kind each variable gets the kind that suits it: time_course (nodes, or fields at places), space_time (one dimension over
+time), snapshot (one time), snapshots (several), projection (three dimensions and more). Several variables become panels of one figure."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("record", type=Path, metavar="RECORD", help="a record (.zarr, .nc), or a folder that deodar run wrote")
+    parser.add_argument("variables", nargs="*", metavar="VARIABLE", help="paths of variables, for example u.activation (default: all)")
+    parser.add_argument("--kind", metavar="K", help="time_course, space_time, snapshot, snapshots or projection")
+    parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
+    parser.add_argument("--trial", type=_options.whole, metavar="N", help="trial to draw (default: all as lines; the first as a map)")
+    parser.add_argument("--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw")
+    parser.add_argument("--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two")
+    parser.add_argument("--reduce", choices=("maximum", "integral"), default="maximum", help="how it is projected (default maximum)")
+    parser.add_argument("--place", action="append", metavar="X[,Y...]", help="place of a field whose time course is drawn; may be given again")
+    parser.add_argument("--out", "-o", type=Path, metavar="FILE", help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here)")
+    _options.add_force(parser)
+    _options.add_json(parser)
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Draw, write and say where."""
+    from deodar.recording import files, places
+
+    where = {path: _number(args, value) for path, value in args.where or ()}
+    spots = [[_number(args, n) for n in place.split(",")] for place in args.place or ()] or None
+    data = files.load(args.record)
+    names = _variables(data, args.variables)
+
+    from deodar.figures import _files, _panels
+    from deodar.figures._view import View
+
+    name = files.locate(args.record)[0]
+    base = name.parent.resolve().name if name.stem == "record" else name.stem
+    out: Path = args.out or places.free(Path(), f"{base}-plot", ".png")
+    _files.claim(out, args.force)
+    views = [
+        View(data[n], at=args.at, trial=args.trial if "trial" in data[n].dims or len(names) == 1 else None, where=where or None,
+             axes=args.axes, places=spots, reduce=args.reduce)
+        for n in names
+    ]  # fmt: skip
+    figure = _panels.draw(views, args.kind)
+    _files.save(figure, out, args.force)
+    if args.json:
+        kinds = {view.name: _panels.kind(view, args.kind).__name__.rpartition(".")[2] for view in views}
+        print(json.dumps({"out": str(out), "kinds": kinds}, indent=2, ensure_ascii=False))
+    else:
+        print(f"Drew {', '.join(names)} into {_options.shown(out)}")
+    return 0
+
+
+def _variables(data: xarray.Dataset, wished: list[str]) -> list[str]:
+    from deodar.errors import RecordError, did_you_mean
+
+    known = list(map(str, data.data_vars))
+    if not known:
+        raise RecordError("the record holds no variable")
+    found: list[str] = []
+    for wish in wished:
+        if wish not in known:
+            of = [n for n in known if n.startswith(f"{wish}.")]
+            if not of:
+                raise RecordError(f"the record holds no variable {wish!r}", fix=did_you_mean(wish, known))
+            found += of
+        else:
+            found.append(wish)
+    return list(dict.fromkeys(found)) if wished else known
+
+
+def _number(args: argparse.Namespace, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        args.wrong(f"{text!r} is not a number")
+        raise

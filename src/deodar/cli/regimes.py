@@ -1,0 +1,129 @@
+"""`deodar regimes FILE ELEMENT`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from deodar.analysis.peaks import Peak
+    from deodar.analysis.regimes import Regimes
+
+HELP = "measure the instabilities of one field or node: detection, reverse detection, working memory, selection"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument("file", type=Path, metavar="FILE", help="a document (.json)")
+    parser.add_argument("element", metavar="ELEMENT", help="path of the field or node; it is measured alone and without noise")
+    parser.add_argument("-o", "--out", type=Path, metavar="FIGURE", help="the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)")
+    parser.add_argument("--force", action="store_true", help="replace the figure if it exists")
+    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.add_argument("--precision", choices=("float32", "float64"), default="float32", help="of the computation (default: float32)")
+    parser.add_argument("--sigma", type=float, nargs="+", metavar="WIDTH", help="width of the localised input (default: that of the kernel)")
+    parser.add_argument("--input", nargs="+", default=[], metavar="PATH", help="stimuli (and couplings) of the document to keep as constant input")
+
+
+def run(args: argparse.Namespace) -> int:
+    """The table, and the figure."""
+    from deodar.model.model import load
+
+    model = load(args.file)
+    target = _target(args)
+    from rich.console import Console
+
+    from deodar.analysis import figures
+    from deodar.analysis.regimes import regimes
+    from deodar.model import output
+
+    figures.require_format(target)
+    output.claim(target, args.force)
+    sigma = args.sigma[0] if args.sigma is not None and len(args.sigma) == 1 else args.sigma
+    with Console(stderr=True).status("compiling") as status:
+        found = regimes(model, args.element, sigma=sigma, precision=args.precision, inputs=args.input, progress=status.update)
+    figure = figures.regimes_figure(found)
+    output.claim(target, args.force)
+    output.write(target, lambda path: figures.save(figure, path))
+    if args.json:
+        print(json.dumps(found.data() | {"figure": str(target)}, indent=2, ensure_ascii=False))
+    else:
+        print(_table(found))
+        print(f"\nFigure: {target}")
+    return 0
+
+
+def _target(args: argparse.Namespace) -> Path:
+    """The figure's path: as given, else the first free number in the working folder."""
+    if args.out is not None:
+        return args.out
+    number = 1
+    while (path := Path(f"{args.file.stem}-regimes-{number:03d}.png")).exists() or path.is_symlink():
+        number += 1
+    return path
+
+
+def _table(found: Regimes) -> str:
+    """What was measured, line by line in plain words."""
+    isolated, up, down = found.isolated, found.thresholds.detection, found.thresholds.reverse
+    field = isolated.field
+    axes = ", ".join(str(a) for a in isolated.axes)
+    lines = [f"{isolated.path}: {f'a field over {axes}' if axes else 'a node'}; tau {field.tau:g} {isolated.time_unit}, resting level"]
+    lines[0] += f" {field.resting_level:g}"
+    if isolated.axes:
+        at = ", ".join(f"{a.name} = {c:g}{_unit(a.unit)}" for a, c in zip(isolated.axes, isolated.center, strict=True))
+        wide = ", ".join(f"{s:.3g}{_unit(a.unit)}" for a, s in zip(isolated.axes, isolated.sigma, strict=True))
+        lines.append(f"Measured alone, without noise, with a Gaussian input at {at} of width {wide}.")
+    else:
+        lines.append("Measured alone, without noise, with a constant input.")
+    if isolated.background:
+        lines.append(f"Kept as constant input: {', '.join(isolated.background)}.")
+    rows = [("regime", "; ".join(found.words))]
+    what = "peak" if isolated.axes else "activation above threshold"
+    if up is not None:
+        kind = "the activation jumps: an instability" if up.jump else "the activation grows gradually: no instability"
+        rows.append(("detection threshold", f"{_bracket(up.before, up.after)}  ({kind})"))
+        low = "0" if isolated.axes else f"-{found.thresholds.searched:g}"
+        stays = f"none: the {what} stays down to an input of {low}"
+        rows.append(("reverse detection", _bracket(down.before, down.after) if down is not None else stays))
+        both = found.bistable
+        rows.append(("bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none"))
+    if found.peak is not None:
+        rows.append(("just above detection", _peak(found, found.peak)))
+    memory = found.memory
+    if memory is not None:
+        left = len(memory.left)
+        rows.append(
+            ("input taken away", f"{left} peak{'' if left == 1 else 's'} left: {_peak(found, memory.left[0])}" if left else f"no {what} is left")
+        )
+    if found.forgetting is not None:
+        stays = "is erased by a homogeneous input below" if found.self_sustained else "would stay with a homogeneous input above"
+        rows.append(("memory", f"a peak {stays} {found.forgetting:.4g}"))
+    if found.selection is not None:
+        s = found.selection
+        stronger = "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
+        rows.append(("two equal inputs", _count(len(s.equal))))
+        rows.append(("two inputs, one stronger", _count(len(s.different)) + stronger))
+    swept = found.ramp
+    if not (swept.up.settled.all() and swept.down.settled.all()):
+        rows.append(("note", "the field did not settle at some inputs; their values are where it stood at the limit"))
+    return "\n".join([*lines, "", *(f"  {label:26}{text}" for label, text in rows)])
+
+
+def _bracket(before: float, after: float) -> str:
+    return f"{(before + after) / 2:.4g} ± {abs(after - before) / 2:.1g}"
+
+
+def _peak(found: Regimes, peak: Peak) -> str:
+    axes = found.isolated.axes
+    widths = [f"{w:.3g}{_unit(a.unit)}" for a, w in zip(axes, peak.width, strict=True)]
+    return f"width {' x '.join(widths)}, amplitude {peak.amplitude:.3g}" if axes else f"activation {peak.amplitude:.3g}"
+
+
+def _count(number: int) -> str:
+    return f"{number or 'no'} peak{'' if number == 1 else 's'}"
+
+
+def _unit(unit: str) -> str:
+    return f" {unit}" if unit else ""

@@ -1,0 +1,179 @@
+"""`deodar run FILE` and `deodar run RECORD`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    import xarray
+
+    from deodar.model.document import Document
+    from deodar.recording.repeat import Repetition
+
+HELP = "run a model and record it, or run a record again and compare"
+EPILOG = """FILE is a document (.json). RECORD is a record (.zarr, .nc) or a folder that an earlier run wrote: it is run again as it was,
+and compared. Both write a new folder with the record and the model that made it. Look at it with: deodar plot FOLDER"""
+
+OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision")
+"""What a record settles itself."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("file", type=Path, metavar="FILE|RECORD", help="a document (.json) to run, or a record to run again")
+    parser.add_argument("--duration", type=float, metavar="D", help="how long, in the document's time unit (needed for a document)")
+    parser.add_argument("--dt", type=float, help="Euler step (default: the document's own, else 1)")
+    parser.add_argument(
+        "--record", nargs="+", action="extend", metavar="PATH", help="ports to record, for example u.activation (default: every field, at the end)"
+    )
+    parser.add_argument("--every", type=float, metavar="T", help="time between records (default: every step)")
+    parser.add_argument("--trials", type=_options.whole, metavar="N", help="number of trials; they differ in their noise")
+    parser.add_argument("--sweep", type=_options.values, action="append", metavar="PATH=V1,V2,...", help="run at each value; several make a grid")
+    parser.add_argument("--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first")
+    parser.add_argument("--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)")
+    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write (default: NAME-001, NAME-002, ... here)")
+    _options.add_run(parser)
+    _options.add_world(parser)
+    _options.add_force(parser)
+    _options.add_json(parser)
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Status 1 if the run was stopped, or if a repetition differs without a reason."""
+    return _repeat(args) if _is_record(args.file) else _simulate(args)
+
+
+def _is_record(path: Path) -> bool:
+    from deodar.recording import files
+
+    if path.suffix.lower() == ".json" and not path.is_dir():
+        return False
+    return path.is_dir() or not path.exists() or path.suffix.lower() in files.SUFFIXES.values() or files.is_record(path)
+
+
+def _simulate(args: argparse.Namespace) -> int:
+    from deodar.errors import Interrupted
+    from deodar.model.model import load
+    from deodar.runtime.simulate import simulate
+
+    if args.duration is None and args.file.is_file():
+        args.wrong("a document needs --duration, for example --duration 500")
+    _once(args, "set")
+    _once(args, "sweep")
+    model = load(args.file, trust=args.trust)
+    for path, value in args.set or ():
+        model.set(path, value)
+    place = _Place(args, model.name)
+    data, stopped = None, ""
+    try:
+        data = simulate(
+            model, args.duration or 0.0, dt=args.dt, seed=args.seed or 0, record=args.record, every=args.every, trials=args.trials,
+            sweep=dict(args.sweep) if args.sweep else None, precision=args.precision or "float32", world=_options.world(args.world),
+            progress=False if args.no_progress or args.json else None,
+        )  # fmt: skip
+    except Interrupted as error:
+        data, stopped = error.data, str(error)
+    return _finish(args, place, data, model.document, stopped, None)
+
+
+def _repeat(args: argparse.Namespace) -> int:
+    from deodar.errors import Interrupted
+    from deodar.recording import files, provenance
+    from deodar.recording.record import about
+    from deodar.recording.repeat import compare, repeat
+    from deodar.runtime.simulate import simulate
+
+    given = [f"--{name}" for name in OF_A_RECORD if getattr(args, name) is not None]
+    if given:
+        args.wrong(f"a record is run again as it was, so {', '.join(given)} cannot be given; run its model.json instead")
+    old = files.load(args.file)
+    place = _Place(args, str(old.attrs.get("title") or "record"))
+    stopped = ""
+    try:
+        done = repeat(old, simulate, _options.world(args.world), args.trust, False if args.no_progress or args.json else None)
+    except Interrupted as error:
+        done, stopped = compare(old, error.data), str(error)
+    return _finish(args, place, done.data, provenance.document(about(old)), stopped, done)
+
+
+class _Place:
+    """Where the run is written: claimed before it begins, named when it is done."""
+
+    def __init__(self, args: argparse.Namespace, name: str) -> None:
+        from deodar.recording import folder, places
+
+        self.given: Path | None = args.out
+        self.name = name
+        self.format: str = args.format
+        self.force: bool = args.force
+        folder.claim(self.given or places.free(Path(), name), self.format, self.force)
+
+    def write(self, data: xarray.Dataset, doc: Document) -> tuple[Path, Path]:
+        """Write it; the folder and the record in it."""
+        from deodar.recording import folder, places
+
+        out = self.given or places.free(Path(), self.name)
+        return out, folder.write(data, doc, out, self.format, self.force)
+
+
+def _finish(args: argparse.Namespace, place: _Place, data: xarray.Dataset, doc: Document, stopped: str, done: Repetition | None) -> int:
+    if stopped and not data.sizes.get("time", 0):
+        print(f"deodar run: {_options.paragraph([stopped, 'Nothing had been recorded, so nothing was written'])}", file=sys.stderr)
+        return 1
+    out, record = place.write(data, doc)
+    good = not stopped and (done is None or done.faithful)
+    if args.json:
+        print(json.dumps(_answer(out, record, data, stopped, done), indent=2, ensure_ascii=False))
+    told = f"Wrote {_contents(data)} to {_options.shown(out)}"
+    look = f"Look at it with: deodar plot {_options.shown(out)}" if args.format != "csv" else f"The table is {_options.shown(record)}"
+    if stopped:
+        print(f"deodar run: {_options.paragraph([stopped, f'{told}, marked as incomplete', look])}", file=sys.stderr)
+        return 1
+    if done is not None and (done.differences or not done.same_bits):
+        print(f"deodar run: {_options.paragraph([('warning: ' if done.faithful else '') + str(done)])}", file=sys.stderr)
+    if not args.json:
+        if done is not None and done.same_bits and not done.differences:
+            print(_options.paragraph([str(done)]))
+        print(_options.paragraph([told, look]).rstrip(".") if look.startswith("Look") else _options.paragraph([told, look]))
+    return 0 if good else 1
+
+
+def _contents(data: xarray.Dataset) -> str:
+    names = list(map(str, data.data_vars))
+    shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    times = data.sizes.get("time", 0)
+    lead = [f"{data.sizes['trial']} trials" if "trial" in data.sizes else "", f"{times} times" if times != 1 else "one time"]
+    return f"{shown} ({', '.join(t for t in lead if t)})"
+
+
+def _answer(out: Path, record: Path, data: xarray.Dataset, stopped: str, done: Repetition | None) -> dict[str, Any]:
+    answer: dict[str, Any] = {
+        "out": str(out),
+        "record": str(record),
+        "model": str(out / "model.json"),
+        "variables": {str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in data.data_vars.items()},
+        "complete": not stopped,
+    }
+    if done is not None:
+        answer["repetition"] = {
+            "same_bits": done.same_bits,
+            "differences": [{"what": d.what, "then": d.then, "now": d.now} for d in done.differences],
+            "largest": {k: v if v < float("inf") else None for k, v in done.largest.items()},
+            "compared": done.compared,
+        }
+    return answer
+
+
+def _once(args: argparse.Namespace, name: str) -> None:
+    paths = [path for path, _ in getattr(args, name) or ()]
+    twice = next((p for p in paths if paths.count(p) > 1), None)
+    if twice is not None:
+        args.wrong(f"--{name} names {twice} twice")

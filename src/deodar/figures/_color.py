@@ -1,0 +1,49 @@
+"""Colours of maps: one scale for all panels that are compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize
+from matplotlib.figure import FigureBase
+
+from deodar.figures import _style
+
+NEARLY_FLAT = 1e-9
+
+
+def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
+    """The colour scale of some arrays.
+
+    Activation that crosses its threshold gets a diverging map: white at the threshold, blue below, red above, equal steps of
+    activation being equal steps of colour on both sides of it. Everything else gets a sequential one.
+    """
+    every = [np.asarray(a, float) for a in arrays]
+    low, high = min(float(np.nanmin(a)) for a in every), max(float(np.nanmax(a)) for a in every)
+    if high - low <= NEARLY_FLAT * max(1.0, abs(low), abs(high)):
+        low, high = low - 0.5, high + 0.5
+    if threshold is not None and low < threshold < high:
+        reach = max(threshold - low, high - threshold)
+        return ScalarMappable(Normalize(low, high), _part(_style.DIVERGING, (low - threshold) / reach, (high - threshold) / reach))
+    return ScalarMappable(Normalize(low, high), _style.SEQUENTIAL)
+
+
+def bar(place: FigureBase, colors: ScalarMappable, axes: Any, label: str, threshold: float | None = None) -> None:
+    """The colour bar beside axes, with a line at the threshold."""
+    made = place.colorbar(colors, ax=axes, label=label, pad=0.02, aspect=18 if isinstance(axes, Axes) else 22)
+    made.outline.set_linewidth(0.6)  # pyright: ignore[reportCallIssue]
+    low, high = colors.get_clim()
+    if threshold is not None and low < threshold < high:
+        made.ax.axhline(threshold, color=_style.THRESHOLD, linewidth=0.9)
+
+
+def _part(name: str, low: float, high: float) -> Colormap:
+    """A piece of a diverging map; -1 and 1 are its ends, 0 its middle."""
+    import matplotlib
+
+    whole = matplotlib.colormaps[name]
+    return LinearSegmentedColormap.from_list(f"{name} part", whole(0.5 + 0.5 * np.linspace(low, high, 256)), 256)

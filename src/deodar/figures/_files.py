@@ -1,0 +1,36 @@
+"""Figures as files: SVG, PDF or PNG, written beside and renamed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from deodar.errors import RecordError
+from deodar.figures import _style
+from deodar.model import output
+
+FORMATS = ("png", "svg", "pdf")
+
+
+def claim(path: Path, force: bool = False) -> str:
+    """The format that a file name ends in; refuses what cannot be drawn or written."""
+    format = path.suffix.lower().removeprefix(".")
+    if format not in FORMATS:
+        what = f"the name ends in {path.suffix!r}" if path.suffix else "the name has no ending"
+        raise RecordError(f"{what}, which names no format of figures", where=str(path), fix="End it in .png, .svg or .pdf")
+    output.claim(path, force)
+    return format
+
+
+def save(figure: Figure, path: Path, force: bool = False) -> None:
+    """Write a figure; the same figure gives the same bytes."""
+    format = claim(path, force)
+    about: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[format]
+
+    def content(beside: Path) -> None:
+        with _style.style():
+            figure.savefig(beside, format=format, dpi=_style.DOTS, metadata=about)
+
+    output.write(path, content)

@@ -1,0 +1,74 @@
+"""Curves of trials and sweep points: thin lines, their mean, a line at the threshold."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+
+from deodar.errors import RecordError
+from deodar.figures import _style
+from deodar.figures._view import TRIAL, View
+
+MOST_TRIALS = 50
+"""Trials drawn as lines of their own; the mean is that of all."""
+
+MOST_CURVES = 12
+
+
+def curves(ax: Axes, v: xarray.DataArray, x: np.ndarray, across: str, view: View, labels: dict[str, Any] | None = None) -> None:
+    """One curve over the dimension `across` for each remaining point of `v`; trials are thin lines with their mean.
+
+    `labels` names the points of dimensions that are neither trial nor `across` (places of a field).
+    """
+    others = [str(d) for d in v.dims if d not in (TRIAL, across)]
+    flat = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across).values
+    grid = flat.shape[: len(others)]
+    if int(np.prod(grid)) > MOST_CURVES:
+        raise RecordError(
+            f"would need {int(np.prod(grid))} curves; at most {MOST_CURVES} are told apart",
+            where=view.name,
+            fix="Choose values with --where PATH=VALUE",
+        )
+    colors = _colors(v, others, grid)
+    marker: dict[str, Any] = {"marker": "o", "markersize": 3.5, "linestyle": "none"} if len(x) == 1 else {}
+    many = TRIAL in v.dims and v.sizes[TRIAL] > 1
+    for k, point in enumerate(np.ndindex(*grid)):
+        rows, label = flat[point].reshape(-1, len(x)), _label(v, others, point, labels)
+        if many:
+            thin: dict[str, Any] = {"alpha": min(0.5, max(0.12, 4 / len(rows))), "linewidth": 0.5, "rasterized": len(x) > 5000}
+            for row in rows[:MOST_TRIALS]:
+                ax.plot(x, row, color=colors[k], **(thin | marker))
+            rows = rows.mean(0, keepdims=True, dtype=float)
+        ax.plot(x, rows[0], color=colors[k], label=label or (f"mean of {v.sizes[TRIAL]} trials" if many else None), **marker)
+    level(ax, view)
+    if many or any(grid_size > 1 for grid_size in grid):
+        ax.legend(loc="best")
+
+
+def level(ax: Axes, view: View, across: bool = True) -> None:
+    """A line at the threshold, where there is one and the values come near it."""
+    if view.threshold is not None:
+        draw = ax.axhline if across else ax.axvline
+        draw(view.threshold, color=_style.THRESHOLD, linewidth=0.7, linestyle=(0, (4, 3)), zorder=0.5)
+
+
+def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...]) -> list[Any]:
+    """A row of values gets colours in their order, places and mixtures get colours that differ."""
+    n = int(np.prod(grid))
+    if len(others) == 1 and n > 2 and v[others[0]].dtype.kind in "iuf" and others[0] in v.coords:
+        return list(matplotlib.colormaps[_style.SEQUENTIAL](np.linspace(0.0, 0.85, n)))
+    return [_style.COLORS[k % len(_style.COLORS)] for k in range(n)]
+
+
+def _label(v: xarray.DataArray, others: list[str], point: tuple[int, ...], labels: dict[str, Any] | None) -> str:
+    parts: list[str] = []
+    for dim, k in zip(others, point, strict=True):
+        if labels and dim in labels:
+            parts.append(labels[dim][k])
+        elif v.sizes[dim] > 1:
+            parts.append(f"{dim} = {v[dim].values[k]:g}")
+    return ", ".join(p for p in parts if p)

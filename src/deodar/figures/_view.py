@@ -1,0 +1,191 @@
+"""What of a variable is looked at: which trial, which point of a sweep, which times, places and axes."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray
+
+from deodar.errors import RecordError, did_you_mean
+
+TIME, TRIAL = "time", "trial"
+REDUCTIONS = ("maximum", "integral")
+NEAR = 1e-9
+
+
+@dc.dataclass(frozen=True)
+class View:
+    """A variable and what of it is looked at.
+
+    Args:
+        variable: a variable of a record; its dimensions are sweep paths, trial, time and axes.
+        at: times, in the record's unit; the nearest recorded ones are taken. None: what suits the kind.
+        trial: number of the trial. None: all of them where lines are drawn, else the first.
+        where: for each sweep path the value to look at. None: all of them where lines are drawn, else the first.
+        axes: names of the axes to keep in a projection.
+        places: for time courses of fields: positions, one number for each axis. None: where the field is most active.
+        reduce: how a projection treats the other axes: maximum or integral.
+    """
+
+    variable: xarray.DataArray
+    at: Sequence[float] | None = None
+    trial: int | None = None
+    where: Mapping[str, float] | None = None
+    axes: Sequence[str] | None = None
+    places: Sequence[Sequence[float] | float] | None = None
+    reduce: str = "maximum"
+
+    def __post_init__(self) -> None:
+        v = self.variable
+        if not isinstance(v, xarray.DataArray):
+            raise RecordError(f"a variable of a record is drawn, not {type(v).__name__}", fix="For example draw(data['u.activation'])")
+        if v.dtype.kind not in "biuf":
+            raise RecordError(f"holds {v.dtype}, which cannot be drawn", where=self.name)
+        if not v.size:
+            raise RecordError("holds nothing: the run was stopped before its first record", where=self.name)
+        for path in self.where or {}:
+            if path not in self.sweeps:
+                raise RecordError(f"was not swept over {path!r}", where=self.name, fix=did_you_mean(path, self.sweeps))
+        if self.trial is not None:
+            numbers = v[TRIAL].values.tolist() if TRIAL in v.dims else [0]
+            if self.trial not in numbers:
+                shown = f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"{numbers[0]} only"
+                raise RecordError(f"has no trial {self.trial}", where=self.name, fix=f"There is: {shown}")
+        for axis in self.axes or ():
+            if axis not in self.space:
+                raise RecordError(f"has no axis {axis!r}", where=self.name, fix=did_you_mean(axis, self.space))
+        if self.reduce not in REDUCTIONS:
+            raise RecordError(f"there is no reduction {self.reduce!r}", fix=did_you_mean(self.reduce, REDUCTIONS))
+        for t in self.at or ():
+            if not self.times[0] - self.margin <= t <= self.times[-1] + self.margin:
+                raise RecordError(
+                    f"was not recorded at {t:g}", where=self.name, fix=f"Recorded are times from {self.times[0]:g} to {self.times[-1]:g}"
+                )
+
+    # -------------------------------------------------------------------------------- what there is
+
+    @property
+    def name(self) -> str:
+        """The variable's path."""
+        return str(self.variable.name or "variable")
+
+    @property
+    def space(self) -> list[str]:
+        """Dimensions that are axes of the field: those that carry bounds, and those without a coordinate."""
+        v = self.variable
+        return [str(d) for d in v.dims if d not in (TIME, TRIAL) and (d not in v.coords or "lower" in v[d].attrs)]
+
+    @property
+    def sweeps(self) -> list[str]:
+        """Dimensions that are paths of a sweep."""
+        return [str(d) for d in self.variable.dims if d not in (TIME, TRIAL) and d not in self.space]
+
+    @property
+    def times(self) -> np.ndarray:
+        """Recorded times."""
+        v = self.variable
+        if TIME not in v.dims:
+            return np.asarray([float(v[TIME])]) if TIME in v.coords else np.zeros(1)
+        return np.asarray(v[TIME].values, float) if TIME in v.coords else np.arange(v.sizes[TIME], dtype=float)
+
+    @property
+    def margin(self) -> float:
+        """Half a gap between records: a time this close to one is taken for it."""
+        t = self.times
+        return 0.5 * float(np.diff(t).min()) if len(t) > 1 else NEAR * max(1.0, abs(float(t[0])))
+
+    @property
+    def threshold(self) -> float | None:
+        """Activation of half output, where the variable is an activation."""
+        value = self.variable.attrs.get("threshold")
+        return float(value) if value is not None else None
+
+    @property
+    def trials(self) -> int:
+        """How many trials are looked at."""
+        return self.variable.sizes.get(TRIAL, 1) if self.trial is None else 1
+
+    # -------------------------------------------------------------------------------- what is looked at
+
+    def chosen(self) -> xarray.DataArray:
+        """The variable at the trial and sweep values that were asked for; other dimensions stay."""
+        v = self.variable
+        if self.trial is not None and TRIAL in v.dims:
+            v = v.sel({TRIAL: self.trial})
+        for path, value in (self.where or {}).items():
+            v = v.sel({path: value}, method="nearest")
+        return v
+
+    def one(self) -> xarray.DataArray:
+        """The variable of one trial and one sweep point: time and axes, in that order."""
+        v = self.chosen()
+        v = v.isel({d: 0 for d in [*self.sweeps, TRIAL] if d in v.dims})
+        v = v if TIME in v.dims else v.expand_dims(TIME)
+        return v.transpose(TIME, *self.space)
+
+    def note(self) -> str:
+        """Which trial and sweep point `one` takes, in words; empty where there is only one."""
+        v, parts = self.chosen(), []
+        for path in self.sweeps:
+            if self.variable.sizes[path] > 1:
+                value = v[path].values.reshape(-1)[0]
+                parts.append(f"{path} = {value:g}")
+        if self.variable.sizes.get(TRIAL, 1) > 1:
+            parts.append(f"trial {int(v[TRIAL].values.reshape(-1)[0])}")
+        return ", ".join(parts)
+
+    def steps(self, default: Sequence[int]) -> list[int]:
+        """Indices of the times asked for, or of the default ones."""
+        if self.at is None:
+            return [int(k) % len(self.times) for k in default]
+        return [int(np.abs(self.times - t).argmin()) for t in self.at]
+
+    def instant(self) -> int:
+        """Index of the one time that is looked at: the last, where none is asked for."""
+        if self.at is not None and len(self.at) != 1:
+            raise RecordError(f"{len(self.at)} times were given, and one is drawn", where=self.name, fix="Several times: --kind snapshots")
+        return self.steps([len(self.times) - 1])[0]
+
+    # -------------------------------------------------------------------------------- words
+
+    def label(self) -> str:
+        """What the variable is, for an axis or a colour bar."""
+        return _with_unit(str(self.variable.attrs.get("long_name") or self.name), self.variable.attrs.get("units"))
+
+    def axis_label(self, dim: str) -> str:
+        """Name and unit of a dimension."""
+        coords = self.variable.coords
+        unit = coords[dim].attrs.get("units") if dim in coords else None
+        short = dim.removeprefix(self.name.rpartition(".")[0] + ".")
+        return _with_unit(short, unit)
+
+    def time_label(self, time: float) -> str:
+        """A time with its unit."""
+        unit = _time_unit(self.variable[TIME].attrs.get("units") if TIME in self.variable.coords else None)
+        return f"{time:g} {unit}" if unit else f"t = {time:g}"
+
+    def points(self, dim: str) -> np.ndarray:
+        """Positions of the samples along an axis."""
+        v = self.variable
+        return np.asarray(v[dim].values, float) if dim in v.coords else np.arange(v.sizes[dim], dtype=float)
+
+    def extent(self, dim: str) -> tuple[float, float]:
+        """Outer edges of the first and the last cell."""
+        p = self.points(dim)
+        half = 0.5 * (p[1] - p[0]) if len(p) > 1 else 0.5
+        return float(p[0] - half), float(p[-1] + half)
+
+
+def _with_unit(name: str, unit: Any) -> str:
+    text = _time_unit(unit)
+    return f"{name} ({text})" if text else name
+
+
+def _time_unit(unit: Any) -> str:
+    text = str(unit or "")
+    if text == "abstract":
+        return ""
+    return f"steps, {text}" if text.startswith("1 = ") else text

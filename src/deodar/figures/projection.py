@@ -1,0 +1,109 @@
+"""A field of several dimensions, seen along some of them: the maximum or the integral onto one or two axes."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+
+from deodar.errors import RecordError
+from deodar.figures import _color, _lines, _map, _style
+from deodar.figures._view import View
+
+ACROSS = False
+
+
+def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+    """A figure of a field of two or more dimensions at one time, projected onto axes.
+
+    Without `axes`, every pair of axes gets a panel.
+
+    Args:
+        variable: a variable of a record.
+        view: see `deodar.figures._view.View`: at, trial, where, axes, reduce.
+    """
+    looked = View(variable, **view)
+    with _style.style():
+        figure = _style.figure(*size(looked))
+        fill(figure, looked)
+    return figure
+
+
+def suits(view: View) -> bool:
+    """Whether this is how one would look at the variable unasked."""
+    return len(view.space) > 2
+
+
+def size(view: View) -> tuple[float, float]:
+    """Width and height, inches."""
+    pairs = _onto(view)
+    if len(pairs) == 1:
+        flat = len(pairs[0]) == 1
+        return _style.SINGLE, _style.PANEL if flat else min(5.0, 0.6 + 2.4 * _map.shape(view, *pairs[0]))
+    rows, _ = _grid(len(pairs))
+    return _style.DOUBLE, 0.5 + rows * 2.1
+
+
+def fill(place: FigureBase, view: View) -> None:
+    """Draw into a figure, or into a part of one."""
+    pairs, k = _onto(view), view.instant()
+    values = view.one().isel(time=k)
+    planes = [_project(values, onto, view) for onto in pairs]
+    rows, columns = _grid(len(pairs))
+    grid = list(place.subplots(rows, columns, squeeze=False).flat)
+    threshold = view.threshold if view.reduce == "maximum" else None
+    colors = _color.scale(planes, threshold)
+    for ax, onto, plane in zip(grid, pairs, planes, strict=False):
+        _panel(ax, view, onto, plane, colors, threshold)
+    shown = ", ".join(t for t in (view.time_label(view.times[k]) if len(view.times) > 1 else "", view.note()) if t)
+    if len(pairs[0]) == 2:
+        _color.bar(place, colors, grid if len(grid) > 1 else grid[0], _label(view, pairs), threshold)
+    if shown and len(grid) == 1:
+        grid[0].set_title(shown)
+    elif shown:
+        place.suptitle(shown, fontsize=_style.RC["axes.titlesize"])
+
+
+def _panel(ax: Axes, view: View, onto: tuple[str, ...], values: np.ndarray, colors: Any, threshold: float | None) -> None:
+    if len(onto) == 2:
+        _map.paint(ax, values, view, onto[0], onto[1], colors)
+        return
+    ax.plot(view.points(onto[0]), values, color=_style.COLORS[0])
+    if threshold is not None:
+        _lines.level(ax, view)
+    ax.set_xlabel(view.axis_label(onto[0]))
+    ax.set_ylabel(_label(view, [onto]))
+
+
+def _onto(view: View) -> list[tuple[str, ...]]:
+    space = view.space
+    if len(space) < 2:
+        raise RecordError(f"has {len(space)} axes; a projection needs two or more", where=view.name, fix="Type: --kind snapshot")
+    if view.axes is None:
+        return list(itertools.combinations(space, 2))
+    if not 1 <= len(view.axes) <= 2 or len(set(view.axes)) < len(view.axes):
+        raise RecordError(f"a projection goes onto one axis or two, not {', '.join(view.axes) or 'none'}", where=view.name)
+    return [tuple(view.axes)]
+
+
+def _project(values: xarray.DataArray, onto: tuple[str, ...], view: View) -> np.ndarray:
+    away = [d for d in view.space if d not in onto]
+    if view.reduce == "maximum":
+        return values.max(away).transpose(*onto).values
+    cell = np.prod([np.ptp(view.extent(d)) / values.sizes[d] for d in away])
+    return values.sum(away, dtype=np.float64).transpose(*onto).values * float(cell)
+
+
+def _label(view: View, pairs: list[tuple[str, ...]]) -> str:
+    away = [d for d in view.space if d not in pairs[0]]
+    over = f" over {', '.join(map(str, away))}" if len(pairs) == 1 and away else ""
+    return f"{view.reduce}{over} of {view.label()}" if len(pairs) == 1 and away else f"{view.reduce} of {view.label()}"
+
+
+def _grid(n: int) -> tuple[int, int]:
+    columns = min(n, 3)
+    return -(-n // columns), columns

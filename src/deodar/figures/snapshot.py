@@ -1,0 +1,111 @@
+"""A variable at one time: a value, a curve, or a map."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+
+from deodar.errors import RecordError
+from deodar.figures import _color, _lines, _map, _style
+from deodar.figures._view import TIME, TRIAL, View
+
+ACROSS = False
+
+
+def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+    """A figure of one variable at one time, by default the last.
+
+    A value of a node is drawn over the swept parameter or the trials, a field of one dimension as a curve, of two as a map.
+
+    Args:
+        variable: a variable of a record, of up to two dimensions.
+        view: see `deodar.figures._view.View`: at, trial, where.
+    """
+    looked = View(variable, **view)
+    with _style.style():
+        figure = _style.figure(*size(looked))
+        fill(figure, looked)
+    return figure
+
+
+def suits(view: View) -> bool:
+    """Whether this is how one would look at the variable unasked."""
+    return len(view.space) <= 2 and len(view.times) == 1
+
+
+def size(view: View) -> tuple[float, float]:
+    """Width and height, inches."""
+    if len(view.space) == 2:
+        return _style.SINGLE, min(5.0, 0.6 + 2.4 * _map.shape(view, *view.space))
+    return _style.SINGLE, _style.PANEL
+
+
+def fill(place: FigureBase, view: View) -> None:
+    """Draw into a figure, or into a part of one."""
+    paint(place.subplots(), view)
+
+
+def paint(ax: Axes, view: View) -> None:
+    """Draw into axes."""
+    if len(view.space) > 2:
+        raise RecordError(f"has {len(view.space)} axes; a snapshot has at most two", where=view.name, fix="Type: --kind projection")
+    k = view.instant()
+    if len(view.space) == 2:
+        _plane(ax, view, k)
+    elif view.space:
+        v = view.chosen()
+        v = v.isel({TIME: k}) if TIME in v.dims else v
+        _lines.curves(ax, v, view.points(view.space[0]), view.space[0], view)
+        ax.set_xlabel(view.axis_label(view.space[0]))
+        ax.set_ylabel(view.label())
+    else:
+        _values(ax, view, k)
+    if len(view.times) > 1:
+        _title(ax, view.time_label(view.times[k]))
+
+
+def _plane(ax: Axes, view: View, k: int) -> None:
+    values = view.one().values[k]
+    colors = _color.scale([values], view.threshold)
+    _map.paint(ax, values, view, view.space[0], view.space[1], colors)
+    _color.bar(ax.figure, colors, ax, view.label(), view.threshold)
+    _title(ax, view.note())
+
+
+def _values(ax: Axes, view: View, k: int) -> None:
+    """A value for each point of a sweep, each trial a dot, with their mean; without a sweep over the trials."""
+    v = view.chosen()
+    v = v.isel({TIME: k}) if TIME in v.dims else v
+    swept = [d for d in view.sweeps if d in v.dims]
+    if len(swept) > 1:
+        raise RecordError(f"was swept over {', '.join(swept)}; one of them is drawn", where=view.name, fix="Choose values with --where PATH=VALUE")
+    if not swept:
+        across = v[TRIAL].values if TRIAL in v.dims else np.zeros(1)
+        ax.plot(across, np.atleast_1d(v.values), "o", markersize=3, color=_style.COLORS[0])
+        ax.set_xlabel("trial" if TRIAL in v.dims else "")
+        ax.margins(x=0.05)
+        if TRIAL not in v.dims:
+            ax.set_xticks([])
+    else:
+        x = v[swept[0]].values
+        rows = v.transpose(swept[0], ...).values.reshape(len(x), -1)
+        if rows.shape[1] > 1:
+            ax.plot(x, rows, "o", markersize=2, alpha=0.35, color=_style.COLORS[0], markeredgewidth=0)
+        label = f"mean of {rows.shape[1]} trials" if rows.shape[1] > 1 else None
+        ax.plot(x, rows.mean(1, dtype=float), "o-", markersize=3.5, color=_style.COLORS[0], label=label)
+        ax.set_xlabel(swept[0])
+        ax.margins(x=0.05)
+        if label:
+            ax.legend(loc="best")
+    _lines.level(ax, view)
+    ax.set_ylabel(view.label())
+
+
+def _title(ax: Axes, text: str) -> None:
+    """One short line above: what the axes cannot say."""
+    if text:
+        ax.set_title(", ".join(t for t in (ax.get_title(), text) if t))

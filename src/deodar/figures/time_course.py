@@ -1,0 +1,80 @@
+"""Values over time: a node, a motor variable, or a field at chosen places."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+
+from deodar.errors import RecordError
+from deodar.figures import _lines, _style
+from deodar.figures._view import TIME, View
+
+ACROSS = True
+PLACE = "place"
+
+
+def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+    """A figure of one variable over time; several trials are thin lines with their mean, sweep points are colours.
+
+    Args:
+        variable: a variable of a record.
+        view: see `deodar.figures._view.View`: trial, where, places.
+    """
+    looked = View(variable, **view)
+    with _style.style():
+        figure = _style.figure(*size(looked))
+        fill(figure, looked)
+    return figure
+
+
+def suits(view: View) -> bool:
+    """Whether this is how one would look at the variable unasked."""
+    return not view.space and len(view.times) > 1
+
+
+def size(view: View) -> tuple[float, float]:
+    """Width and height, inches."""
+    return _style.SINGLE, _style.PANEL
+
+
+def fill(place: FigureBase, view: View) -> None:
+    """Draw into a figure, or into a part of one."""
+    paint(place.subplots(), view)
+
+
+def paint(ax: Axes, view: View) -> None:
+    """Draw into axes."""
+    v, labels = view.chosen(), None
+    if TIME not in v.dims:
+        v = v.expand_dims(TIME)
+    if view.space:
+        v, labels = _at_places(v, view)
+    _lines.curves(ax, v, view.times, TIME, view, labels)
+    ax.set_xlabel(view.axis_label(TIME))
+    ax.set_ylabel(view.label())
+
+
+def _at_places(v: xarray.DataArray, view: View) -> tuple[xarray.DataArray, dict[str, Any]]:
+    """The field at the places asked for, or at the place of its largest value, as a dimension of places."""
+    space = view.space
+    if view.places is None:
+        others = [d for d in v.dims if d not in space]
+        top = v.max(others) if others else v
+        found = [np.unravel_index(int(np.argmax(top.transpose(*space).values)), [v.sizes[d] for d in space])]
+    else:
+        found = [_nearest(view, np.atleast_1d(np.asarray(p, float))) for p in view.places]
+    chosen = xarray.concat([v.isel(dict(zip(space, map(int, k), strict=True)), drop=True) for k in found], dim=PLACE)
+    labels = [", ".join(f"{view.axis_label(d).split(' (')[0]} = {view.points(d)[i]:g}" for d, i in zip(space, k, strict=True)) for k in found]
+    return chosen, {PLACE: labels}
+
+
+def _nearest(view: View, place: np.ndarray) -> tuple[int, ...]:
+    if len(place) != len(view.space):
+        raise RecordError(
+            f"a place has {len(view.space)} numbers ({', '.join(view.space)}), not {len(place)}", where=view.name, fix="For example --place 30,5"
+        )
+    return tuple(int(np.abs(view.points(d) - p).argmin()) for d, p in zip(view.space, place, strict=True))

@@ -1,0 +1,185 @@
+"""Records as files: Zarr and NetCDF, which are read back exactly, and CSV for other programs.
+
+Writing goes beside the final place and is renamed: a record is there whole, or not at all.
+"""
+
+from __future__ import annotations
+
+import stat
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import psutil
+import xarray
+
+from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
+from deodar.model import output
+from deodar.recording import places, portable, table
+from deodar.recording.provenance import KEY
+
+SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
+"""Formats and the ends of their file names."""
+
+LARGEST_NETCDF = 2**32 - 8
+"""Bytes of one array in NetCDF 3."""
+
+SHARE = 0.8
+"""Share of the free memory that a record may fill when it is read."""
+
+
+def save(data: xarray.Dataset, path: str | Path, format: str | None = None, force: bool = False) -> Path:
+    """Write a record.
+
+    Args:
+        data: the record, as `simulate` returns it.
+        path: where to; its folder must exist.
+        format: zarr (a folder, version 3), netcdf (NetCDF 3) or csv (one row for each time, trial, sweep point and sample; not
+            read back). None: what the name ends in: .zarr, .nc or .csv.
+        force: replace a record that stands there.
+
+    Raises:
+        OutputExists: something stands there; with `force`: something that is no record.
+        OutputError: it cannot be written.
+    """
+    path = Path(path)
+    kind = format_of(path, format)
+    if not isinstance(data, xarray.Dataset):
+        raise RecordError(f"a record is an xarray.Dataset, not {type(data).__name__}", fix="A single variable: save(data[['u.activation']], path)")
+    claim(path, kind, force)
+    if kind == "csv":
+        output.write(path, lambda beside: table.write(data, beside))
+    elif kind == "netcdf":
+        output.write(path, lambda beside: _write_netcdf(data, beside))
+    else:
+        places.write_folder(path, lambda beside: _write_zarr(data, beside), force)
+    return path
+
+
+def format_of(path: Path, format: str | None = None) -> str:
+    """The format that is asked for, by name or by the end of the file name."""
+    if format is not None:
+        if format not in SUFFIXES:
+            raise RecordError(f"there is no format {format!r}", fix=did_you_mean(format, SUFFIXES))
+        return format
+    found = [kind for kind, suffix in SUFFIXES.items() if path.suffix.lower() == suffix]
+    if not found:
+        raise RecordError(
+            f"the name ends in {path.suffix or 'nothing'!r}, which names no format", where=str(path), fix="End it in .zarr, .nc or .csv"
+        )
+    return found[0]
+
+
+def claim(path: Path, format: str, force: bool = False) -> None:
+    """Refuse a place that may not be written to; with `force` a record that stands there may be replaced."""
+    if format != "zarr":
+        output.claim(path, force)
+        return
+    if force and path.is_dir() and not path.is_symlink() and not is_zarr(path):
+        raise OutputExists("exists and is no record", where=str(path), fix="Choose another name")
+    places.claim_folder(path, force)
+
+
+def load(path: str | Path) -> xarray.Dataset:
+    """Read a record: a Zarr folder, a NetCDF file, or a folder that `deodar run` wrote.
+
+    Raises:
+        RecordError: there is none, or it is damaged, or it was not written by deodar.
+        TooLarge: it would not fit into memory.
+    """
+    path = Path(path)
+    try:
+        place, kind = locate(path)
+        data = _read(place, kind)
+    except DeodarError as error:
+        problems = [Problem(p.where or str(path), p.what, p.fix) for p in error.problems]
+        raise type(error)(problems) from None
+    except MemoryError:
+        raise TooLarge("does not fit into memory", where=str(path)) from None
+    except Exception as error:  # readers of foreign bytes raise whatever they stumble over
+        text = " ".join(str(error).split())[:200]
+        raise RecordError(f"cannot be read as a record, it may be damaged ({type(error).__name__}: {text})", where=str(path)) from None
+    if KEY not in data.attrs and portable.KEY not in data.attrs:
+        raise RecordError("is no record of deodar: nothing in it says what made it", where=str(path))
+    try:
+        return portable.unpack(data)
+    except RecordError as error:
+        raise RecordError([Problem(str(path), p.what, p.fix) for p in error.problems]) from None
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise RecordError(f"is damaged: its layout cannot be read ({type(error).__name__}: {error})", where=str(path)) from None
+
+
+def locate(path: Path) -> tuple[Path, str]:
+    """Where the record stands that a path names, and its format."""
+    try:
+        mode = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        near = did_you_mean(path.name, [p.name for p in path.parent.iterdir()]) if path.parent.is_dir() else ""
+        raise RecordError("there is no such record", fix=near if near.startswith("Did") else "") from None
+    except (OSError, ValueError) as error:
+        raise RecordError(f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    if stat.S_ISDIR(mode):
+        for inner, kind in ((path, "zarr"), (path / "record.zarr", "zarr"), (path / "record.nc", "netcdf")):
+            if (kind == "zarr" and (inner / "zarr.json").is_file()) or (kind == "netcdf" and inner.is_file()):
+                return inner, kind
+        if (path / "record.csv").is_file():
+            path = path / "record.csv"
+        else:
+            raise RecordError("is a folder without a record in it", fix="Name a record (.zarr, .nc) or a folder that deodar run wrote")
+    if not path.is_file():
+        raise RecordError("is neither a file nor a folder")
+    if path.suffix.lower() == ".csv":
+        raise RecordError("is a table for other programs, and is not read back", fix="Write records as .zarr or .nc to plot or repeat them")
+    with path.open("rb") as file:
+        start = file.read(8)
+    if start[:3] == b"CDF":
+        return path, "netcdf"
+    if start == b"\x89HDF\r\n\x1a\n":
+        raise RecordError("is a NetCDF 4 (HDF5) file; deodar writes and reads NetCDF 3 and Zarr")
+    raise RecordError("is no record", fix="A record is a .zarr folder, a .nc file, or a folder that deodar run wrote")
+
+
+def is_record(path: Path) -> bool:
+    """Whether a path looks like a record that can be read, without reading it."""
+    try:
+        locate(path)
+        return True
+    except RecordError as error:
+        return "table for other programs" in str(error)
+
+
+def is_zarr(path: Path) -> bool:
+    """Whether a folder is a Zarr record of deodar."""
+    try:
+        text = (path / "zarr.json").read_text()
+        return f'"{portable.KEY}"' in text or f'"{KEY}"' in text
+    except (OSError, ValueError):
+        return False
+
+
+# ------------------------------------------------------------------------------------------------ formats
+
+
+def _write_zarr(data: xarray.Dataset, path: Path) -> None:
+    portable.pack(data, narrow=False).to_zarr(path, mode="w", zarr_format=3, consolidated=False)
+
+
+def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
+    for name, variable in data.variables.items():
+        if variable.nbytes > LARGEST_NETCDF:
+            raise RecordError(f"needs {variable.nbytes / 2**30:.1f} GiB; NetCDF 3 holds 4", where=str(name), fix="Save it as .zarr")
+    stored = portable.pack(data, narrow=True)
+    encoding: dict[Any, Any] = {name: {"_FillValue": None} for name in stored.variables}
+    stored.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
+
+
+def _read(path: Path, kind: str) -> xarray.Dataset:
+    opened: Callable[[], xarray.Dataset] = {
+        "zarr": lambda: xarray.open_zarr(path, zarr_format=3, consolidated=False, decode_cf=False, chunks=None),
+        "netcdf": lambda: xarray.open_dataset(path, engine="scipy", decode_cf=False),
+    }[kind]
+    with opened() as data:
+        need, free = data.nbytes, psutil.virtual_memory().available
+        if need > SHARE * free:
+            raise TooLarge(f"needs {need / 2**30:,.1f} GiB of memory and {free / 2**30:,.1f} GiB are free")
+        return data.load()

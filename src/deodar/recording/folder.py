@@ -1,0 +1,67 @@
+"""The folder of a run: its record, and the model that made it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import xarray
+
+from deodar.errors import OutputExists
+from deodar.model import files as documents
+from deodar.model.document import Document
+from deodar.recording import files, places
+
+MODEL = "model.json"
+
+
+def record_name(format: str) -> str:
+    """Name of the record inside a run's folder."""
+    return f"record{files.SUFFIXES[format]}"
+
+
+def claim(path: Path, format: str, force: bool = False) -> None:
+    """Refuse, before a long run, a folder that could not be written after it."""
+    if path.is_symlink() or not path.is_dir():
+        places.claim_folder(path)
+        return
+    if not force:
+        places.claim_folder(path)
+    if files.is_zarr(path):
+        raise OutputExists("is a record, not the folder of a run", where=str(path), fix="Choose another name")
+    files.claim(path / record_name(format), format, force)
+    places.require_parent(path / MODEL)
+    model = path / MODEL
+    if model.is_symlink() or (model.exists() and not model.is_file()):
+        raise OutputExists("exists and is not a regular file", where=str(model), fix="Choose another name")
+
+
+def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: bool = False) -> Path:
+    """Write record and model; a new folder appears whole. In one that exists only these two are replaced. Returns the record's path."""
+    name = record_name(format)
+
+    def fill(inner: Path) -> None:
+        files.save(data, inner / name, format)
+        documents.save(doc, inner / MODEL)
+
+    if os.path.lexists(path):
+        claim(path, format, force)
+        files.save(data, path / name, format, force)
+        documents.save(doc, path / MODEL, force)
+        _drop_others(path, format)
+    else:
+        places.write_folder(path, fill)
+    return path / name
+
+
+def _drop_others(path: Path, format: str) -> None:
+    """Take the replaced run's record in another format away: it does not belong to the model that now stands beside it."""
+    for other in files.SUFFIXES:
+        old = path / record_name(other)
+        if other == format or old.is_symlink():
+            continue
+        if old.is_dir() and files.is_zarr(old):
+            shutil.rmtree(old)
+        elif old.is_file():
+            old.unlink()

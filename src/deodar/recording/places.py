@@ -1,0 +1,70 @@
+"""Places to write to: whole folders that appear at once, and names that are free."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from deodar.errors import OutputError, OutputExists
+
+MOST_NUMBERED = 100_000
+
+
+def claim_folder(path: Path, force: bool = False) -> Path:
+    """The path, if a folder may be written there: free, or a folder that `force` allows to be replaced."""
+    if path.is_symlink() or path.exists():
+        if path.is_symlink() or not path.is_dir():
+            raise OutputExists("exists and is not a folder", where=str(path), fix="Choose another name")
+        if not force:
+            raise OutputExists("exists already", where=str(path), fix="Choose another name, or replace it with --force (force=True)")
+    require_parent(path)
+    return path
+
+
+def require_parent(path: Path) -> None:
+    """Refuse a path whose folder is missing or cannot be written to."""
+    parent = path.parent
+    if not parent.is_dir():
+        raise OutputError(f"there is no folder {str(parent)!r} to write into", where=str(path))
+    if not os.access(parent, os.W_OK | os.X_OK):
+        raise OutputError(f"the folder {str(parent)!r} cannot be written to", where=str(path))
+
+
+def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False) -> None:
+    """Fill a folder beside its final place, then rename it: it is there whole, or not at all."""
+    beside = old = None
+    try:
+        beside = Path(tempfile.mkdtemp(prefix=f".{path.name[:40]}.", dir=path.parent))
+        inner = beside / "new"
+        inner.mkdir()
+        fill(inner)
+        if replace and path.is_dir():
+            old = beside / "old"
+            path.rename(old)
+        if path.exists():
+            raise OutputExists("has come to exist meanwhile", where=str(path), fix="Choose another name")
+        try:
+            inner.rename(path)
+        except OSError:
+            if old is not None:
+                old.rename(path)
+            raise
+    except OSError as error:
+        raise OutputError(f"cannot be written: {error.strerror or error}", where=str(path)) from None
+    finally:
+        if beside is not None:
+            shutil.rmtree(beside, ignore_errors=True)
+
+
+def free(parent: Path, name: str, suffix: str = "") -> Path:
+    """The first of NAME-001, NAME-002, ... that does not exist; characters that a file name cannot have become `_`."""
+    plain = re.sub(r"[^\w.+-]+", "_", name).strip("._")[:80] or "record"
+    for n in range(1, MOST_NUMBERED):
+        path = parent / f"{plain}-{n:03}{suffix}"
+        if not (path.exists() or path.is_symlink()):
+            return path
+    raise OutputError(f"the folder {str(parent)!r} holds {MOST_NUMBERED} results called {plain}", fix="Choose a name with --out")

@@ -1,0 +1,176 @@
+"""Run a record again from what it says about itself, and compare."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray
+
+from deodar import registry
+from deodar.errors import DeodarError, RecordError, WorldError
+from deodar.model.model import Model
+from deodar.recording import provenance
+from deodar.recording.record import about
+from deodar.worlds._base import World
+
+Simulate = Callable[..., xarray.Dataset]
+"""What runs a model: `deodar.runtime.simulate.simulate`."""
+
+
+@dc.dataclass(frozen=True)
+class Difference:
+    """Something that is not as it was when the record was made."""
+
+    what: str
+    then: str
+    now: str
+
+    def __str__(self) -> str:
+        return f"{self.what}: {self.then} then, {self.now} now"
+
+
+@dc.dataclass(frozen=True)
+class Repetition:
+    """A record made again.
+
+    Attributes:
+        data: the new record.
+        differences: versions, device, machine and world that are not as they were.
+        largest: for each variable the largest difference of a value from the old record; infinite where it cannot be compared.
+        same_bits: whether every value is the same to the last bit.
+        compared: number of times that were compared; fewer than recorded now, if the old record is incomplete.
+    """
+
+    data: xarray.Dataset
+    differences: tuple[Difference, ...]
+    largest: Mapping[str, float]
+    same_bits: bool
+    compared: int
+
+    @property
+    def faithful(self) -> bool:
+        """Whether the promise is kept: the same bits wherever versions, machine and world are the same."""
+        return self.same_bits or bool(self.differences)
+
+    def __str__(self) -> str:
+        if self.same_bits:
+            text = "The repetition has the same bits as the record"
+            return text + (", although these differ: " + "; ".join(map(str, self.differences)) if self.differences else "")
+        worst = ", ".join(f"{name} {value:.3g}" for name, value in self.largest.items())
+        if self.differences:
+            changed = "; ".join(map(str, self.differences))
+            return f"The repetition differs from the record. What differs: {changed}. Largest differences: {worst}"
+        same = "nothing explains it: versions, machine and world are the same"
+        return f"The repetition differs from the record, and {same}. Largest differences: {worst}"
+
+
+def repeat(data: xarray.Dataset, simulate: Simulate, world: World | None = None, trust: bool = False, progress: bool | None = None) -> Repetition:
+    """Run a record again and compare.
+
+    Args:
+        data: the record.
+        simulate: what runs it.
+        world: the world to run it in; None: the one it was made with, opened again.
+        trust: whether functions that its document names may be imported and run.
+        progress: show a bar.
+
+    Raises:
+        RecordError: the record does not say what made it.
+        Untrusted: its document names a function, and `trust` is not given.
+    """
+    made = _made(data)
+    try:
+        model = Model(document=provenance.document(made), trusted=trust)
+        settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
+        settings |= {"record": made["record"], "sweep": made["sweep"] or None}
+    except (KeyError, TypeError, ValueError) as error:
+        raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None
+    world = world or _world(made.get("world"))
+    new = simulate(model, world=world, progress=progress, **settings)
+    return compare(data, new)
+
+
+def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
+    """What differs between two records of one run; an incomplete one is compared as far as it goes."""
+    before, after = _made(old), _made(new)
+    times = min(old.sizes.get("time", 0), new.sizes.get("time", 0))
+    whole = before.get("complete", True) and after.get("complete", True)
+    a, b = (old, new) if whole else (old.isel(time=slice(times)), new.isel(time=slice(times)))
+    largest = {str(name): _largest(a.get(name), b.get(name)) for name in {**a.variables, **b.variables}}
+    same = all(name in a.variables and name in b.variables and _same(a[name].values, b[name].values) for name in {**a.variables, **b.variables})
+    shown = {name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value}
+    return Repetition(new, _differences(before, after), shown, same, times)
+
+
+def _made(data: xarray.Dataset) -> dict[str, Any]:
+    try:
+        made = about(data)
+    except ValueError:
+        made = {}
+    if "document" not in made:
+        raise RecordError("the record does not say what made it, so it cannot be repeated or compared")
+    return made
+
+
+def _differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> tuple[Difference, ...]:
+    then, now = before.get("made_by", {}), after.get("made_by", {})
+    out = [Difference(k, str(then.get(k, "unknown")), str(now.get(k, "unknown"))) for k in {**then, **now} if then.get(k) != now.get(k)]
+    was, is_ = _identity(before.get("world")), _identity(after.get("world"))
+    if was != is_:
+        out.append(Difference("world", _shown(before.get("world")), _shown(after.get("world"))))
+    return tuple(out)
+
+
+def _same(a: np.ndarray, b: np.ndarray) -> bool:
+    return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+
+
+def _largest(a: xarray.DataArray | None, b: xarray.DataArray | None) -> float:
+    if a is None or b is None or a.shape != b.shape:
+        return float("inf")
+    if a.dtype.kind not in "biuf":
+        return 0.0 if _same(a.values, b.values) else float("inf")
+    if not a.size:
+        return 0.0
+    gap = np.abs(a.values.astype(np.float64) - b.values.astype(np.float64))
+    return float("inf") if np.isnan(gap).any() else float(gap.max())
+
+
+# ------------------------------------------------------------------------------------------------ worlds
+
+
+def _world(described: Mapping[str, Any] | None) -> World | None:
+    """The world that a record was made with, opened again from the file it names."""
+    if described is None:
+        return None
+    kind, file = str(described.get("world")), described.get("file")
+    found = registry.kinds("worlds").get(kind)
+    give = f"Give it: --world {kind.lower()}:FILE"
+    if found is None or not isinstance(file, str) or file == "array":
+        raise WorldError(f"the record was made with the world {_shown(described)}, which was not opened from a file", fix=give)
+    try:
+        world: World = found.open(file)
+    except DeodarError as error:
+        raise WorldError(f"the record was made with the world {_shown(described)}, and it cannot be opened: {error.problems[0]}", fix=give) from None
+    if _identity(world.describe()) != _identity(described):
+        raise WorldError(
+            f"the record was made with the world {_shown(described)}, and this file now holds something else",
+            fix=f"Give the file that it was made with, or this one to compare all the same: --world {kind.lower()}:{file}",
+        )
+    return world
+
+
+def _identity(described: Any) -> Any:
+    """What makes it the same world: everything but where its file lies."""
+    return {k: v for k, v in described.items() if k != "file"} if isinstance(described, dict) else described
+
+
+def _shown(described: Any) -> str:
+    if not isinstance(described, dict):
+        return "none"
+    digest = str(described.get("sha256", ""))[:12]
+    parts = [str(described.get("world")), str(described.get("file", "")), f"sha256 {digest}" if digest else ""]
+    return " ".join(p for p in parts if p)
