@@ -1,0 +1,51 @@
+"""Build the manual: the reference from the code, the pictures from the code on the pages, then the site.
+
+python docs/build.py             everything; the site is written to site/
+python docs/build.py --pages     only what is committed: reference and pictures
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import pages
+import reference
+
+
+def pictures() -> None:
+    """Run every page that shows pictures, and keep those it shows."""
+    kept = pages.DOCS / "pictures"
+    kept.mkdir(exist_ok=True)
+    for page in pages.pages():
+        shown = set(pages.pictures(page))
+        if not shown:
+            continue
+        sys.stderr.write(f"running {page.relative_to(pages.ROOT)}\n")
+        with tempfile.TemporaryDirectory() as name, pages.quiet():
+            folder = Path(name)
+            pages.run(page, folder)
+            for made in folder.rglob("*.png"):
+                if made.name in shown:
+                    shutil.copyfile(made, kept / made.name)
+
+
+def site() -> int:
+    """The site, by zensical."""
+    return subprocess.run([sys.executable, "-m", "zensical", "build", "--clean", "--strict"], cwd=pages.ROOT, check=False).returncode
+
+
+def main() -> int:
+    """Status of the site's build."""
+    reference.write()
+    pictures()
+    return 0 if "--pages" in sys.argv[1:] else site()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

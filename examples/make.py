@@ -1,0 +1,247 @@
+"""Write the examples anew: one document for each idea, made with the public calls that any script uses.
+
+    python examples/make.py
+
+Every function below makes one document, `NAME.json`, and its notes say what to look at. `tests/docs/test_examples.py` runs each
+of them and checks what its notes claim.
+"""
+
+from __future__ import annotations
+
+import itertools
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import deodar as dd
+from deodar.architectures import saliency as published
+from deodar.elements.attractor import Attractor
+from deodar.elements.boost import Boost
+from deodar.elements.box_stimulus import BoxStimulus
+
+HERE = Path(__file__).parent
+X = dd.Axis("x", 0, 100, samples=101, unit="deg")
+
+
+def field(name: str, excitation: float, inhibition: float, axis: dd.Axis = X, **others: object) -> dd.Field:
+    """A field with local excitation and global inhibition; the two numbers decide what it does with its input."""
+    kernel = [dd.Gaussian(excitation, 5, normalized=True)]
+    given: dict[str, object] = {"tau": 20, "resting_level": -5, "sigmoid": dd.Logistic(beta=4), "global_inhibition": inhibition} | others
+    return dd.Field(name, [axis], kernel=kernel, **given)  # type: ignore[arg-type]
+
+
+def detection() -> dd.Model:
+    """Input that grows in steps through the detection instability, and shrinks again."""
+    model = dd.Model("detection")
+    u = model.add(field("u", 8, 0.1, noise=0.2))
+    model.add(dd.GaussianStimulus("weak", [X], center=50, sigma=5, amplitude=3.5, windows=[(100, 1000)])) >> u
+    model.add(dd.GaussianStimulus("more", [X], center=50, sigma=5, amplitude=2.5, windows=[(400, 700)])) >> u
+    model.describe(
+        notes="Detection. An input of 3.5 comes at 100 ms and leaves the field below threshold. At 400 ms it grows to 6 and one peak"
+        " arises at 50 deg. At 700 ms it is 3.5 again: the peak stays, where there was none before (hysteresis). At 1000 ms the"
+        " input goes, and the peak with it. Run it for 1300 ms."
+    )
+    return model
+
+
+def selection() -> dd.Model:
+    """Two inputs of the same strength, one peak."""
+    model = dd.Model("selection")
+    u = model.add(field("u", 12, 0.6, noise=1.0))
+    for name, center in (("left", 30), ("right", 70)):
+        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[(100, 600)])) >> u
+    model.describe(
+        notes="Selection. Two equal inputs come at 100 ms, at 30 and 70 deg. Both grow, and one wins: exactly one"
+        " peak stands at 600 ms. Which one, the noise decides: about half of the trials each. Run 100 trials for 600 ms."
+    )
+    return model
+
+
+def working_memory() -> dd.Model:
+    """A peak that outlives its input."""
+    model = dd.Model("working memory")
+    u = model.add(field("u", 18, 0.3, noise=0.2))
+    model.add(dd.GaussianStimulus("cue", [X], center=35, sigma=5, amplitude=6, windows=[(100, 300)])) >> u
+    model.describe(
+        notes="Working memory. An input at 35 deg is there from 100 to 300 ms. The peak it makes sustains itself: at 1500 ms there is"
+        " still one peak, within 5 deg of where the input was. Run it for 1500 ms."
+    )
+    return model
+
+
+def forgetting() -> dd.Model:
+    """Reverse detection: a homogeneous inhibition erases a memory."""
+    model = working_memory()
+    model.describe(name="forgetting")
+    model.add(Boost("inhibition", [X], amplitude=-3, windows=[(900, 1100)])) >> model["u"]
+    model.describe(
+        notes="Forgetting. The working memory again, and a homogeneous inhibition of -3 from 900 to 1100 ms. It takes the field through"
+        " the reverse detection instability: the peak is there at 900 ms, gone at 1100 ms, and does not come back. Run it for 1500 ms."
+    )
+    return model
+
+
+def boost() -> dd.Model:
+    """A homogeneous boost turns graded traces into one decision."""
+    model = dd.Model("boost")
+    u = model.add(field("u", 12, 0.6, noise=0.2))
+    for name, center, amplitude in (("frequent", 65, 2.0), ("rare", 30, 1.4)):
+        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=amplitude)) >> u
+    model.add(Boost("boost", [X], amplitude=2.6, windows=[(300, 900)])) >> u
+    model.describe(
+        notes="Boost. Two weak inputs preshape the field at 65 deg (2.0) and 30 deg (1.4); both stay below threshold. At 300 ms a boost"
+        " of 2.6 lifts the whole field, and one peak arises at the stronger preshape, 65 deg, as high as any other. At 900 ms the"
+        " boost goes, and the peak too. Run it for 1200 ms."
+    )
+    return model
+
+
+def projection() -> dd.Model:
+    """A colour selects a place: a one-dimensional field, a two-dimensional one, and back."""
+    hue = dd.Axis("hue", 0, 360, samples=36, periodic=True, unit="deg")
+    place = dd.Axis("place", 0, 50, samples=51, unit="cm")
+    model = dd.Model("projection")
+    colour = model.add(dd.Field("colour", [hue], resting_level=-5, kernel=[dd.Gaussian(10, 20, normalized=True)], global_inhibition=0.02, noise=0.2))
+    scene = model.add(
+        dd.Field("scene", [place, hue], resting_level=-5, kernel=[dd.Gaussian(12, [3, 20], normalized=True)], global_inhibition=0.004, noise=0.2)
+    )
+    where = model.add(dd.Field("where", [place], resting_level=-5, kernel=[dd.Gaussian(10, 3, normalized=True)], global_inhibition=0.1, noise=0.2))
+    for name, at in (("red", [12, 0]), ("green", [36, 120])):
+        model.add(dd.GaussianStimulus(name, [place, hue], center=at, sigma=[3, 20], amplitude=3.5)) >> scene
+    model.add(dd.GaussianStimulus("cue", [hue], center=120, sigma=20, amplitude=7, windows=[(300, 5000)])) >> colour
+    colour >> dd.Gain(3) >> model.add(dd.Project([place, hue], name="expand")) >> scene
+    scene >> model.add(dd.Project([place], name="contract")) >> dd.Gain(0.15) >> where
+    model.describe(
+        notes="Projection. A scene of two objects, red at 12 cm and green at 36 cm, over place and hue; neither makes a peak. At 300 ms"
+        " a colour cue makes a peak at 120 deg in `colour`; its output expands over place into a ridge in `scene`, where it meets the"
+        " green object: one peak. Contracted over hue it makes one peak in `where`, at 36 cm. Run it for 900 ms."
+    )
+    return model
+
+
+def node() -> dd.Model:
+    """A node with self-excitation: a switch."""
+    model = dd.Model("node")
+    u = model.add(dd.Field("u", [], tau=20, resting_level=-2, sigmoid=dd.Logistic(beta=8), kernel=[dd.Gaussian(4)], noise=0.1))
+    model.add(Boost("on", [], amplitude=3, windows=[(200, 350)])) >> u
+    model.add(Boost("off", [], amplitude=-3, windows=[(700, 850)])) >> u
+    model.describe(
+        notes="Node. A field of no dimension, with self-excitation 4 and resting level -2: a switch with two stable states, near -2 and"
+        " +2. A pulse at 200 ms turns it on, and it stays on; a pulse at 700 ms turns it off, and it stays off. Run it for 1100 ms."
+    )
+    return model
+
+
+def correlated_noise() -> dd.Model:
+    """Noise with a correlation length makes peaks by itself, here and there."""
+    model = dd.Model("correlated noise")
+    kernel = [dd.Gaussian(12, 5, normalized=True)]
+    model.add(dd.Field("u", [X], tau=10, resting_level=-1.5, kernel=kernel, global_inhibition=0.5, noise=3, noise_length=8))
+    model.describe(
+        notes="Correlated noise. A field below detection, without any input. Neighbours within about 8 deg share their noise, so that it can lift"
+        " a whole stretch over the threshold. At 400 ms about half of the trials hold one peak, none holds two, and the peaks stand all"
+        " over the field. `noise` is here the standard deviation at a point; with a correlation length, refining the grid leaves the"
+        " rate of such events as it is. Run 100 trials for 400 ms."
+    )
+    return model
+
+
+def timed_stimuli() -> dd.Model:
+    """Stimuli that come and go: a script without a script."""
+    model = dd.Model("timed stimuli")
+    u = model.add(field("u", 10, 0.3))
+    model.add(BoxStimulus("early", [X], center=20, width=12, amplitude=6, windows=[(100, 300), (700, 900)])) >> u
+    model.add(BoxStimulus("late", [X], center=80, width=12, amplitude=6, windows=[(400, 600), (1000, 1200)])) >> u
+    model.describe(
+        notes="Timed stimuli. Two box stimuli, each on in two windows of time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at"
+        " 550 and 1150 ms, and nowhere at 50, 380 and 680 ms: the windows are part of the document. Run it for 1300 ms."
+    )
+    return model
+
+
+def behaviour() -> dd.Model:
+    """The template: an intention that a condition of satisfaction switches off."""
+    model = dd.Model("behaviour")
+    sharp = dd.Logistic(beta=8)
+    intention = model.add(dd.Field("intention", [], tau=20, resting_level=-2, sigmoid=sharp, kernel=[dd.Gaussian(4)]))
+    satisfied = model.add(dd.Field("satisfied", [], tau=20, resting_level=-4, sigmoid=sharp, kernel=[dd.Gaussian(2)]))
+    intention >> model.add(dd.Gain(2.5, name="expects")) >> satisfied
+    satisfied >> model.add(dd.Gain(-6, name="ends")) >> intention
+    return model
+
+
+def groups() -> dd.Model:
+    """Four behaviours from one template, with one knob for the speed of all."""
+    model = dd.Model("groups")
+    names = ("search", "approach", "grasp", "lift")
+    model.parameter("tempo", 20.0)
+    for name in names:
+        model.insert(behaviour(), name)
+        for part in ("intention", "satisfied"):
+            model.link(f"{name}.{part}.tau", "tempo")
+    model.add(Boost("start", [], amplitude=4, windows=[(100, 200)])) >> model["search.intention"]
+    for k, name in enumerate(names):
+        begins = 500.0 + 600 * k
+        model.add(Boost(f"{name} done", [], amplitude=3, windows=[(begins, begins + 200)])) >> model[f"{name}.satisfied"]
+    for before, after in itertools.pairwise(names):
+        model[f"{before}.satisfied"] >> model.add(dd.Gain(4, name=f"{before} then {after}")) >> model[f"{after}.intention"]
+    model.describe(
+        notes="Groups. Four elementary behaviours, copied from one template: a bistable intention node and a condition of satisfaction that"
+        " ends it. One intention is on at a time, in the order search, approach, grasp, lift; each goes off when its signal `done`"
+        " comes, at 500, 1100, 1700 and 2300 ms, and hands over to the next. The document parameter `tempo` is the time constant of all"
+        " eight nodes. Run it for 2800 ms."
+    )
+    return model
+
+
+def motor_attractor() -> dd.Model:
+    """A motor variable turns to the place of a peak, and stays where it is without one."""
+    heading = dd.Axis("heading", -180, 180, samples=180, periodic=True, unit="deg")
+    model = dd.Model("motor attractor")
+    target = model.add(field("target", 10, 0.1, heading, noise=0.1))
+    model.add(dd.GaussianStimulus("first", [heading], center=150, sigma=8, amplitude=7, windows=[(200, 900)])) >> target
+    model.add(dd.GaussianStimulus("second", [heading], center=-120, sigma=8, amplitude=7, windows=[(1300, 2000)])) >> target
+    target >> model.add(Attractor("turn", heading, tau=1500, initial=0))
+    model.describe(
+        notes="Motor attractor. The peak of `target` draws the motor variable `turn` to 150 deg; without a peak, from 900 to 1300 ms, it"
+        " stays there. Then a peak at -120 deg draws it the short way round, over 180 deg: it ends at -120 deg and never passes 0 on"
+        " this way. Run it for 2000 ms."
+    )
+    return model
+
+
+def saliency() -> dd.Model:
+    """The architecture of `deodar demo saliency`."""
+    model = published.saliency(hue=0.0)
+    model.describe(
+        notes="Sandamirskaya (2014), figure 2, over both dimensions of a picture. It senses a picture, so it is run with one:"
+        " --world picture:FILE. A cue for red comes at 500 ms; where the picture holds a red object, exactly one peak arises on it in"
+        " `perceptual` and in `spatial`, and `pan` and `tilt` turn to it. Run it for 3500 ms."
+    )
+    return model
+
+
+EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
+    detection,
+    selection,
+    working_memory,
+    forgetting,
+    boost,
+    projection,
+    node,
+    correlated_noise,
+    timed_stimuli,
+    groups,
+    motor_attractor,
+    saliency,
+)
+
+
+def main(folder: Path = HERE) -> None:
+    """Write every document."""
+    for make in EXAMPLES:
+        dd.save(make(), folder / f"{make.__name__}.json", force=True)
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:]))

@@ -1,0 +1,92 @@
+"""`deodar doctor`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+HELP = "tell what is installed, which device is used, where compiled programs are kept, and what is missing"
+
+EXTRAS = {"docs": "zensical", "test": "pytest"}
+"""For each extra a package that tells whether it is there."""
+
+GIB = 2**30
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Status 1 if something that deodar needs is missing."""
+    found = examine()
+    if args.json:
+        print(json.dumps(found, indent=2))
+    else:
+        print(_page(found))
+    return 1 if found["missing"] else 0
+
+
+def examine() -> dict[str, Any]:
+    """Everything as plain data."""
+    import importlib.metadata
+    import os
+    import platform
+    import re
+
+    import jax
+    import psutil
+
+    from deodar import __version__
+    from deodar.compiler import cache
+
+    def version(name: str) -> str | None:
+        try:
+            return importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            return None
+
+    needed = [re.split(r"[^\w.-]", r)[0] for r in importlib.metadata.requires("deodar") or () if "extra ==" not in r]
+    packages = {name: version(name) for name in sorted(needed)}
+    place = cache.folder()
+    kept = [p.stat().st_size for p in place.iterdir() if p.is_file()] if place is not None and place.is_dir() else []
+    near = next((p for p in (place, *place.parents) if p.exists()), None) if place is not None else None
+    memory = psutil.virtual_memory()
+    return {
+        "deodar": __version__,
+        "python": platform.python_version(),
+        "system": platform.platform(),
+        "packages": packages,
+        "missing": [name for name, found in packages.items() if found is None],
+        "extras": {extra: version(package) is not None for extra, package in EXTRAS.items()},
+        "device": f"{jax.default_backend()}: {', '.join(d.device_kind for d in jax.devices())}",
+        "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
+        "memory_gib": {"total": round(memory.total / GIB, 1), "free": round(memory.available / GIB, 1)},
+        "compiled_programs": {
+            "folder": str(place) if place is not None else None,
+            "count": len(kept),
+            "mib": round(sum(kept) / 2**20, 1),
+            "writable": bool(near is not None and os.access(near, os.W_OK)),
+        },
+    }
+
+
+def _page(found: dict[str, Any]) -> str:
+    lines = [f"deodar {found['deodar']} on Python {found['python']}, {found['system']}"]
+    lines.append(
+        f"device     {found['device']}; {found['cores']} cores, {found['memory_gib']['free']} of {found['memory_gib']['total']} GiB memory free"
+    )
+    lines.append("packages   " + ", ".join(f"{name} {version}" for name, version in found["packages"].items() if version))
+    if found["missing"]:
+        lines.append(f"MISSING    {', '.join(found['missing'])}. Type: pip install --upgrade deodar")
+    for extra, there in found["extras"].items():
+        lines.append(f"extra      {extra}: " + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'"))
+    programs = found["compiled_programs"]
+    if programs["folder"] is None:
+        lines.append("programs   compiled programs are not kept (DEODAR_CACHE=off)")
+    else:
+        state = "" if programs["writable"] else ", which cannot be written to: every start compiles anew"
+        lines.append(f"programs   {programs['count']} compiled programs, {programs['mib']} MiB, in {programs['folder']}{state}")
+    return "\n".join(lines)

@@ -1,0 +1,77 @@
+"""`deodar plot`: every kind of figure, from the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import deodar as dd
+from deodar.cli import main
+from deodar.recording import files
+from tests.recording.models import record, x, y
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    files.save(record(trials=3), "small.zarr")
+    deep = dd.Model("deep")
+    deep.add(dd.Field("w", [x, y, dd.Axis("z", 0, 4, samples=5)], noise=0.3))
+    files.save(dd.simulate(deep, 20, record=["w.activation"], every=10), "deep.zarr")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind"),
+    [
+        (["small.zarr", "n.activation"], "time_course"),
+        (["small.zarr", "u.activation", "--trial", "0"], "space_time"),
+        (["small.zarr", "u.activation", "--kind", "snapshot", "--at", "10"], "snapshot"),
+        (["small.zarr", "u.activation", "--kind", "snapshots", "--at", "0", "10", "20"], "snapshots"),
+        (["small.zarr", "u.activation", "--kind", "time_course", "--place", "10"], "time_course"),
+        (["deep.zarr", "--kind", "projection", "--axes", "x", "y"], "projection"),
+        (["deep.zarr"], "projection"),
+    ],
+)
+def test_kinds(here: Path, arguments: list[str], kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", *arguments, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert set(answer["kinds"].values()) == {kind}
+    with Image.open(answer["out"]) as picture:
+        assert min(picture.size) > 300 and len(np.unique(np.asarray(picture.convert("L")))) > 5
+
+
+def test_vector_graphics_hold_real_text_and_units(here: Path) -> None:
+    assert main(["plot", "small.zarr", "-o", "all.svg"]) == 0
+    text = (here / "all.svg").read_text()
+    assert "time (ms)" in text and "x (deg)" in text and "activation" in text
+    assert main(["plot", "small.zarr", "-o", "all.svg"]) == 1 and main(["plot", "small.zarr", "-o", "all.svg", "--force"]) == 0
+
+
+def test_the_same_record_gives_the_same_file(here: Path) -> None:
+    for name in ("a.svg", "b.svg"):
+        assert main(["plot", "small.zarr", "u.activation", "--trial", "1", "-o", name]) == 0
+    assert (here / "a.svg").read_bytes() == (here / "b.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["nothing.zarr"], "nothing.zarr"),
+        (["small.zarr", "u.actvation"], "Did you mean"),
+        (["small.zarr", "--kind", "spacetime"], "Did you mean"),
+        (["small.zarr", "u.activation", "--at", "999"], "999"),
+        (["small.zarr", "-o", "picture.gif"], ".png"),
+        (["small.zarr", "u.activation", "--trial", "7"], "trial"),
+    ],
+)
+def test_bad_calls(here: Path, arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    before = sorted(here.iterdir())
+    assert main(["plot", *arguments]) == 1
+    error = capsys.readouterr().err
+    assert says in error and "Traceback" not in error, error
+    assert sorted(here.iterdir()) == before

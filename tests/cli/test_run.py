@@ -1,0 +1,115 @@
+"""`deodar run`: a document to a record, a record to its repetition."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.cli import main
+from deodar.recording import files
+from deodar.recording.record import about
+from tests.recording.models import model
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    dd.save(model(), "small.json")
+    return tmp_path
+
+
+def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "small.json", "--duration", "20", "--every", "5", "--record", "u.activation", "n.activation", "--seed", "3"]) == 0
+    assert "deodar plot small-001" in capsys.readouterr().out.splitlines()[-1]
+    data = files.load(here / "small-001")
+    assert data["u.activation"].shape == (5, 11) and about(data)["seed"] == 3
+    assert dd.load(here / "small-001" / "model.json").document == model().document
+    expected = dd.simulate(model(), 20, record=["u.activation"], every=5, seed=3)["u.activation"]
+    assert np.array_equal(expected.values, data["u.activation"].values)
+    assert main(["run", "small.json", "--duration", "5"]) == 0 and (here / "small-002").is_dir()
+
+
+def test_settings(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call = ["run", "small.json", "--duration", "4", "--dt", "0.5", "--trials", "2", "--sweep", "s.amplitude=1,2,3", "--set", "u.tau=7"]
+    assert main([*call, "--precision", "float64", "--format", "netcdf", "--out", "out", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    data = files.load(here / "out" / "record.nc")
+    assert data["u.activation"].dtype == np.float64 and data.sizes["trial"] == 2 and data.sizes["s.amplitude"] == 3
+    assert dd.load(here / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
+
+
+def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "small.json", "--duration", "20", "--every", "5", "--out", "first"]) == 0
+    assert main(["run", "first", "--out", "second"]) == 0
+    assert "same bits" in capsys.readouterr().out
+    assert files.load(here / "first").drop_attrs().identical(files.load(here / "second").drop_attrs())
+    assert main(["run", "first/record.zarr", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["repetition"]["same_bits"] is True
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "says"),
+    [
+        (["small.json"], 2, "--duration"),
+        (["nothing.json", "--duration", "5"], 1, "no such file"),
+        (["small.json", "--duration", "5", "--record", "u.actvation"], 1, "Did you mean"),
+        (["small.json", "--duration", "5.5"], 1, "multiple"),
+        (["small.json", "--duration", "5", "--dt", "50"], 1, "longer than the time constant"),
+        (["small.json", "--duration", "5", "--set", "u.tua=3"], 1, "Did you mean"),
+        (["small.json", "--duration", "5", "--sweep", "u.tau=a,b"], 2, "numbers"),
+        (["small.json", "--duration", "5", "--world", "picture:none.jpg"], 1, "no such picture"),
+        (["small.json", "--duration", "5", "--out", "small.json"], 1, "not a folder"),
+        (["small.json", "--duration", "5", "--out", "a/b"], 1, "no folder"),
+    ],
+)
+def test_bad_calls(here: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    before = sorted(here.iterdir())
+    try:
+        code = main(["run", *arguments])
+    except SystemExit as stopped:
+        code = int(stopped.code or 0)
+    error = capsys.readouterr().err
+    assert code == status and says in error and "Traceback" not in error, error
+    assert sorted(here.iterdir()) == before
+
+
+def test_force_replaces_only_what_a_run_wrote(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call = ["run", "small.json", "--duration", "5", "--out", "out"]
+    assert main(call) == 0 and main(call) == 1
+    assert "--force" in capsys.readouterr().err
+    (here / "out" / "notes.txt").write_text("mine")
+    assert main([*call, "--force"]) == 0 and (here / "out" / "notes.txt").read_text() == "mine"
+
+
+def test_ctrl_c_writes_what_was_recorded(here: Path) -> None:
+    call = [
+        sys.executable,
+        "-m",
+        "deodar",
+        "run",
+        "small.json",
+        "--duration",
+        "100000000",
+        "--record",
+        "n.activation",
+        "--every",
+        "100000",
+        "--out",
+        "cut",
+    ]
+    process = subprocess.Popen(call, cwd=here, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ)
+    time.sleep(8)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert process.returncode == 1 and "Traceback" not in error and "incomplete" in error, error
+    data = files.load(here / "cut")
+    assert about(data)["complete"] is False and 1 <= data.sizes["time"] < 1001 and np.isfinite(data["n.activation"].values).all()

@@ -1,0 +1,177 @@
+"""Every example runs, stays finite, and does what its notes claim."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+import deodar as dd
+from deodar.analysis.peaks import peaks
+from deodar.demos.saliency import photographs
+from tests.docs.source import EXAMPLES, module
+
+make = module(EXAMPLES / "make.py")
+NAMES = [f.__name__ for f in make.EXAMPLES]
+
+
+def run(name: str, record: list[str], trials: int | None = None) -> xarray.Dataset:
+    """An example as its document says, for as long as its notes say."""
+    model = dd.load(EXAMPLES / f"{name}.json")
+    stated = re.search(r"(\d+) ms\.$", model.document.notes)
+    assert stated, "the notes end with how long to run it"
+    data = dd.simulate(model, float(stated[1]), record=record, every=10, trials=trials)
+    assert all(np.isfinite(v.values).all() for v in data.data_vars.values())
+    return data
+
+
+def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[float]:
+    """Where the peaks of a one-dimensional field stand at a time."""
+    now = u.sel(time=t) if trial is None else u.sel(time=t, trial=trial)
+    return sorted(p.position[0] for p in peaks(now))
+
+
+# ------------------------------------------------------------------------------------------------ the documents
+
+
+def test_documents_are_fresh(tmp_path: Path) -> None:
+    make.main(tmp_path)
+    made = {p.name: p.read_text(encoding="utf-8") for p in tmp_path.iterdir()}
+    kept = {p.name: p.read_text(encoding="utf-8") for p in EXAMPLES.glob("*.json")}
+    assert kept == made, "the documents are not what examples/make.py makes: run it"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_document_is_good_and_says_what_to_look_at(name: str) -> None:
+    model = dd.load(EXAMPLES / f"{name}.json")
+    assert not model.check()
+    assert len(model.document.notes) > 100
+
+
+# ------------------------------------------------------------------------------------------------ their notes
+
+
+def test_detection() -> None:
+    u = run("detection", ["u.activation"])["u.activation"]
+    assert places(u, 390) == [] and len(places(u, 690)) == len(places(u, 990)) == 1
+    assert places(u, 690) == pytest.approx([50], abs=1)
+    assert places(u, 1300) == []
+
+
+def test_selection() -> None:
+    u = run("selection", ["u.activation"], trials=100)["u.activation"]
+    found = [places(u, 600, k) for k in range(100)]
+    assert all(len(p) == 1 for p in found)
+    left = sum(p[0] < 50 for p in found)
+    assert 30 <= left <= 70, left
+
+
+def test_working_memory() -> None:
+    data = run("working_memory", ["u.activation", "cue.output"])
+    assert float(data["cue.output"].sel(time=310).max()) == 0
+    assert places(data["u.activation"], 1500) == pytest.approx([35], abs=5)
+
+
+def test_forgetting() -> None:
+    u = run("forgetting", ["u.activation"])["u.activation"]
+    assert len(places(u, 900)) == 1
+    assert all(places(u, t) == [] for t in (1100, 1300, 1500))
+
+
+def test_boost() -> None:
+    u = run("boost", ["u.activation"])["u.activation"]
+    assert places(u, 290) == [] and places(u, 1200) == []
+    assert places(u, 890) == pytest.approx([65], abs=1)
+    before = u.sel(time=290)
+    assert before.sel(x=30) > before.sel(x=10) + 1, "the weaker preshape is there too"
+
+
+def test_projection() -> None:
+    data = run("projection", [f"{name}.activation" for name in ("colour", "scene", "where")])
+    for name, place in (("colour", (120,)), ("scene", (36, 120)), ("where", (36,))):
+        u = data[f"{name}.activation"]
+        assert not peaks(u.sel(time=290)), name
+        found = peaks(u.sel(time=900))
+        assert len(found) == 1 and found[0].position == pytest.approx(place, abs=2), (name, found)
+
+
+def test_node() -> None:
+    u = run("node", ["u.activation"])["u.activation"]
+    for t, value in ((190, -2), (690, 2), (1100, -2)):
+        assert float(u.sel(time=t)) == pytest.approx(value, abs=0.2), t
+
+
+def test_correlated_noise() -> None:
+    u = run("correlated_noise", ["u.activation"], trials=100)["u.activation"]
+    found = [places(u, 400, k) for k in range(100)]
+    with_peak = [p[0] for p in found if p]
+    assert max(map(len, found)) == 1 and 30 <= len(with_peak) <= 70
+    assert np.histogram(with_peak, bins=4, range=(0, 100))[0].min() >= 3, "all over the field"
+
+
+def test_timed_stimuli() -> None:
+    u = run("timed_stimuli", ["u.activation"])["u.activation"]
+    for t, expected in ((50, []), (250, [20]), (380, []), (550, [80]), (680, []), (850, [20]), (1150, [80])):
+        assert places(u, t) == pytest.approx(expected, abs=1), t
+
+
+def test_groups() -> None:
+    names = ("search", "approach", "grasp", "lift")
+    data = run("groups", [f"{name}.intention.activation" for name in names])
+    on = np.array([data[f"{name}.intention.activation"].values > 0 for name in names])
+    for k, t in enumerate((480, 1080, 1680, 2280)):
+        assert on[:, t // 10].tolist() == [i == k for i in range(4)], t
+    assert not on[:, 0].any() and not on[:, -1].any()
+    model = dd.load(EXAMPLES / "groups.json")
+    model.set("tempo", 33)
+    assert {model.get(f"{name}.{part}.tau") for name in names for part in ("intention", "satisfied")} == {33.0}
+
+
+def test_motor_attractor() -> None:
+    data = run("motor_attractor", ["target.activation", "turn.output"])
+    turn = data["turn.output"]
+    assert float(turn.sel(time=900)) == pytest.approx(150, abs=2)
+    still = turn.sel(time=slice(1000, 1290)).values
+    assert np.ptp(still) < 0.5 and places(data["target.activation"], 1200) == []
+    way = turn.sel(time=slice(1300, 2000)).values
+    assert way[-1] == pytest.approx(-120, abs=2)
+    assert (np.abs(way) > 115).all(), "over 180 deg, never near 0"
+
+
+def test_saliency() -> None:
+    model = dd.load(EXAMPLES / "saliency.json")
+    model.set("cue.center", 5.0)
+    coffee = next(s for s in photographs() if s.name == "coffee")
+    record = ["perceptual.activation", "spatial.activation", "pan.output", "tilt.output"]
+    end = dd.simulate(model, 3500, record=record, every=3500, world=coffee.picture).isel(time=-1)
+    found = peaks(end["spatial.activation"])
+    assert len(found) == 1 and len([p for p in peaks(end["perceptual.activation"]) if p.size > 600]) == 1
+    assert (float(end["pan.output"]), float(end["tilt.output"])) == pytest.approx(found[0].position, abs=2)
+
+
+# ------------------------------------------------------------------------------------------------ the scripts
+
+
+def test_choices() -> None:
+    shares = module(EXAMPLES / "choices.py").shares(100)
+    assert 0.3 <= shares[0] <= 0.7 and shares[-1] > 0.9
+
+
+def test_live_session() -> None:
+    found = module(EXAMPLES / "live_session.py").main()
+    assert found["remembered"] == found["restored"] == pytest.approx([35], abs=1)
+    assert found["pulled along"] == pytest.approx([44], abs=1)
+
+
+def test_own_function() -> None:
+    u = dd.simulate(module(EXAMPLES / "own_function.py").model(), 5000, record=["u.activation"], every=10)["u.activation"].values
+    ups = int(((u[1:] > 0) & (u[:-1] <= 0)).sum())
+    assert 4 <= ups <= 6
+
+
+def test_no_example_is_without_a_test() -> None:
+    tested = {n.removeprefix("test_") for n in globals() if n.startswith("test_")}
+    assert {p.stem for p in EXAMPLES.iterdir() if p.suffix in (".json", ".py")} - {"make"} <= tested

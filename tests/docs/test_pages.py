@@ -1,0 +1,82 @@
+"""Every block of Python and every command on a page runs, prints what the page says, and draws the pictures it shows."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from deodar import registry
+from tests.docs.source import DOCS, ROOT, module
+
+pages = module(DOCS / "pages.py")
+
+TEXTS = [*sorted(ROOT.glob("*.md")), *sorted(DOCS.rglob("*.md"))]
+LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
+DRAWN_ELSEWHERE = {"README.md": {"saliency-coffee.png"}}
+"""The picture of the README is drawn by the page that explains it."""
+
+
+@pytest.mark.parametrize("page", pages.pages(), ids=lambda p: p.stem)
+def test_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "_kinds", dict(registry.kinds()))  # a page that shows how to add a kind adds one
+    with pages.quiet():
+        import matplotlib.pyplot as plt
+
+        drawn = pages.run(page, tmp_path)
+        plt.close("all")
+    missing = set(pages.pictures(page)) - set(drawn) - DRAWN_ELSEWHERE.get(page.name, set())
+    assert not missing, f"{page.name} shows pictures that nothing on it draws: {missing}"
+
+
+@pytest.mark.parametrize("page", TEXTS, ids=lambda p: f"{p.parent.name}/{p.stem}")
+def test_what_a_page_points_to_is_there(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    shown = [f"pictures/{name}" for name in pages.pictures(page)]
+    assert all((DOCS / place).stat().st_size < 400_000 for place in shown)
+    for link in LINK.findall(re.sub(r"```.*?```", "", text, flags=re.DOTALL)):
+        if link.startswith(("https://", "http://")):
+            continue
+        place, _, anchor = link.partition("#")
+        target = (page.parent / place) if place else page
+        assert target.exists(), f"{page.name} points to {link}, which is not there"
+        if anchor:
+            heads = re.findall(r"^#+ (.*)$", target.read_text(encoding="utf-8"), re.MULTILINE)
+            assert anchor in {re.sub(r"[^\w-]", "", h.lower().replace(" ", "-")) for h in heads}, f"{page.name}: no heading {link}"
+
+
+def test_every_page_is_in_the_table_of_contents() -> None:
+    listed = set(re.findall(r": ([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE))
+    assert listed == {p.relative_to(DOCS).as_posix() for p in DOCS.rglob("*.md")}
+
+
+def test_no_picture_is_left_over() -> None:
+    shown = {name for page in TEXTS for name in pages.pictures(page)}
+    assert {p.name for p in (DOCS / "pictures").iterdir()} == shown
+
+
+@pytest.mark.parametrize(
+    ("expected", "printed", "good"),
+    [
+        ("a 1.00 b\n", "a 1.01 b\n", True),
+        ("a 1.00 b\n", "a 1.05 b\n", False),
+        ("a\n...\nc\n", "a\nb\nc\n", True),
+        ("a\n...\n", "a\nb\nc\n", True),
+        ("a\n", "a\nb\n", False),
+        ("a\nb\n", "a\n", False),
+        ("[1, 2]\n", "[1, 2, 3]\n", False),
+    ],
+)
+def test_what_counts_as_the_same_output(expected: str, printed: str, good: bool) -> None:
+    assert (pages.difference(expected, printed) == "") is good
+
+
+def test_a_page_that_lies_is_caught(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("```python\nprint(2 + 2)\n```\n\n```text\n5\n```\n")
+    monkeypatch.setattr(pages, "ROOT", tmp_path)
+    (tmp_path / "examples").mkdir()
+    (tmp_path / "here").mkdir()
+    with pytest.raises(AssertionError, match=r"page.md:2: '5' on the page, '4' printed"):
+        pages.run(page, tmp_path / "here")

@@ -1,0 +1,27 @@
+"""The generated pages say what the code says now."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.docs.source import DOCS, module
+
+reference = module(DOCS / "reference.py")
+
+
+@pytest.mark.parametrize("page", [p.relative_to(DOCS) for p in reference.pages()], ids=str)
+def test_a_generated_page_is_fresh(page: Path) -> None:
+    made = reference.pages()[DOCS / page]
+    assert (DOCS / page).read_text(encoding="utf-8") == made, f"docs/{page} is not what the code says: python docs/reference.py"
+
+
+def test_the_reference_holds_no_page_too_many() -> None:
+    assert set((DOCS / "reference").glob("*.md")) <= set(reference.pages())
+
+
+def test_a_kind_is_described_whole() -> None:
+    text = reference.kind_section(reference.registry.kind("Field"))
+    for part in ("tau du/dt", "| `tau` |", "at least 1e-06", "| live |", "| rebuild |", "| recompile |", "`activation`", "eqs. 1, 3"):
+        assert part in text, part

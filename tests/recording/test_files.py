@@ -1,0 +1,101 @@
+"""Records as files: read back exactly, never half-written, never over what is not theirs."""
+
+from __future__ import annotations
+
+import csv
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+import deodar as dd
+from deodar.recording import files
+from tests.recording.models import record
+
+
+@pytest.fixture(scope="module")
+def data() -> xarray.Dataset:
+    return record(trials=3, sweep={"s.amplitude": [1.0, 2.0]})
+
+
+@pytest.mark.parametrize("suffix", [".zarr", ".nc"])
+def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
+    path = files.save(data, tmp_path / f"record{suffix}")
+    again = files.load(path)
+    assert again.identical(data)
+    assert all(again[name].dtype == data[name].dtype and again[name].dims == data[name].dims for name in data.variables)
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) -> None:
+    path = files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
+    rows = [r for r in csv.reader(line for line in path.read_text().splitlines() if not line.startswith("#"))]
+    head = rows[0]
+    assert {"time", "trial", "s.amplitude"} <= set(head)
+    text = path.read_text()
+    value = float(data["u.activation"].isel({"s.amplitude": 1, "trial": 2, "time": 3, "x": 4}))
+    assert any(cell and abs(float(cell) - value) < 1e-6 for row in rows[1:] for cell in row[-2:] if _number(cell)), text[:400]
+    with pytest.raises(dd.errors.RecordError):
+        files.load(path)
+
+
+def _number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+@pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
+def test_nothing_is_replaced_without_force(data: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
+    small = data[["n.activation"]]
+    path = files.save(small, tmp_path / f"record{suffix}")
+    with pytest.raises(dd.errors.OutputExists, match="--force"):
+        files.save(small, path)
+    files.save(small + 0 if suffix == ".csv" else small, path, force=True)
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Path) -> None:
+    small = data[["n.activation"]]
+    (tmp_path / "thesis.zarr").mkdir()
+    (tmp_path / "thesis.zarr" / "chapter.txt").write_text("do not lose me")
+    os.mkfifo(tmp_path / "pipe.nc")
+    (tmp_path / "folder.nc").mkdir()
+    os.symlink(tmp_path / "elsewhere", tmp_path / "link.csv")
+    for name in ("thesis.zarr", "pipe.nc", "folder.nc", "link.csv"):
+        with pytest.raises(dd.errors.OutputExists):
+            files.save(small, tmp_path / name, force=True)
+    assert (tmp_path / "thesis.zarr" / "chapter.txt").read_text() == "do not lose me"
+    with pytest.raises(dd.errors.OutputError, match="no folder"):
+        files.save(small, tmp_path / "missing" / "record.nc")
+    with pytest.raises(dd.errors.RecordError, match="names no format"):
+        files.save(small, tmp_path / "record.xyz")
+
+
+def test_a_failure_on_the_way_leaves_nothing(data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(files, "_write_zarr", full)
+    monkeypatch.setattr(files, "_write_netcdf", full)
+    for name in ("record.zarr", "record.nc"):
+        with pytest.raises(dd.errors.OutputError, match="No space left"):
+            files.save(data, tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_damaged_and_foreign_files_are_one_clear_error(data: xarray.Dataset, tmp_path: Path) -> None:
+    good = files.save(data, tmp_path / "good.nc").read_bytes()
+    (tmp_path / "cut.nc").write_bytes(good[: len(good) // 2])
+    (tmp_path / "noise.nc").write_bytes(b"\x00\x01nonsense" * 50)
+    (tmp_path / "text.txt").write_text("hello")
+    (tmp_path / "empty.zarr").mkdir()
+    xarray.Dataset({"a": ("t", np.arange(3.0))}).to_netcdf(tmp_path / "foreign.nc", engine="scipy")
+    for name in ("cut.nc", "noise.nc", "text.txt", "empty.zarr", "foreign.nc", "missing.zarr"):
+        with pytest.raises(dd.errors.RecordError) as caught:
+            files.load(tmp_path / name)
+        assert name in str(caught.value)

@@ -1,0 +1,78 @@
+"""A record runs again from what it says about itself."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import deodar as dd
+from deodar.architectures.saliency import saliency
+from deodar.elements.function import Function
+from deodar.recording import files
+from deodar.recording.provenance import KEY
+from deodar.recording.record import about
+from deodar.recording.repeat import repeat
+from deodar.runtime.simulate import simulate
+from deodar.worlds.picture import Picture
+from tests.recording.models import record, x
+
+
+@pytest.mark.parametrize("settings", [{}, {"trials": [2, 5], "sweep": {"u.tau": [8.0, 12.0]}, "precision": "float64"}])
+def test_the_same_bits_on_the_same_machine(settings: dict[str, object], tmp_path: Path) -> None:
+    data = record(**settings)
+    done = repeat(files.load(files.save(data, tmp_path / "record.zarr")), simulate)
+    assert done.same_bits and not done.differences and done.faithful and done.data.drop_attrs().identical(data.drop_attrs())
+
+
+def test_what_differs_is_listed() -> None:
+    data = record()
+    made = about(data)
+    made["made_by"]["jaxlib"] = "0.0.1"
+    made["made_by"]["machine"] = "another"
+    changed = data.copy()
+    changed["u.activation"] = data["u.activation"] + 0.25
+    changed = changed.assign_attrs({KEY: json.dumps(made)})
+    done = repeat(changed, simulate)
+    assert not done.same_bits and done.faithful and done.largest["u.activation"] == pytest.approx(0.25)
+    assert {d.what for d in done.differences} == {"jaxlib", "machine"} and "0.0.1 then" in str(done)
+
+
+def test_a_difference_without_a_reason_is_not_faithful() -> None:
+    data = record()
+    data["u.activation"] = data["u.activation"] + 1
+    done = repeat(data, simulate)
+    assert not done.faithful and "nothing explains it" in str(done)
+
+
+def test_a_world_is_opened_again_and_must_be_the_same(tmp_path: Path) -> None:
+    picture = np.zeros((8, 8, 3), np.uint8)
+    picture[2:6, 2:6] = [255, 0, 0]
+    Image.fromarray(picture).save(tmp_path / "p.png")
+    data = dd.simulate(saliency(), 50, record=["colour.activation"], every=50, world=Picture(tmp_path / "p.png"))
+    assert repeat(data, simulate).same_bits
+    picture[0, 0] = 9
+    Image.fromarray(picture).save(tmp_path / "p.png")
+    with pytest.raises(dd.errors.WorldError, match="--world picture"):
+        repeat(data, simulate)
+    (tmp_path / "p.png").unlink()
+    with pytest.raises(dd.errors.WorldError, match="--world picture"):
+        repeat(data, simulate)
+
+
+def test_functions_wait_for_trust() -> None:
+    made = dd.Model("function")
+    made.add(Function("f", [x]))
+    data = dd.simulate(made, 3, record=["f.output"])
+    with pytest.raises(dd.errors.Untrusted):
+        repeat(data, simulate)
+    assert repeat(data, simulate, trust=True).same_bits
+
+
+def test_a_record_that_does_not_say_what_made_it() -> None:
+    data = record().assign_attrs({KEY: "{}"})
+    with pytest.raises(dd.errors.RecordError):
+        repeat(data, simulate)
