@@ -1,0 +1,77 @@
+"""Peaks: count, place, width, amplitude, on lines and rings, in any dimension."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.analysis.peaks import peaks
+
+x = dd.Axis("x", 0, 100, samples=101)
+ring = dd.Axis("phi", 0, 360, samples=72, periodic=True, unit="deg")
+
+
+def bump(axis: dd.Axis, center: float, sigma: float = 6.0, height: float = 3.0, rest: float = -1.0) -> np.ndarray:
+    d = axis.points - center
+    if axis.periodic:
+        d = d - axis.range * np.round(d / axis.range)
+    return rest + (height - rest) * np.exp(-(d**2) / (2 * sigma**2))
+
+
+@pytest.mark.parametrize("center", [30.0, 30.3, 47.77, 62.5])
+def test_place_and_width_between_samples(center: float) -> None:
+    (found,) = peaks(bump(x, center), [x])
+    assert found.position[0] == pytest.approx(center, abs=0.05)
+    assert found.width[0] == pytest.approx(2 * 6.0 * np.sqrt(2 * np.log(4.0)), abs=0.1)
+    assert found.amplitude == pytest.approx(3.0, abs=0.05)
+
+
+@pytest.mark.parametrize("center", [0.0, 2.4, 357.9, 359.99, 180.0])
+def test_a_peak_over_the_seam_of_a_ring_is_one(center: float) -> None:
+    found = peaks(bump(ring, center, sigma=20), [ring])
+    assert len(found) == 1
+    off = (found[0].position[0] - center + 180) % 360 - 180
+    assert abs(off) < 0.3 and 0 <= found[0].position[0] < 360
+    assert found[0].width[0] == pytest.approx(2 * 20 * np.sqrt(2 * np.log(4.0)), abs=1.0)
+
+
+def test_on_a_line_the_ends_do_not_meet() -> None:
+    assert len(peaks(np.maximum(bump(x, 0), bump(x, 100)), [x])) == 2
+
+
+def test_several_are_sorted_by_height_and_thresholds_move() -> None:
+    u = np.maximum(bump(x, 20, height=2.0), bump(x, 70, height=3.0))
+    found = peaks(u, [x])
+    assert [round(p.position[0]) for p in found] == [70, 20]
+    assert len(peaks(u, [x], threshold=2.5)) == 1 and len(peaks(u, [x], threshold=3.5)) == 0
+
+
+def test_two_dimensions_and_both_seams() -> None:
+    a, b = dd.Axis("a", 0, 10, samples=40, periodic=True), dd.Axis("b", 0, 10, samples=40, periodic=True)
+    u = -1 + 4 * np.multiply.outer(bump(a, 0.1, 1.0, 1, 0), bump(b, 9.8, 1.0, 1, 0))
+    (found,) = peaks(u, [a, b])
+    assert np.allclose(((np.array(found.position) - [0.1, 9.8]) + 5) % 10 - 5, 0, atol=0.05)
+    assert found.size == pytest.approx(np.pi * 2 * np.log(4.0), rel=0.1)
+
+
+def test_a_node() -> None:
+    assert len(peaks(np.array(0.5), [])) == 1 and len(peaks(np.array(-0.5), [])) == 0
+
+
+def test_a_variable_of_a_record_says_its_own_axes() -> None:
+    model = dd.Model("record")
+    model.add(dd.Field("u", [ring], resting_level=-2)) and None
+    model.add(dd.GaussianStimulus("s", [ring], center=355, sigma=20, amplitude=6)) >> model["u"]
+    data = dd.simulate(model, 200)
+    (found,) = peaks(data["u.activation"].isel(time=-1))
+    assert abs((found.position[0] - 355 + 180) % 360 - 180) < 0.5
+    assert "355" in repr(found) or "354" in repr(found)
+    assert "<table>" in peaks(data["u.activation"].isel(time=-1))._repr_html_()
+
+
+def test_what_does_not_fit_is_refused() -> None:
+    with pytest.raises(dd.errors.AnalysisError, match="shape"):
+        peaks(np.zeros(5), [x])
+    with pytest.raises(dd.errors.AnalysisError, match="finite"):
+        peaks(np.full(101, np.nan), [x])

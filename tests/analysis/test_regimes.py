@@ -1,0 +1,134 @@
+"""Regimes in known cases and in their opposites, and the command that prints them."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy import optimize
+
+import deodar as dd
+from deodar.analysis.isolated import isolate
+from deodar.analysis.phase import phase
+from deodar.analysis.ramp import ramp
+from deodar.analysis.regimes import regimes
+from deodar.analysis.settle import settle
+from deodar.cli import main
+
+x = dd.Axis("x", 0, 60, samples=61)
+
+
+def lateral(excitation: float, inhibition: float, everywhere: float = 0.0, **more: object) -> dd.Field:
+    kernel = [dd.Gaussian(excitation, 4, normalized=True), dd.Gaussian(-inhibition, 8, normalized=True)]
+    return dd.Field("u", [x], **({"tau": 10, "kernel": kernel, "global_inhibition": everywhere} | more))  # type: ignore[arg-type]
+
+
+def test_input_driven_and_selective() -> None:
+    found = regimes(lateral(12, 0, 0.6))
+    assert not found.self_sustained and found.selection is not None and found.selection.selects and found.selection.right
+    assert found.detection is not None and found.reverse is not None and 0 < found.reverse < 0.97 * found.detection
+    assert "selective" in " ".join(found.words)
+
+
+def test_local_interaction_keeps_two_peaks() -> None:
+    found = regimes(lateral(11, 6))
+    assert found.selection is not None and not found.selection.selects and len(found.selection.equal) == 2
+
+
+def test_working_memory_and_what_erases_it() -> None:
+    found = regimes(lateral(18, 6, 0.1))
+    assert found.self_sustained and found.memory is not None and len(found.memory.left) == 1
+    assert found.forgetting is not None and found.forgetting < 0
+
+
+def test_without_interaction_there_is_no_instability() -> None:
+    found = regimes(dd.Field("u", [x], tau=10))
+    assert found.detection == pytest.approx(5.0, rel=0.01) and not found.thresholds.detection.jump and found.bistable is None  # type: ignore[union-attr]
+
+
+def test_more_excitation_lowers_detection_and_reverse_detection() -> None:
+    found = [regimes(lateral(strength, 0, 0.3)) for strength in (6, 9)]
+    assert found[1].detection < found[0].detection and (found[1].reverse or 0) < (found[0].reverse or 9)  # type: ignore[operator]
+
+
+def test_the_ramp_shows_the_hysteresis_between_the_thresholds() -> None:
+    one = isolate(lateral(12, 0, 0.6))
+    found = regimes(lateral(12, 0, 0.6))
+    low, high = found.bistable  # type: ignore[misc]
+    swept = ramp(one, np.linspace(0, high * 1.2, 25))
+    inside = (swept.values > low * 1.02) & (swept.values < high * 0.98)
+    outside = (swept.values < low * 0.98) | (swept.values > high * 1.02)
+    assert inside.any() and (swept.down.count[inside] == 1).all() and (swept.up.count[inside] == 0).all()
+    assert (swept.up.count[outside] == swept.down.count[outside]).all()
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_more_dimensions(dimensions: int) -> None:
+    axes = [dd.Axis(name, 0, 20, samples=11) for name in "abc"[:dimensions]]
+    kernel = [dd.Gaussian(16, 3, normalized=True)]
+    found = regimes(dd.Field("u", axes, tau=10, kernel=kernel, global_inhibition=0.02 if dimensions == 2 else 0.002))
+    assert found.detection is not None and 2 < found.detection < 5 and found.peak is not None
+    assert np.allclose(found.peak.position, 10, atol=1)
+
+
+def test_a_node_against_an_independent_root_finder() -> None:
+    node = dd.Field("n", [], tau=10, resting_level=-2, sigmoid=dd.Logistic(4), kernel=[dd.Gaussian(3.0)])
+
+    def rate(u: float, s: float = 0.0) -> float:
+        return -u - 2 + s + 3 / (1 + np.exp(-4 * u))
+
+    found = phase(node)
+    grid = np.linspace(-4, 4, 4001)
+    roots = [optimize.brentq(rate, a, b) for a, b in itertools.pairwise(grid) if rate(a) * rate(b) < 0]
+    assert np.allclose([p.u for p in found.fixed_points], roots, atol=1e-8) and [p.stable for p in found.fixed_points] == [True, False, True]
+    # at a fold the rate and its slope are zero together
+    folds = []
+    for guess in (-0.5, 0.5):
+        u = optimize.brentq(lambda v: -1 + 12 * np.exp(-4 * v) / (1 + np.exp(-4 * v)) ** 2, min(0, 4 * guess), max(0, 4 * guess))
+        folds.append(-rate(u))
+    measured = regimes(node)
+    assert measured.detection == pytest.approx(max(folds), rel=0.01) and measured.reverse == pytest.approx(min(folds), rel=0.01)
+
+
+def test_settling_says_whether_it_settled() -> None:
+    model = dd.Model("noisy")
+    model.add(dd.Field("u", [x], noise=1.0))
+    assert not settle(dd.Session(model), limit=5)
+    still = dd.Model("still")
+    still.add(dd.Field("u", [x]))
+    assert settle(dd.Session(still), limit=5).time_constants <= 5
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    model = dd.Model("m")
+    model.add(lateral(12, 0, 0.6))
+    model.add(dd.Field("n", [], tau=10, resting_level=-2, kernel=[dd.Gaussian(3.0)]), group="g")
+    model.add(dd.GaussianStimulus("s", [x])) >> model["u"]
+    dd.save(model, "m.json")
+    return tmp_path
+
+
+def test_the_command_prints_and_draws(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["regimes", "m.json", "u"]) == 0
+    page = capsys.readouterr().out
+    assert "detection threshold" in page and "selective" in page and "m-regimes-001.png" in page
+    with Image.open(here / "m-regimes-001.png") as picture:
+        assert picture.size[0] > 800
+    assert main(["regimes", "m.json", "g.n", "--json", "-o", "n.svg"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["self_sustained"] is True and "du/dt" in (here / "n.svg").read_text()
+    assert main(["regimes", "m.json", "u", "-o", "n.svg"]) == 1 and "--force" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("element", "says"), [("v", "Did you mean"), ("s", "is not a Field"), ("u.activation", "element")])
+def test_what_cannot_be_measured(here: Path, element: str, says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    before = sorted(here.iterdir())
+    assert main(["regimes", "m.json", element]) == 1
+    error = capsys.readouterr().err
+    assert (says in error or "there is no element" in error) and "Traceback" not in error and sorted(here.iterdir()) == before
