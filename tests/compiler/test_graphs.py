@@ -12,7 +12,7 @@ from deodar.compiler.plan import plan
 from deodar.elements.field import Field
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
-import graphs  # noqa: E402
+import graphs
 
 
 def counts(model: dd.Model) -> tuple[int, int]:
