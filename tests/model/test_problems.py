@@ -8,6 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.couplings.product import Product
+from deodar.couplings.resample import Resample
 from deodar.couplings.sum import Sum
 from deodar.couplings.weights import Weights
 from deodar.elements.boost import Boost
@@ -208,3 +209,20 @@ def test_problems_of_what_stands_before_are_not_repeated() -> None:
     loose = model.add(dd.Gain(1, name="loose"))
     loose >> dd.Gain(2, name="after") >> model.add(dd.Field("u", [X]))
     assert len(model.check()) == 1
+
+
+def test_the_line_to_type_is_one_that_works() -> None:
+    """Whatever does not fit: the suggested Project, taken at its word, compiles."""
+    x, y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 10, samples=6, unit="deg")
+    hue, far = dd.Axis("hue", 0, 360, samples=12, periodic=True), dd.Axis("x", 0, 20, samples=11)
+    names = {"dd": dd, "Project": dd.Project, "Resample": Resample}
+    for source, target in (([x], [y]), ([hue], [x]), ([x, hue], [y]), ([x], [far]), ([x, y], [far])):
+        model = dd.Model("remedy")
+        u, v = model.add(dd.Field("u", source)), model.add(dd.Field("an odd name", target))
+        u >> v
+        (problem,) = model.check()
+        assert "u >> Project(" in problem.fix
+        model.disconnect(u, v)
+        text = problem.fix.removeprefix("Write: ").split(" for ")[0]
+        eval(text, names | {a.name: a for a in target} | {"u": u, "model": model})
+        assert not model.check(), text

@@ -223,13 +223,10 @@ class _Resolver:
         both = bool(set(there) - set(here)) and bool(set(here) - set(there))
         if bad or both:
             reason = f"bounds, unit or periodicity of {bad[0]!r} differ" if bad else "axes are missing on both sides"
-            missing, extra = sorted(set(here) - set(there)), sorted(set(there) - set(here))
-            rename = f", rename={{{extra[0]!r}: {missing[0]!r}}}" if both and len(missing) == len(extra) == 1 else ""
-            project = f"{source.path} >> Project([{', '.join(here)}]{rename}) >> {node.path}"
-            if bad:
-                project = f"{source.path} >> Resample([{', '.join(here)}]) >> {node.path}, or give both the same axis"
             self.problem(
-                node.id, f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}: {reason}", f"Write: {project}"
+                node.id,
+                f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}: {reason}",
+                f"Write: {_remedy(source.path, node.path, axes, want, bool(bad))}",
             )
             return None
         key = ",".join(f"{a.name}:{a.samples}" for a in want)
@@ -295,3 +292,21 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
     nodes = resolver.run()
     place = {e.path: k for k, e in enumerate(doc.entries)}
     return nodes, sorted(resolver.problems, key=lambda p: place.get(p.where, len(place)))
+
+
+def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:
+    """The coupling to write between two ports that do not fit."""
+
+    def chain(coupling: str) -> str:
+        ends = [path if path.replace(".", "_").isidentifier() else f"model[{path!r}]" for path in (source, target)]
+        return f"{ends[0]} >> {coupling} >> {ends[1]}"
+
+    names = ", ".join(a.name for a in want)
+    if other_grid:
+        part = f"{chain(f'Resample([{names}])')} for the part they share, or " if [a.name for a in axes] == [a.name for a in want] else ""
+        return f"{part}{chain('Project([])')} for its integral; or give both the same axis"
+    missing = [a for a in want if a.name not in [b.name for b in axes]]
+    extra = [a for a in axes if a.name not in [b.name for b in want]]
+    if len(missing) == len(extra) == 1 and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
+        return chain(f"Project([{names}], rename={{{extra[0].name!r}: {missing[0].name!r}}})")
+    return chain(f"Project([{names}])")
