@@ -96,6 +96,8 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
             continue
         if near and up is not None and down is not None and up != down:
             align = "left" if label == "detection" else "right"
+        elif value < swept.values[0] + 0.2 * np.ptp(swept.values):
+            align = "left"  # centred there it would cover the labels of the axis
         axes.axvline(value, color=color, linewidth=0.7, linestyle=":")
         if near and up == down and label != "detection":
             continue
