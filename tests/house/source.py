@@ -73,5 +73,11 @@ def texts() -> list[Path]:
     """Every text file of the repository that git knows or would take, without what is built or installed."""
     listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True)
     names = [ROOT / line for line in listed.stdout.splitlines()] if listed.returncode == 0 else list(ROOT.rglob("*"))
-    kept = [p for p in names if p.is_file() and p.suffix in TEXT and not NEVER & set(p.relative_to(ROOT).parts)]
+    kept = [p for p in names if p.is_file() and p.suffix in TEXT and not _left_out(p)]
     return sorted(kept)
+
+
+def _left_out(path: Path) -> bool:
+    """Whether a file is no text of ours: tools' folders, and the chunks of records."""
+    parts = path.relative_to(ROOT).parts
+    return bool(NEVER & set(parts)) or any(part.endswith(".zarr") for part in parts)

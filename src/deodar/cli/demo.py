@@ -20,7 +20,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--cue", type=float, action="append", metavar="HUE", help="with --image: a hue to cue, in degrees (0 red, 120 green); may be repeated"
     )
     parser.add_argument("--seed", type=_options.whole, default=0, metavar="N", help="seed of all noise (default 0)")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for what is written (default: a new one in the working folder)")
+    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder for what is written (default: a new one in the working folder)")
     parser.add_argument("--force", action="store_true", help="replace the folder --out that an earlier demo wrote")
     parser.add_argument("--json", action="store_true", help="print the claims as JSON")
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
