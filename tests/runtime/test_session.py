@@ -33,7 +33,11 @@ def test_a_change_acts_from_the_next_step_and_is_journalled() -> None:
     s.step(1)
     assert np.allclose(s.read("u.activation"), 1 + 0.1 * (2 - 1), atol=1e-12)
     assert s.set("u.kernel", [dd.Gaussian(0.5, 2)]) == "recompile"
-    assert [(c.tick, c.what) for c in s.journal] == [(3, "u.resting_level"), (4, "u.kernel")]
+    kept = s.snapshot()
+    s.step(2)
+    s.restore(kept)
+    s.reset()
+    assert [(c.tick, c.what) for c in s.journal] == [(3, "u.resting_level"), (4, "u.kernel"), (6, "restore"), (4, "reset")]
 
 
 def test_dt_changes_without_moving_time() -> None:

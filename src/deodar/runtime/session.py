@@ -57,7 +57,8 @@ class Session:
         trial: which trial of the seed this is; a single run is trial 0.
 
     Attributes:
-        journal: every change of a parameter or of dt, with its tick; with seed and document it repeats the session.
+        journal: every change of a parameter or of dt, every reset and restore, with its tick; with seed and document it repeats the
+            session.
     """
 
     def __init__(
@@ -93,6 +94,7 @@ class Session:
 
     def reset(self) -> None:
         """State, time and noise back to the start; parameters stay."""
+        self.journal.append(Change(self.tick, "reset", 0))
         self._run.reset()
 
     def _to_new_dt(self, most: int) -> int:
@@ -145,6 +147,7 @@ class Session:
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a snapshot, of this session or of another one of the same model."""
+        self.journal.append(Change(self.tick, "restore", snapshot.clock.tick))
         if snapshot.document != self.document:
             self._adopt(snapshot.document)
         self._run.state, self._run.keys = snapshot.state, snapshot.keys
