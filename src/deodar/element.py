@@ -18,6 +18,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 import jax.numpy as jnp
 
+from deodar.errors import ModelError
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.parameters import Part, Recompile
 
@@ -85,6 +86,12 @@ class Element(Part):
     stateful: ClassVar[bool] = False
     linear: ClassVar[bool] = False
 
+    def __rshift__(self, other: object) -> Any:
+        raise ModelError(
+            f"{self.name or type(self).__name__} stands in no model yet, so nothing can be connected to it",
+            fix="Add it first: model.add(...); a chain begins with what was added: u >> dd.Gain(2) >> v",
+        )
+
     # -------------------------------------------------------------------------------- on paper: axes and ports
 
     def ports(self) -> tuple[str, ...]:
@@ -106,6 +113,14 @@ class Element(Part):
 
     def noise_axes(self) -> Axes | None:
         """Axes of the element's noise, or None where it has none now."""
+        return None
+
+    def outside(self) -> str:
+        """Name of code from outside that it runs (then `load` gives that code), or "": not loaded before the document is trusted."""
+        return ""
+
+    def load(self) -> Any:
+        """The code from outside; another one makes another program."""
         return None
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:

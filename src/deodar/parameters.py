@@ -41,13 +41,15 @@ class Declaration:
     neutral: float | None = None
     choices: tuple[str, ...] = ()
     meaning: str = ""
+    off: bool = False
     cost: ClassVar[Cost] = "recompile"
 
 
 class Live(Declaration):
     """A traced leaf: a change takes effect at the next exchange and never recompiles.
 
-    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it recompiles once.
+    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it recompiles once. Where that
+    value is not what small values tend to (a speed limit of 0 means none), `off` says so: reaching it recompiles as well.
     """
 
     cost = "live"
@@ -111,6 +113,7 @@ class Parameter:
     default: Any
     of: type[Any] | None = None
     optional: bool = False
+    off: bool = False
 
     @property
     def traced(self) -> bool:
@@ -195,7 +198,7 @@ def _read(field: dc.Field[Any], hint: Any) -> Parameter:
         default = field.default_factory()
     d = declaration
     return Parameter(
-        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional
+        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off
     )  # fmt: skip
 
 

@@ -166,7 +166,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "a list": (b"[]", ("is not a deodar document: it holds list",)),
     "a number": (b"5", ("is not a deodar document: it holds int",)),
     "null": (b"null", ("is not a deodar document",)),
-    "of another program": (b'{"meta": {"format": 1}, "steps": {}}', ("has no key 'deodar'", "deodar import FILE")),
+    "of another program": (b'{"meta": {"format": 1}, "steps": {}}', ("has no key 'deodar'",)),
     "of another version": (b'{"deodar": 2, "elements": {}}', ("is a document of version 2; this deodar reads version 1", "pip install --upgrade")),
     "of a version in words": (b'{"deodar": "1", "elements": {}}', ("is a document of version '1'",)),
     "of no version": (b'{"deodar": true, "elements": {}}', ("is a document of version True",)),

@@ -38,7 +38,7 @@ def _claims(width: int, height: int) -> bytes:
 
 def test_a_missing_picture(tmp_path: Path) -> None:
     path = tmp_path / "photo.jpg"
-    refused(lambda: Picture(path), WorldError, str(path), "there is no such picture", "--world picture:photo.jpg")
+    refused(lambda: Picture(path), WorldError, str(path), "there is no such picture", "such as a .jpg or .png")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 import deodar as dd
@@ -87,3 +90,29 @@ def test_what_is_no_element_is_refused(model: dd.Model, other: object) -> None:
 def test_an_unknown_port_suggests_the_nearest(model: dd.Model) -> None:
     with pytest.raises(UnknownName, match=r"a has no port 'activaton'.*Did you mean 'activation'"):
         model["a"]["activaton"]
+
+
+def test_one_arrow_is_one_change() -> None:
+    model = dd.Model("m")
+    x = dd.Axis("x", 0, 10, samples=11)
+    u, v = model.add(dd.Field("u", [x])), model.add(dd.Field("v", [x]))
+    before = model.document
+    u >> dd.Gain(2) >> v
+    assert model.undo() and model.undo() and model.document is before
+
+
+@pytest.mark.parametrize("chain", [lambda u: dd.Gain(2) >> u, lambda u: dd.GaussianStimulus("s", []) >> u])
+def test_what_stands_in_no_model_says_so(chain: Callable[[Any], Any]) -> None:
+    model = dd.Model("m")
+    with pytest.raises(ModelError, match="stands in no model yet"):
+        chain(model.add(dd.Field("u", [])))
+
+
+def test_a_document_parameter_and_a_parameter_never_share_a_path() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", []))
+    model.parameter("v.tau", 30)
+    model.link("u.tau", "v.tau")
+    for change in (lambda: model.add(dd.Field("v", [])), lambda: model.rename("u", "v")):
+        with pytest.raises(ModelError, match=r"document parameter is called .v\.tau."):
+            change()

@@ -147,8 +147,7 @@ def isolate(
     axes = tuple(field.axes)
     center = tuple(float(a.points[a.samples // 2]) for a in axes)
     widths = _widths(field, sigma)
-    small = Model(doc.name, time_unit=doc.time_unit)
-    small.trusted = model.trusted
+    small = Model(doc.name, time_unit=doc.time_unit, trusted=model.trusted)
     target = small.add(field)
     for name in ("input", "second"):
         stimulus = GaussianStimulus(name, axes, center=center or 0.0, sigma=widths or 1.0, amplitude=0.0)

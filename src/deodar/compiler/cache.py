@@ -67,6 +67,8 @@ def _processor() -> str:
 def _read(path: Path, lowered: Any) -> Any:
     try:
         payload = path.read_bytes()
+        with contextlib.suppress(OSError):
+            os.utime(path)  # used now: the longest unused go first
         return serialize_executable.deserialize_and_load(payload, lowered.in_tree, lowered.out_tree)
     except FileNotFoundError:
         return None

@@ -105,6 +105,8 @@ class Executable:
         for g, group in enumerate(self.plan.groups):
             columns = [{path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)} for n in group.nodes]
             for path, offset in group.offset.items():
+                for n, c in zip(group.nodes, columns, strict=True):
+                    require_range(doc, (n.id, path), c[path], self.precision)
                 vector[offset : offset + group.rows] = [c[path] for c in columns]
             for path in group.arrays:
                 arrays[array_key(g, path)] = np.stack([np.asarray(c[path], self.program.dtype) for c in columns])
@@ -269,7 +271,8 @@ def executable(
     require_trust(model, doc)
     lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
-    key = (signature(doc), precision, batch, tuple(map(tuple, sweep)), neutral)
+    outside = tuple(e.element.load() for e in doc.entries if e.element.outside())
+    key = (signature(doc), outside, precision, batch, tuple(map(tuple, sweep)), neutral)
     if key not in model.programs:
         problems = model.check() if doc is model.document else check(doc)
         if problems:
@@ -279,6 +282,15 @@ def executable(
             del model.programs[next(iter(model.programs))]
         model.programs[key] = made
     return model.programs[key]
+
+
+def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None:
+    """Refuse a number that the working precision cannot hold."""
+    if abs(value) > float(np.finfo(precision).max):
+        entry = doc.by_id().get(leaf[0])
+        raise ParameterError(
+            f"is {value:g}, beyond what {precision} can hold", where=f"{entry.path if entry else leaf[0]}.{leaf[1]}", fix="Take precision='float64'"
+        )
 
 
 def signature(doc: Document) -> Hashable:
@@ -292,8 +304,8 @@ def require_trust(model: Model, doc: Document) -> None:
     if model.trusted:
         return
     for e in doc.entries:
-        name = getattr(e.element, "function", None)
-        if name is not None:
+        name = e.element.outside()
+        if name:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",
                 where=e.path,

@@ -69,7 +69,8 @@ class Call:
 class Read:
     """Rows of one buffer that are added to rows of one port: a padded table, `rows x most`, of rows of the source.
 
-    Entries equal to the number of the source's rows stand for nothing. Each row sums in the order of the sources' ids.
+    Entries equal to the number of the source's rows stand for nothing. Each row sums in the order of the sources' ids
+    within a group of sources, and group after group in the order of their first ids.
     """
 
     source: tuple[int, str, Instant]

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.leaves import is_neutral
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.convolution import along
@@ -43,7 +44,7 @@ class ColorSpace(Coupling):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="two dimensions of the picture, then hue")] = ()
-    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, meaning="width of the code along hue")] = 0.0
+    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the code along hue")] = 0.0
     darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no colour")] = 0.15
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
@@ -73,7 +74,7 @@ class ColorSpace(Coupling):
         saturation = jnp.where(value < self.darkest, 0.0, saturation)
         distance = at.points(hue_axis) - hue_axis.lower - turn[..., None] * hue_axis.range
         distance = distance - hue_axis.range * jnp.round(distance / hue_axis.range)
-        if isinstance(self.sigma, float):
+        if is_neutral(self.sigma):
             code = jnp.maximum(0.0, 1.0 - jnp.abs(distance) / hue_axis.step)
         else:
             code = jnp.exp(-0.5 * (distance / self.sigma) ** 2)

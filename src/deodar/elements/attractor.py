@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
+from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
@@ -23,7 +24,8 @@ class Attractor(Element):
     Equation:
         linear axis: tau dphi/dt = -phi integral f(x) dx + integral lambda(x) f(x) dx, with lambda(x) = gain x + offset;
         periodic axis (period P, gain and offset not used): tau dphi/dt = P / (2 pi) integral sin(2 pi (x - phi) / P) f(x) dx.
-        f is the input; the integral of f decides how fast phi moves, and that it does not move without a peak.
+        f is the input. Its integral decides how fast phi moves, and that it does not move without a peak; a step longer than the
+        relaxation time tau / integral f goes to the attractor and not beyond.
 
     Parameters:
         axis: the dimension over which the input is defined.
@@ -49,7 +51,7 @@ class Attractor(Element):
     initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
     gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
     offset: Annotated[float, Live("motor", meaning="motor value at axis value 0")] = 0.0
-    fastest: Annotated[float, Live("motor/time", lower=0, neutral=0.0, meaning="largest speed; 0: no limit")] = 0.0
+    fastest: Annotated[float, Live("motor/time", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit")] = 0.0
 
     stateful: ClassVar[bool] = True
 
@@ -71,14 +73,17 @@ class Attractor(Element):
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         phi, f, x = state["phi"], inputs["input"] * self.axis.step, at.points(self.axis)
+        whole = jnp.sum(f)
+        # a step longer than the relaxation time would overshoot: it ends at the attractor
+        share = time.dt / jnp.maximum(self.tau, time.dt * jnp.abs(whole))
         if self.axis.periodic:
             turn = 2 * math.pi / self.axis.range
-            rate = jnp.sum(jnp.sin(turn * (x - phi)) * f) / turn / self.tau
+            move = jnp.sum(jnp.sin(turn * (x - phi)) * f) / turn * share
         else:
-            rate = (jnp.sum((self.gain * x + self.offset) * f) - phi * jnp.sum(f)) / self.tau
-        if not isinstance(self.fastest, float):
-            rate = jnp.clip(rate, -self.fastest, self.fastest)
-        phi = phi + time.dt * rate
+            move = (jnp.sum((self.gain * x + self.offset) * f) - phi * whole) * share
+        if not is_neutral(self.fastest):
+            move = jnp.clip(move, -self.fastest * time.dt, self.fastest * time.dt)
+        phi = phi + move
         if self.axis.periodic:
             phi = self.axis.lower + jnp.mod(phi - self.axis.lower, self.axis.range)
         return {"phi": phi}

@@ -60,7 +60,7 @@ class Field(Element):
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()
     global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the output")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
-    noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, meaning="correlation length of the noise")] = 0.0
+    noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")] = 0.0
 
     stateful: ClassVar[bool] = True
 

@@ -101,6 +101,9 @@ class Function(Element):
             )
         return {"state": at.array(new)}
 
+    def outside(self) -> str:
+        return str(self.function)
+
     def load(self) -> Callable[..., Any]:
         """The function itself. This imports its module: never called before the document is trusted."""
         module, _, path = str(self.function).partition(":")

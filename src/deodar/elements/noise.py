@@ -41,7 +41,7 @@ class Noise(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
     amplitude: Annotated[float, Live("activation", lower=0, meaning="strength")] = 1.0
-    length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, meaning="correlation length")] = 0.0
+    length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length")] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}

@@ -39,6 +39,7 @@ def add(doc: Document, element: Element, group: Names = (), every: int = 1, afte
         group = after.group if after and not group else group
         names = (*group, _free(base, {n[-1] for n in taken if n[:-1] == group}))
     _vacant(doc, names)
+    _unambiguous(doc, names, element)
     path = display(names)
     entry = Entry(stored_id(path, (e.id for e in doc.entries)), names, dc.replace(element, name=names[-1]), every)
     return dc.replace(doc, entries=(*doc.entries, entry), groups=_with_groups(doc.groups, [group])), entry
@@ -64,6 +65,7 @@ def move(doc: Document, ident: str, names: Names) -> Document:
     if names == entry.names:
         return doc
     _vacant(doc, names)
+    _unambiguous(doc, names, entry.element)
     moved = dc.replace(entry, names=names, element=dc.replace(entry.element, name=names[-1]))
     groups = _with_groups(doc.groups, [names[:-1]])
     return dc.replace(doc, entries=tuple(moved if e.id == ident else e for e in doc.entries), groups=groups)
@@ -264,6 +266,11 @@ class History:
         self._future: list[Document] = []
         self.document = document
 
+    @property
+    def depth(self) -> int:
+        """How many changes can be undone."""
+        return len(self._past)
+
     def commit(self, document: Document) -> None:
         """Take a new document; what was undone is forgotten."""
         if document is self.document:
@@ -314,6 +321,14 @@ def _vacant(doc: Document, names: Names) -> None:
             raise ModelError(f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group")
     if display(names) in [k.name for k in doc.knobs]:
         raise ModelError(f"a document parameter is called {display(names)!r}", fix="Give one of them another name")
+
+
+def _unambiguous(doc: Document, names: Names, element: Element) -> None:
+    """Refuse a place at which a parameter of the element would have the path that a document parameter is called by."""
+    path = display(names)
+    for k in doc.knobs:
+        if k.name.startswith(f"{path}.") and k.name[len(path) + 1 :] in [p.name for p in parameters(type(element))]:
+            raise ModelError(f"a document parameter is called {k.name!r}, like a parameter of {path}", fix="Give one of them another name")
 
 
 def require_ticks(every: Any, where: str) -> None:

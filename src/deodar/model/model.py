@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import html
 import sys
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator
 from pathlib import Path
 from typing import Any
 
 from deodar.element import Element
-from deodar.errors import DeodarError, ModelError, Problem, UnknownName
+from deodar.errors import ModelError, ParameterError, Problem, UnknownName
 from deodar.leaves import get
 from deodar.model import edit, files, find
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
-from deodar.model.paths import Names, display, readings, split
+from deodar.model.paths import Names, display, quote, readings, split
 from deodar.parameters import show
 
 
@@ -33,9 +34,10 @@ class Handle:
         return Handle(self.model, self.id, port)
 
     def __rshift__(self, other: Handle | Element) -> Handle:
-        target = other if isinstance(other, Handle) else self.model.add(other, after=self)
-        self.model.connect(self, target)
-        return target
+        if isinstance(other, Handle):
+            self.model.connect(self, other)
+            return other
+        return self.model.follow(self, other)
 
     @property
     def path(self) -> str:
@@ -67,7 +69,8 @@ class Model:
     ) -> None:
         doc = document if document is not None else edit.describe(Document(name), name=name, time_unit=time_unit, dt=dt)
         self.history = edit.History(doc)
-        self.trusted = trusted
+        self._trusted = trusted
+        self._doubted: int | None = None
         self.declared: dict[str, str] = {}
         self.programs: dict[Hashable, Any] = {}
 
@@ -77,76 +80,84 @@ class Model:
         """Add an element and return its handle. `every` is the number of ticks of its own step."""
         near = self.entry(after.id) if after is not None else None
         doc, entry = edit.add(self.document, element, split(group) if group else (), every, near)
-        self.history.commit(doc)
+        self._commit(doc)
         self.declared[entry.id] = _caller()
         return Handle(self, entry.id)
+
+    def follow(self, source: Handle, element: Element) -> Handle:
+        """Add an element that reads `source`, in one change: what `source >> element` does."""
+        entry = self.entry(source.id)
+        doc, new = edit.add(self.document, element, after=entry)
+        self._commit(edit.connect(doc, entry, source.port, new, ""))
+        self.declared[new.id] = _caller()
+        return Handle(self, new.id)
 
     def connect(self, source: Handle | str, target: Handle | str, reads: str = "") -> None:
         """Connect an output port to an input port; `reads` is previous (the default), current or delayed."""
         a, b = self._end(source, "output"), self._end(target, "")
-        self.history.commit(edit.connect(self.document, *a, *b, reads))
+        self._commit(edit.connect(self.document, *a, *b, reads))
 
     def disconnect(self, source: Handle | str, target: Handle | str) -> None:
         """Take a connection away."""
         (a, a_port), (b, b_port) = self._end(source, "output"), self._end(target, "")
         a_port, b_port = a_port or find.outputs(a)[0], b_port or b.element.ports()[0]
-        self.history.commit(edit.disconnect(self.document, a.id, a_port, b.id, b_port))
+        self._commit(edit.disconnect(self.document, a.id, a_port, b.id, b_port))
 
     def remove(self, what: Handle | str) -> None:
         """Take an element, or a group with everything in it, away."""
         if isinstance(what, str) and split(what) in self.document.groups:
-            self.history.commit(edit.remove_group(self.document, split(what)))
+            self._commit(edit.remove_group(self.document, split(what)))
         else:
-            self.history.commit(edit.remove(self.document, [self._entry(what).id]))
+            self._commit(edit.remove(self.document, [self._entry(what).id]))
 
     def rename(self, what: Handle | str, name: str) -> None:
         """Give an element, or a group, another name; its place stays."""
         if isinstance(what, str) and split(what) in self.document.groups:
             names = split(what)
-            self.history.commit(edit.move_group(self.document, names, (*names[:-1], name)))
+            self._commit(edit.move_group(self.document, names, (*names[:-1], name)))
         else:
             entry = self._entry(what)
-            self.history.commit(edit.move(self.document, entry.id, (*entry.group, name)))
+            self._commit(edit.move(self.document, entry.id, (*entry.group, name)))
 
     def move(self, what: Handle | str, group: str) -> None:
         """Put an element, or a group, into another group; "" is the top."""
         to = split(group) if group else ()
         if isinstance(what, str) and split(what) in self.document.groups:
             names = split(what)
-            self.history.commit(edit.move_group(self.document, names, (*to, names[-1])))
+            self._commit(edit.move_group(self.document, names, (*to, names[-1])))
         else:
             entry = self._entry(what)
-            self.history.commit(edit.move(self.document, entry.id, (*to, entry.names[-1])))
+            self._commit(edit.move(self.document, entry.id, (*to, entry.names[-1])))
 
     def group(self, path: str) -> None:
         """Make a group."""
-        self.history.commit(edit.group(self.document, split(path)))
+        self._commit(edit.group(self.document, split(path)))
 
     def ungroup(self, path: str) -> None:
         """Put a group's contents where the group stands."""
         self._group(path)
-        self.history.commit(edit.ungroup(self.document, split(path)))
+        self._commit(edit.ungroup(self.document, split(path)))
 
     def copy(self, group: str, to: str) -> None:
         """Copy a group, with the connections and links inside it, under another path."""
         names, target = self._group(group), split(to)
         inside = [e.id for e in self.document.entries if e.names[: len(names)] == names]
-        self.history.commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
+        self._commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
     def insert(self, template: Model, group: str) -> None:
         """Copy another model into this one, as a group. Functions of one that nobody trusts are not trusted here either."""
         target = split(group)
-        self.history.commit(edit.insert(self.document, template.document, lambda n: target + n))
-        if not template.trusted and any(getattr(e.element, "function", None) is not None for e in template.document.entries):
-            self.trusted = False
+        self._commit(edit.insert(self.document, template.document, lambda n: target + n))
+        if not template.trusted and any(e.element.outside() for e in template.document.entries):
+            self._doubted = self.history.depth  # taken back, the change takes the doubt with it
 
     def set(self, path: str, value: Any) -> None:
         """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`)."""
         found = find.target(self.document, path)
         if found.entry is None:
-            self.history.commit(edit.knob(self.document, found.knob, value))
+            self._commit(edit.knob(self.document, found.knob, value))
         else:
-            self.history.commit(edit.put(self.document, found.entry.id, found.parameter, value))
+            self._commit(edit.put(self.document, found.entry.id, found.parameter, value))
 
     def get(self, path: str) -> Any:
         """The value of a parameter."""
@@ -157,28 +168,28 @@ class Model:
 
     def every(self, what: Handle | str, ticks: int) -> None:
         """Let an element run at a step of so many ticks."""
-        self.history.commit(edit.every(self.document, self._entry(what).id, ticks))
+        self._commit(edit.every(self.document, self._entry(what).id, ticks))
 
     def parameter(self, name: str, value: float) -> None:
         """A named parameter of the document: one knob for everything linked to it."""
-        self.history.commit(edit.knob(self.document, name, value))
+        self._commit(edit.knob(self.document, name, value))
 
     def link(self, path: str, name: str) -> None:
         """Let a document parameter drive a parameter of an element: `model.link("u.tau", "gain")`."""
         found = find.target(self.document, path)
         if found.entry is None:
             raise UnknownName(f"{path!r} is itself a document parameter")
-        self.history.commit(edit.link(self.document, found.entry.id, found.parameter, name))
+        self._commit(edit.link(self.document, found.entry.id, found.parameter, name))
 
     def unlink(self, path: str) -> None:
         """Let a parameter stand for itself again."""
         found = find.target(self.document, path)
         if found.entry is not None:
-            self.history.commit(edit.unlink(self.document, found.entry.id, found.parameter))
+            self._commit(edit.unlink(self.document, found.entry.id, found.parameter))
 
     def describe(self, **values: Any) -> None:
         """Change general properties: name, time_unit, dt, t0, notes."""
-        self.history.commit(edit.describe(self.document, **values))
+        self._commit(edit.describe(self.document, **values))
 
     def undo(self) -> bool:
         """Take the last change back; False where there is none."""
@@ -194,6 +205,11 @@ class Model:
     def document(self) -> Document:
         """The immutable document as it now is."""
         return self.history.document
+
+    @property
+    def trusted(self) -> bool:
+        """Whether functions that the document names may be imported and run."""
+        return self._trusted and (self._doubted is None or self.history.depth < self._doubted)
 
     @property
     def name(self) -> str:
@@ -243,15 +259,20 @@ class Model:
     def _repr_html_(self) -> str:
         by = self.document.by_id()
         rows = "".join(
-            f"<tr><td>{_escape(e.path)}</td><td>{type(e.element).__name__}</td><td>"
-            + _escape(", ".join(by[c.source].path for c in self.document.connections if c.target == e.id))
+            f"<tr><td>{html.escape(e.path)}</td><td>{type(e.element).__name__}</td><td>"
+            + html.escape(", ".join(by[c.source].path for c in self.document.connections if c.target == e.id))
             + "</td></tr>"
             for e in self.document.entries
         )
         head = "<tr><th>element</th><th>kind</th><th>reads from</th></tr>"
-        return f"<b>{_escape(self.name)}</b><table>{head}{rows}</table>"
+        return f"<b>{html.escape(self.name)}</b><table>{head}{rows}</table>"
 
     # -------------------------------------------------------------------------------- inside
+
+    def _commit(self, document: Document) -> None:
+        if self._doubted is not None and self.history.depth < self._doubted:
+            self._doubted = None  # the change that brought it was taken back, and is now forgotten
+        self.history.commit(document)
 
     def _entry(self, what: Handle | str) -> Entry:
         if isinstance(what, str):
@@ -272,6 +293,15 @@ class Model:
         if names not in self.document.groups:
             raise UnknownName(f"there is no group {path!r}", fix=edit.did_you_mean(path, [display(g) for g in self.document.groups]))
         return names
+
+
+def path_of(what: Any) -> str:
+    """A path as text: given as such, or by a handle of an element or port."""
+    if isinstance(what, Handle):
+        return f"{what.path}.{quote(what.port)}" if what.port else what.path
+    if not isinstance(what, str):
+        raise ParameterError(f"{show(what)} is no path", fix="Write it as text: 'u.activation'; or take a handle: u['activation']")
+    return what
 
 
 def save(model: Model, path: str | Path, force: bool = False) -> None:
@@ -295,10 +325,3 @@ def _caller() -> str:
     while frame.f_back is not None and frame.f_code.co_filename.startswith(own):
         frame = frame.f_back
     return f"{Path(frame.f_code.co_filename).name}:{frame.f_lineno}"
-
-
-def _escape(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-
-
-__all__ = ["DeodarError", "Handle", "Mapping", "Model", "load", "save"]

@@ -33,10 +33,8 @@ class _Reader:
     def read(self) -> Document:
         version = self.data.get("deodar")
         if version is None:
-            raise DocumentError(
-                "is not a deodar document: it has no key 'deodar'", fix="Files of other programs are opened with: deodar import FILE -o OUT"
-            )
-        if version != VERSION or isinstance(version, bool):
+            raise DocumentError("is not a deodar document: it has no key 'deodar'")
+        if version != VERSION or not isinstance(version, int) or isinstance(version, bool):
             raise DocumentError(
                 f"is a document of version {show(version)}; this deodar reads version {VERSION}", fix="Type: pip install --upgrade deodar"
             )

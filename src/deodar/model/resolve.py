@@ -68,8 +68,8 @@ class _Resolver:
         self.failed: set[str] = set()
 
     def run(self) -> list[Node]:
-        for entry in self.doc.entries:
-            self.visit(entry.id)
+        for ident in self.upstream_first():
+            self.visit(ident)
         for entry in self.doc.entries:
             node = self.nodes.get(entry.id)
             if node is not None and not node.deferred:
@@ -84,6 +84,23 @@ class _Resolver:
             if node is not None:
                 self.inspect(entry, node)
         return list(self.nodes.values())
+
+    def upstream_first(self) -> list[str]:
+        """Every element after those whose axes it takes over (loops last): however long a chain is, no visit goes deep."""
+        ports = {e.id: self._direct_ports(e.element) for e in self.doc.entries}
+        waits = {i: {c.source for p in found for c in self.into.get((i, p), []) if ports[c.source]} for i, found in ports.items()}
+        feeds: dict[str, list[str]] = {i: [] for i in ports}
+        for i, sources in waits.items():
+            for source in sources:
+                feeds[source].append(i)
+        ready = [i for i, sources in waits.items() if not sources]
+        for i in ready:  # grows while it is read
+            for follower in feeds[i]:
+                waits[follower].discard(i)
+                if not waits[follower]:
+                    ready.append(follower)
+        done = set(ready)
+        return ready + [i for i in ports if i not in done]
 
     def visit(self, ident: str) -> Node | None:
         """The node of an element; deferred ones after their sources, whose axes they may take over."""
@@ -207,6 +224,10 @@ class _Resolver:
             want = axes
         if port == "factor" and "input" in node.ins:
             want = node.ins["input"]
+            if {a.name for a in axes} > {a.name for a in want}:
+                ends = f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}"
+                self.problem(node.id, f"{ends}: it has more axes", "Write: let the two change places; the port 'input' takes the larger one")
+                return
         node.ins[port] = want
         if axes != want:
             fitted = self.fit(source, slot, axes, node, port, want)

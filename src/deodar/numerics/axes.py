@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 
-from deodar.errors import AxesError, Problem
+from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
 from deodar.parameters import is_text, real, show
 
 MOST_SAMPLES = 1_000_000
@@ -43,6 +44,17 @@ class Axis:
     samples: int
     periodic: bool = False
     unit: str = ""
+
+    def __new__(cls, *args: Any, **values: Any) -> Self:
+        names = ("name", "lower", "upper", "samples", "periodic", "unit")
+        strange = [key for key in values if key not in names]
+        if strange:
+            raise UnknownName(f"an axis has no {strange[0]!r}", fix=did_you_mean(strange[0], names))
+        missing = [key for key in names[len(args) : 4] if key not in values]
+        if missing or len(args) > len(names):
+            what = f"needs {', '.join(missing)}" if missing else f"takes {len(names)} values, not {len(args)}"
+            raise AxesError(what, where=f"axis {show(args[0] if args else values.get('name', ''))}", fix="For example Axis('x', 0, 100, samples=101)")
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         for key in ("lower", "upper"):

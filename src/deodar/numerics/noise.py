@@ -27,7 +27,7 @@ STREAM = 0x5EED
 _ROTATIONS = ((13, 15, 26, 6), (17, 29, 16, 24))
 _PARITY = 0x1BD11BDA
 
-# Minimax-like polynomials on the reduced ranges, fitted for float32 (largest error of log 3e-6, of sine 5e-6).
+# Minimax-like polynomials on the reduced ranges, fitted for float32 (largest error of log 7e-5, at 1.5, of sine 5e-6).
 _LOG = (0.9999990, -0.4999706, 0.3335, -0.2519, 0.20685, -0.1584, 0.0754)
 _SINE = (6.2831853, -41.341675, 81.60523, -76.70, 42.0)
 

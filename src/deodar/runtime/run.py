@@ -20,6 +20,8 @@ from deodar.parameters import parameters, real, show
 from deodar.worlds._base import World
 
 Tree = Any
+NEVER = 2**62
+"""A tick that no run reaches."""
 CHUNK_SECONDS = 0.2
 """Wall time between two looks at the outside: progress, Ctrl-C, values that are not finite."""
 
@@ -68,11 +70,10 @@ class Run:
     # -------------------------------------------------------------------------------- what runs
 
     def load(self, program: Executable, doc: Document) -> None:
-        """Take a program and the parameters of a document; the state stays what it is."""
-        self.program = program
-        self.doc = doc
+        """Take a program and the parameters of a document; the state stays what it is. What is refused changes nothing."""
         require_step(doc, self.clock.dt)
-        self.sensors = self._provided()
+        self.sensors = provided(doc, self.world)
+        self.program, self.doc = program, doc
         self.values = program.values(doc, self.swept)
         self.constants = program.prepare(self.values)
 
@@ -83,7 +84,7 @@ class Run:
         if self.world is not None:
             self.world.reset(self.seed)
         self.sensed = self.program.blind()
-        self.read_at = -1
+        self.sense_at = 0
 
     # -------------------------------------------------------------------------------- running
 
@@ -120,7 +121,9 @@ class Run:
                 records = 1 + min((steps - due) // every, capacity - 1, max(0, room) // every)
                 used = gap + (records - 1) * every
                 seen = self._chunk(chunk, {"head": gap, "every": every, "records": records}, used)
-                collect(taken, tuple(np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)] for a in seen))
+                kept = tuple(np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)] for a in seen)
+                self._require_finite(ports, kept, every)
+                collect(taken, kept)
                 taken, done, due = taken + records, done + used, due + records * every
             if progress is not None:
                 progress(done)
@@ -151,7 +154,7 @@ class Run:
         return seen
 
     def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
-        given = {k: np.int32(v) for k, v in counts.items()}
+        given = {k: np.int32(min(v, 2**31 - 1)) for k, v in counts.items()}
         return self.program.call(chunk, self.values, self.constants, state, self.keys, self.sensed, self._now(), given)
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
@@ -173,21 +176,6 @@ class Run:
 
     # -------------------------------------------------------------------------------- worlds
 
-    def _provided(self) -> dict[str, Sensor]:
-        sensors = {e.id: e.element for e in self.doc.entries if isinstance(e.element, Sensor)}
-        by = self.doc.by_id()
-        if self.world is not None and not isinstance(self.world, World):
-            raise WorldError(f"{show(self.world)} is no world", fix="For a picture: world=Picture('photo.jpg') from deodar.worlds.picture")
-        for ident, sensor in sensors.items():
-            if self.world is None:
-                raise WorldError(
-                    f"reads the sensor {sensor.sensor!r}, and no world was given that provides it",
-                    where=by[ident].path,
-                    fix="Give one: world=Picture('photo.jpg') from deodar.worlds.picture, on the command line --world picture:photo.jpg",
-                )
-            self.world.require(sensor.sensor)
-        return sensors
-
     def _period(self) -> int:
         """Ticks between two readings of the world; 0 where it never changes."""
         if self.world is None or self.world.period is None:
@@ -195,17 +183,15 @@ class Run:
         return whole(self.world.period, self.clock.dt, "the world's period")
 
     def _until_sensing(self) -> int:
-        period = self._period() if self.sensors else 0
-        return period - self.clock.tick % period if period else 2**31 - 1
+        return self.sense_at - self.clock.tick if self.sensors and self.sense_at > self.clock.tick else self._period() or NEVER
 
     def _sense(self) -> None:
         if not self.sensors or self.world is None:
             return
-        period = self._period()
-        slot = self.clock.tick // period if period else 0
-        if slot == self.read_at:
+        if self.clock.tick < self.sense_at:
             return
-        self.read_at = slot
+        period = self._period()
+        self.sense_at = (self.clock.tick // period + 1) * period if period else NEVER
         for ident, sensor in self.sensors.items():
             axes = tuple(sensor.axes)
             given = self.world.sense(sensor.sensor, axes, self.clock.time)
@@ -236,13 +222,64 @@ class Run:
             middle = (low + high) // 2
             low, high = (low, middle) if any(b.any() for b in bad(middle)) else (middle, high)
         groups = self.program.plan.groups
-        names = [n.path for g, b in zip(groups, bad(high), strict=True) for r, n in enumerate(g.nodes) if b[..., r].any()]
-        clock = self.clock.after(high)
-        shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
-        raise NotFinite(
-            f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {self.doc.time_unit}, dt {clock.dt:g})",
-            fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
-        )
+        found = [n for g, b in zip(groups, bad(high), strict=True) for r, n in enumerate(g.nodes) if b[..., r].any()]
+        self.state, _, _ = self._call(chunk, before, {"head": low, "every": 0, "records": 0})
+        self.clock = self.clock.after(low)
+        raise _not_finite(self._without_state() or [self._path(n) for n in found], self.clock.after(high - low), self.doc.time_unit)
+
+    def _without_state(self) -> list[str]:
+        """The first element without a state whose output is not finite now: it is what spoils the states that read it."""
+        plan = self.program.plan
+        for call in plan.calls:
+            group = plan.groups[call.group]
+            if call.role == "output" and not group.like.element.stateful:
+                ports = [Port(call.group, r, next(iter(group.like.outs))) for r in range(group.rows)]
+                bad = [n for n, value in zip(group.nodes, self.read(ports), strict=True) if not np.isfinite(value).all()]
+                if bad:
+                    return [self._path(n) for n in bad]
+        return []
+
+    def _require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
+        """Refuse records that are not finite although all states are: a coupling's output may be."""
+        lead = len(self.program.batch.shape)
+        for port, values in zip(ports, kept, strict=True):
+            if not np.isfinite(values).all():
+                spoilt = ~np.isfinite(values).all(axis=tuple(k for k in range(values.ndim) if k != lead))
+                end = self.clock.tick - (values.shape[lead] - 1) * every
+                clock = dc.replace(self.clock, tick=end + int(np.argmax(spoilt)) * every)
+                name = self._path(self.program.plan.groups[port.group].nodes[port.row])
+                raise _not_finite([f"{name}.{port.name}"], clock, self.doc.time_unit)
+
+    def _path(self, node: Any) -> str:
+        """Path of a node in the present document; the program may have been made before it was renamed."""
+        entry = self.doc.by_id().get(node.id)
+        return entry.path if entry is not None else node.path
+
+
+def _not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
+    shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
+    return NotFinite(
+        f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt {clock.dt:g})",
+        fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
+    )
+
+
+def provided(doc: Document, world: World | None) -> dict[str, Sensor]:
+    """The sensors of a document by id, each of which the world must have."""
+    if world is not None and not isinstance(world, World):
+        raise WorldError(f"{show(world)} is no world", fix="For a picture: world=Picture('photo.jpg') from deodar.worlds.picture")
+    sensors: dict[str, Sensor] = {}
+    for e in doc.entries:
+        if isinstance(e.element, Sensor):
+            if world is None:
+                raise WorldError(
+                    f"reads the sensor {e.element.sensor!r}, and no world was given that provides it",
+                    where=e.path,
+                    fix="Give one: world=Picture('photo.jpg') from deodar.worlds.picture, on the command line --world picture:photo.jpg",
+                )
+            world.require(e.element.sensor)
+            sensors[e.id] = e.element
+    return sensors
 
 
 def require_step(doc: Document, dt: float) -> None:
@@ -260,12 +297,17 @@ def require_step(doc: Document, dt: float) -> None:
             )
 
 
-def whole(duration: Any, dt: float, what: str) -> int:
-    """How many steps of dt a duration is; refused unless it is a whole number of them."""
+def require_duration(duration: Any, what: str) -> float:
+    """A span of time as a number, 0 or above."""
     given = real(duration)
     if given is None or not 0 <= given < math.inf:
         raise TimeError(f"{what} is {show(duration)}; it is a number, 0 or above")
-    duration = given
+    return given
+
+
+def whole(duration: Any, dt: float, what: str) -> int:
+    """How many steps of dt a duration is; refused unless it is a whole number of them."""
+    duration = require_duration(duration, what)
     n = duration / dt
     if n > MOST_STEPS:
         raise TimeError(f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS} can be counted")

@@ -3,37 +3,50 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import html
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from deodar.compiler.executable import Executable, executable
+from deodar.compiler.executable import Executable, executable, require_range
 from deodar.compiler.plan import cost
 from deodar.compiler.program import Port, array_key
-from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
+from deodar.errors import ModelError, ParameterError, TimeError
 from deodar.leaves import get, leaves, structure
 from deodar.model import edit, find
 from deodar.model.document import Document
-from deodar.model.model import Model
+from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.runtime import memory
-from deodar.runtime.run import Clock, Run, host, require_step, whole
+from deodar.runtime.run import Clock, Run, host, require_duration, require_step, whole
 from deodar.worlds._base import World
 
 Tree = Any
+Row = Mapping[str, np.ndarray]
+"""The state of one element: its arrays by name."""
 LARGEST_SEED = 2**32 - 1
 
 
 @dc.dataclass(frozen=True)
 class Snapshot:
-    """The whole state of a session at one moment: state, noise, time and parameters."""
+    """The whole state of a session at one moment.
+
+    Attributes:
+        document: the document with its parameters.
+        states: for each element by id its state, and the one that is not yet visible (of parts with a step of their own).
+        clock: tick, time and dt.
+        seed: seed of the noise; with the tick it says all about it.
+        precision: float32 or float64.
+    """
 
     document: Document
-    state: Tree
-    keys: Tree
+    states: Mapping[str, tuple[Row, Row]]
     clock: Clock
     seed: int
+    precision: str
 
 
 @dc.dataclass(frozen=True)
@@ -89,8 +102,12 @@ class Session:
                 left = 0 if self._coming_dt is None else left
 
     def run(self, duration: float) -> None:
-        """So much document time; a whole number of steps."""
-        self.step(whole(duration, self._coming_dt or self.dt, "a duration"))
+        """So much document time; a whole number of steps, each as long as dt is then."""
+        waiting, rest = 0, require_duration(duration, "a duration")
+        if self._coming_dt is not None:  # up to the tick common to all parts the old step still counts
+            waiting = min(-self.tick % self._run.program.plan.ticks, math.floor(rest / self.dt + 1e-9))
+            rest -= waiting * self.dt
+        self.step(waiting + whole(rest, self._coming_dt or self.dt, "a duration"))
 
     def reset(self) -> None:
         """State, time and noise back to the start; parameters stay."""
@@ -113,7 +130,7 @@ class Session:
 
     # -------------------------------------------------------------------------------- looking and changing
 
-    def read(self, path: str) -> np.ndarray:
+    def read(self, path: str | Handle) -> np.ndarray:
         """What a port holds now: an array over the port's axes in their order, of shape () for a node."""
         return self._run.read([self._port(path)])[0]
 
@@ -126,33 +143,44 @@ class Session:
 
     def set(self, path: str, value: Any) -> str:
         """Change a parameter from the next step on; states stay. Returns what it cost: live, rebuild or recompile."""
-        found = find.target(self.document, path)
+        found = find.target(self.document, path_of(path))
         if found.entry is None:
             doc = edit.knob(self.document, found.knob, value)
         else:
             doc = edit.put(self.document, found.entry.id, found.parameter, value)
         cost = self._adopt(doc)
-        self.journal.append(Change(self.tick, path, _plain(value)))
+        self.journal.append(Change(self.tick, path, FrozenArray(value) if isinstance(value, np.ndarray) else value))
         return cost
 
     def edit(self, document: Document) -> str:
         """Go on with another document; elements that stay (by id) keep their states."""
         cost = self._adopt(document)
-        self.journal.append(Change(self.tick, "document", document.name))
+        self.journal.append(Change(self.tick, "document", document))
         return cost
 
     def snapshot(self) -> Snapshot:
         """The whole state, to go back to."""
-        return Snapshot(self.document, host(self._run.state), host(self._run.keys), self._run.clock, self._run.seed)
+        run = self._run
+        return Snapshot(self.document, _rows(run.program, run.state), run.clock, run.seed, self._precision)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a snapshot, of this session or of another one of the same model."""
-        self.journal.append(Change(self.tick, "restore", snapshot.clock.tick))
-        if snapshot.document != self.document:
-            self._adopt(snapshot.document)
-        self._run.state, self._run.keys = snapshot.state, snapshot.keys
-        self._run.clock, self._run.seed, self._run.read_at = snapshot.clock, snapshot.seed, -1
-        self._coming_dt = None
+        if not isinstance(snapshot, Snapshot):
+            raise ParameterError(f"{show(snapshot)} is no snapshot", fix="Take one with session.snapshot()")
+        if snapshot.precision != self._precision:
+            raise ParameterError(f"the snapshot was taken in {snapshot.precision}, this session runs in {self._precision}")
+        if not set(self.document.by_id()) & set(snapshot.document.by_id()):
+            raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
+        self.journal.append(Change(self.tick, "restore", snapshot))
+        run, clock, seed = self._run, self._run.clock, self._run.seed
+        try:
+            run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
+            if snapshot.document != self.document:
+                run.load(executable(self._model, snapshot.document, self._precision), snapshot.document)
+        except BaseException:
+            run.clock, run.seed = clock, seed
+            raise
+        self._fill(snapshot.states)
 
     # -------------------------------------------------------------------------------- properties
 
@@ -163,7 +191,7 @@ class Session:
 
     @property
     def dt(self) -> float:
-        """Euler step; a new one takes effect at the next tick common to all parts."""
+        """Euler step; a new one takes effect (and is read here) at the next tick common to all parts."""
         return self._run.clock.dt
 
     @dt.setter
@@ -198,86 +226,99 @@ class Session:
 
     def _repr_html_(self) -> str:
         d = self.document
-        return f"<b>{d.name}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), dt {self.dt:g}, seed {self.seed}, {self.precision}"
+        return (
+            f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), dt {self.dt:g}, seed {self.seed}, {self.precision}"
+        )
 
     # -------------------------------------------------------------------------------- inside
 
-    def _port(self, path: str) -> Port:
-        entry, name = find.port(self.document, path)
+    def _port(self, path: str | Handle) -> Port:
+        entry, name = find.port(self.document, path_of(path))
         return self._run.program.port(entry.id, name)
 
     def _adopt(self, doc: Document) -> str:
-        old, new = self.document, doc
-        changed = _changed(old, new)
-        if changed is not None and all(self._run.program.holds(leaf) for leaf, _, _ in changed):
-            require_step(new, self.dt)
-            return self._change(new, changed)
-        require_step(new, self.dt)
-        program = executable(self._model, new, self._precision)
-        self._migrate(program, new)
+        run = self._run
+        for step in {run.clock.dt, self._coming_dt or run.clock.dt}:
+            require_step(doc, step)
+        changed = _changed(run.doc, doc)
+        if changed is not None and all(run.program.holds(leaf) and not off for leaf, _, _, off in changed):
+            return self._change(doc, changed)
+        states = _rows(run.program, run.state)
+        run.load(executable(self._model, doc, self._precision), doc)
+        self._fill(states)
         return "recompile"
 
-    def _change(self, doc: Document, changed: list[tuple[tuple[str, str], Any, str]]) -> str:
+    def _change(self, doc: Document, changed: Sequence[Changed]) -> str:
         """New values of leaves the program has: the vector, and `prepare` where they rebuild."""
         run = self._run
         vector, arrays = run.values["vector"].copy(), dict(run.values["arrays"])
-        for leaf, value, _ in changed:
+        for leaf, value, _, _ in changed:
             if isinstance(value, np.ndarray):
                 g, r = run.program.plan.row[leaf[0]]
                 rows = arrays[array_key(g, leaf[1])].copy()
                 rows[r] = value
                 arrays[array_key(g, leaf[1])] = rows
             else:
+                require_range(run.doc, leaf, value, self._precision)
                 vector[run.program.place(leaf)] = value
         values = run.values | {"vector": vector, "arrays": arrays}
-        costs = {cost for _, _, cost in changed}
+        costs = {cost for _, _, cost, _ in changed}
         if "rebuild" in costs:
             run.constants = run.program.prepare(values)
         run.values, run.doc = values, doc
         return "rebuild" if "rebuild" in costs else "live"
 
-    def _migrate(self, program: Executable, doc: Document) -> None:
-        """Take over a new program: states are kept by id where their shapes are the same, others start anew."""
+    def _fill(self, states: Mapping[str, tuple[Row, Row]]) -> None:
+        """States by id into the present program, where their shapes are the same; others start anew. Noise follows from seed and tick."""
         run = self._run
-        old_plan, old = run.program.plan, host(run.state)
-        run.load(program, doc)
-        fresh, run.keys = program.init(run.values, run.seed, run.trials)
+        fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
         state = host(fresh)
-        for ident, (g, r) in program.plan.row.items():
-            if ident not in old_plan.row:
-                continue
-            og, orow = old_plan.row[ident]
-            _copy_row(old["groups"][og], orow, state["groups"][g], r)
-            if str(g) in state["held"]:
-                source = old["held"].get(str(og), old["groups"][og])
-                _copy_row(source, orow, state["held"][str(g)], r)
+        for ident, (g, r) in run.program.plan.row.items():
+            if ident in states:
+                shown, held = states[ident]
+                _copy_row(shown, state["groups"][g], r)
+                if str(g) in state["held"]:
+                    _copy_row(held, state["held"][str(g)], r)
         run.state = state
-        run.sensed, run.read_at = program.blind(), -1
+        run.sensed, run.sense_at = run.program.blind(), 0
 
 
-def _copy_row(source: Tree, row: int, target: Tree, to: int) -> None:
+def _rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
+    """The state of every element by id: what is shown, and what is held until it is due (the same where nothing is held)."""
+    here = host(state)
+    out: dict[str, tuple[Row, Row]] = {}
+    for ident, (g, r) in program.plan.row.items():
+        shown = {name: values[r] for name, values in here["groups"][g].items()}
+        held = {name: values[r] for name, values in here["held"].get(str(g), here["groups"][g]).items()}
+        out[ident] = (shown, held)
+    return out
+
+
+def _copy_row(source: Row, target: Tree, row: int) -> None:
     for name, values in source.items():
-        if name in target and target[name].shape[1:] == values.shape[1:]:
-            target[name][to] = values[row]
+        if name in target and target[name].shape[1:] == values.shape:
+            target[name][row] = values
 
 
-def _changed(old: Document, new: Document) -> list[tuple[tuple[str, str], Any, str]] | None:
+Changed = tuple[tuple[str, str], Any, str, bool]
+"""A leaf with another value: (id, path), value, cost, and whether that value switches something off."""
+
+
+def _changed(old: Document, new: Document) -> list[Changed] | None:
     """Leaves with another value, and what each costs; None where more than leaves changed."""
     if old.connections != new.connections or [(e.id, e.every) for e in old.entries] != [(e.id, e.every) for e in new.entries]:
         return None
-    out: list[tuple[tuple[str, str], Any, str]] = []
+    out: list[Changed] = []
     for before, after in zip(old.entries, new.entries, strict=True):
         if before.element is after.element:
             continue
         if structure(before.element) != structure(after.element):
             return None
         was = {path: value for path, value, _ in leaves(before.element)}
-        out += [((after.id, path), value, cost(p)) for path, value, p in leaves(after.element) if np.any(value != was[path])]
+        out += [
+            ((after.id, path), value, cost(p), p.off and value == p.neutral) for path, value, p in leaves(after.element) if np.any(value != was[path])
+        ]
     return out
-
-
-def _plain(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else f"array {value.digest}" if isinstance(value, FrozenArray) else value
 
 
 def require_model(model: Any) -> Model:
@@ -292,6 +333,3 @@ def require_seed(seed: Any) -> int:
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed <= LARGEST_SEED:
         raise ParameterError(f"a seed (or trial) is a whole number from 0 to 2^32 - 1, not {show(seed)}")
     return int(seed)
-
-
-__all__ = ["Change", "Session", "Snapshot", "UnknownName"]

@@ -18,7 +18,7 @@ from deodar.errors import Interrupted, ParameterError, TimeError
 from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import Document
-from deodar.model.model import Model
+from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import real, show
@@ -138,6 +138,7 @@ class _Points:
             if not given or len(found) < len(given):
                 raise ParameterError(f"needs a list of numbers, not {show(values)}", where=f"sweep of {path}")
             self.leaves.append(_driven(doc, path))
+            _require_on(doc, path, self.leaves[-1], values)
             lists.append(found)
         self.lists = lists
         self.size = math.prod(len(v) for v in lists)
@@ -167,6 +168,19 @@ class _Points:
         by = self.doc.by_id()
         costs = {(i, path): cost(p) for i in {i for found in self.leaves for i, _ in found} for path, _, p in leaves(by[i].element)}
         return {i for found in self.leaves for i, path in found if costs[i, path] == "rebuild"}
+
+
+def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequence[float]) -> None:
+    """Refuse values that switch something off among values that do not: they are not one program."""
+    by = doc.by_id()
+    for ident, inner in driven:
+        declared = {leaf: p for leaf, _, p in leaves(by[ident].element)}[inner]
+        if declared.off and any(v == declared.neutral for v in values):
+            raise ParameterError(
+                f"the value {declared.neutral:g} switches it off, which is another program and not the limit of small values",
+                where=f"sweep of {path}",
+                fix="Run that value on its own",
+            )
 
 
 def _driven(doc: Document, path: str) -> list[Leaf]:
@@ -211,7 +225,8 @@ def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str,
 
 
 def _list(record: Sequence[str] | str) -> list[str]:
-    paths: list[Any] = [record] if isinstance(record, str) or not np.iterable(record) else list(record)
+    paths: list[Any] = [record] if isinstance(record, (str, Handle)) or not np.iterable(record) else list(record)
+    paths = [path_of(p) if isinstance(p, Handle) else p for p in paths]
     if not all(isinstance(path, str) for path in paths):
         raise ParameterError(f"record names ports by their paths, not {show(record)}", fix="For example record=['u.activation']")
     return paths

@@ -129,7 +129,7 @@ def _read(path: Path) -> np.ndarray:
     from PIL import Image, UnidentifiedImageError
 
     if not os.path.isfile(path):
-        raise WorldError("there is no such picture", where=str(path), fix="Name a picture file, for example --world picture:photo.jpg")
+        raise WorldError("there is no such picture", where=str(path), fix="Name a file that Pillow can read, such as a .jpg or .png")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # the bound below is ours

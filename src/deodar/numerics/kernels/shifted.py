@@ -31,8 +31,8 @@ class Shifted(Kernel):
         One number for each distance; any number of axes.
 
     Reference:
-        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), eqs. 4-6 (the
-        shifted couplings of its plan).
+        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), appendix A
+        (the shifts between its fields).
     """
 
     kernel: Annotated[Kernel, Recompile(meaning="the inner kernel")] = Gaussian()
