@@ -152,6 +152,9 @@ class Part:
         """Further things wrong with the values together: (parameter, what). For leaves to add to."""
         return iter(())
 
+    short: ClassVar[str] = ""
+    """How it may be written in short, for messages."""
+
     @classmethod
     def accept(cls, value: Any) -> Any:
         """What may stand for an instance, made into one: for parts with a short way of writing them."""
@@ -314,7 +317,8 @@ def _declared(p: Parameter, value: Any) -> Any:
     if not isinstance(value, p.of) and issubclass(p.of, Part):
         value = p.of.accept(value)
     if not isinstance(value, p.of):
-        raise ValueError(f"needs {an(p.of.__name__)}, not {show(value)}")
+        short = f"; {p.of.short}" if issubclass(p.of, Part) and p.of.short else ""
+        raise ValueError(f"needs {an(p.of.__name__)}, not {show(value)}{short}")
     return value
 
 

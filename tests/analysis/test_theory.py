@@ -76,12 +76,9 @@ def test_the_width_that_separates_growth_from_decay(a: float, sigma: float, c: f
         x = np.asarray(one.axes[0].points) - LENGTH / 2
         shape = h + sum(w(x - y, a, sigma, c) * step for y in np.arange(-width / 2 + step / 2, width / 2, step))
         start = one.snapshot()
-        group, row = one.session._run.program.plan.row[one.session.document.by_names()[("field",)].id]
-        state = {**start.state, "groups": [dict(g) for g in start.state["groups"]]}
-        values = np.array(state["groups"][group]["activation"])
-        values[row] = shape
-        state["groups"][group]["activation"] = values
-        one.restore(dc.replace(start, state=state))
+        ident = one.session.document.by_names()[("field",)].id
+        row = {"activation": shape}
+        one.restore(dc.replace(start, states={**start.states, ident: (row, row)}))
         one.settle()
         found = one.peaks()
         assert bool(found) == grows, (width, unstable)

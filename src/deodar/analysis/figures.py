@@ -90,6 +90,8 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
     axes.set_ylim(bottom, top + 0.12 * (top - bottom))
     up, down = found.detection, found.reverse
     marks = [(up, "detection", BLUE, "center"), (down, "reverse detection", VERMILION, "center")]
+    if found.graded:  # no instability: one mark, where activation crosses the threshold
+        down, marks = None, [(up, "crosses the threshold", BLUE, "center")]
     near = up is not None and down is not None and abs(up - down) < 0.35 * np.ptp(swept.values)
     for value, label, color, align in marks:
         if value is None:
@@ -99,8 +101,6 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
         elif value < swept.values[0] + 0.2 * np.ptp(swept.values):
             align = "left"  # centred there it would cover the labels of the axis
         axes.axvline(value, color=color, linewidth=0.7, linestyle=":")
-        if near and up == down and label != "detection":
-            continue
         axes.annotate(
             f"{label}\n{value:.3g}", (value, 1.0), xycoords=("data", "axes fraction"), ha=align, va="top", color=color, fontsize=7,
             xytext=({"left": 3, "right": -3}.get(align, 0), 0), textcoords="offset points", backgroundcolor=(1, 1, 1, 0.8),
@@ -139,10 +139,9 @@ def _profile(axes: Any, found: Regimes, pattern: np.ndarray, color: str, style: 
 def _phases(axes: Any, found: Regimes) -> None:
     field = found.isolated.field
     inputs = [(0.0, BLACK, "no input")]
-    marks = (("detection", found.detection, BLUE), ("reverse detection", found.reverse, VERMILION))
+    marks = [("detection", found.detection, BLUE), ("reverse detection", found.reverse, VERMILION)]
+    marks = [("the threshold", found.detection, BLUE)] if found.graded else marks
     inputs += [(value, color, f"at {label}, input {value:.3g}") for label, value, color in marks if value is not None]
-    if found.detection is not None and found.reverse == found.detection:
-        inputs = inputs[:2]
     each = [phase(field, value) for value, _, _ in inputs]
     span = (min(p.u[0] for p in each), max(p.u[-1] for p in each))
     plots = [(phase(field, value, span), color, label) for value, color, label in inputs]

@@ -74,6 +74,11 @@ class Regimes:
         return (float(low), up.value)
 
     @property
+    def graded(self) -> bool:
+        """Whether activation grows through the threshold without a jump: there is no detection instability."""
+        return self.thresholds.detection is not None and not self.thresholds.detection.jump
+
+    @property
     def self_sustained(self) -> bool:
         """Whether a peak outlives its input, and stays a peak."""
         return self.memory is not None and self.memory.outlives and not self.unbounded

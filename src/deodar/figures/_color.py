@@ -19,14 +19,16 @@ NEARLY_FLAT = 1e-9
 def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
     """The colour scale of some arrays.
 
-    Activation that crosses its threshold gets a diverging map: white at the threshold, blue below, red above, equal steps of
-    activation being equal steps of colour on both sides of it. Everything else gets a sequential one.
+    Activation gets a diverging map: white at the threshold, blue below, red above, equal steps of activation being equal steps of
+    colour on both sides of it. The threshold is always part of it, or the noise of a silent field would look like peaks. Everything
+    else gets a sequential map.
     """
     every = [np.asarray(a, float) for a in arrays]
     low, high = min(float(np.nanmin(a)) for a in every), max(float(np.nanmax(a)) for a in every)
     if high - low <= NEARLY_FLAT * max(1.0, abs(low), abs(high)):
         low, high = low - 0.5, high + 0.5
-    if threshold is not None and low < threshold < high:
+    if threshold is not None:
+        low, high = min(low, threshold), max(high, threshold)
         reach = max(threshold - low, high - threshold)
         return ScalarMappable(Normalize(low, high), _part(_style.DIVERGING, (low - threshold) / reach, (high - threshold) / reach))
     return ScalarMappable(Normalize(low, high), _style.SEQUENTIAL)

@@ -116,6 +116,9 @@ class View:
         if self.trial is not None and TRIAL in v.dims:
             v = v.sel({TRIAL: self.trial})
         for path, value in (self.where or {}).items():
+            known = v[path].values
+            if not np.isclose(known, value, rtol=1e-6).any():
+                raise RecordError(f"was not run at {path} = {value:g}", where=self.name, fix=f"There is: {', '.join(f'{k:g}' for k in known[:12])}")
             v = v.sel({path: value}, method="nearest")
         return v
 

@@ -77,4 +77,8 @@ def _nearest(view: View, place: np.ndarray) -> tuple[int, ...]:
         raise RecordError(
             f"a place has {len(view.space)} numbers ({', '.join(view.space)}), not {len(place)}", where=view.name, fix="For example --place 30,5"
         )
+    for d, p in zip(view.space, place, strict=True):
+        low, high = view.extent(d)
+        if not low <= p <= high:
+            raise RecordError(f"{p:g} lies outside {d}, which goes from {low:g} to {high:g}", where=view.name)
     return tuple(int(np.abs(view.points(d) - p).argmin()) for d, p in zip(view.space, place, strict=True))

@@ -77,7 +77,11 @@ class Model:
     # -------------------------------------------------------------------------------- building
 
     def add(self, element: Element, group: str = "", every: int = 1, after: Handle | None = None) -> Handle:
-        """Add an element and return its handle. `every` is the number of ticks of its own step."""
+        """Add an element and return its handle.
+
+        `every` is the number of ticks of its own step. Elements without a state (couplings, stimuli) have no step: they follow their inputs
+        at every tick; noise is drawn anew every so many ticks.
+        """
         near = self.entry(after.id) if after is not None else None
         doc, entry = edit.add(self.document, element, split(group) if group else (), every, near)
         self._commit(doc)

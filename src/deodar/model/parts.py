@@ -108,7 +108,8 @@ def _from_json(
     try:
         cls = registry.kind(data["kind"])
     except UnknownName as error:
-        problems.append(Problem(where, error.problems[0].what, error.problems[0].fix))
+        own = "If it is one of your own, import its module before the document is loaded"
+        problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
         return None
     if not issubclass(cls, base):
         problems.append(Problem(where, f"{an(cls.__name__)} cannot stand here, where {an(base.__name__)} belongs"))

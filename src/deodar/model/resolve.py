@@ -108,8 +108,12 @@ class _Resolver:
             return self.nodes[ident]
         entry = self.entries[ident]
         if ident in self.visiting:
-            ring = self.visiting[self.visiting.index(ident) :]
-            loop = " -> ".join(self.entries[i].path for i in [*reversed(ring), ring[-1]])
+            ring = self.visiting[self.visiting.index(ident) :][::-1]
+            first = ring.index(min(ring, key=lambda i: self.entries[i].path))
+            ring = ring[first:] + ring[:first]  # told once, whichever of its elements was met first
+            loop = " -> ".join(self.entries[i].path for i in [*ring, ring[0]])
+            self.failed.add(ident)
+            ident = ring[0]
             if self.delayed & {*ring}:
                 what = f"the axes of a loop follow only from themselves and are unknown: {loop}"
                 self.problem(ident, what, "Connect something to it whose axes are known, or put a Project into it")

@@ -64,7 +64,9 @@ def bits(cells: int, key: Any, block: Any) -> tuple[Array, Array]:
 def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
     """Standard normal deviates of one tick, computed in `dtype`.
 
-    Block `tick // 2` gives a pair of deviates for each cell (in C order): the first on even ticks, the second on odd.
+    Block `tick // 2` gives two words a, b for each cell (in C order). With u = (a >> 9 + 1/2) / 2^23 and v the same of b, the pair is
+    sqrt(-2 ln u) sin(2 pi v), the first, on even ticks, and sqrt(-2 ln u) cos(2 pi v), the second, on odd ones. The 23 bits are
+    those that float32 holds exactly, so that both precisions draw the same numbers; the formula is then computed in `dtype`.
     """
     a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
     odd = (tick & jnp.uint32(1)).astype(bool)

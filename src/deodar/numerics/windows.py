@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from deodar.parameters import Live, Part
 from deodar.registry import register
@@ -34,6 +34,8 @@ class Window(Part):
 
     start: Annotated[float, Live("time", meaning="first moment")] = 0.0
     stop: Annotated[float, Live("time", meaning="first moment at which it is off again")] = FOR_EVER
+
+    short: ClassVar[str] = "a pair stands for it: windows=[(100, 400)]"
 
     @classmethod
     def accept(cls, value: Any) -> Any:

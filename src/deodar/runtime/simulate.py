@@ -15,7 +15,7 @@ from deodar.compiler.plan import Leaf, cost
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
 from deodar.errors import Interrupted, ParameterError, TimeError
-from deodar.leaves import leaves
+from deodar.leaves import get, leaves
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -190,6 +190,7 @@ def _driven(doc: Document, path: str) -> list[Leaf]:
         if not links:
             raise ParameterError(f"the document parameter {path!r} drives nothing", fix="Link something to it: model.link(path, name)")
         return list(links)
+    get(found.entry.element, found.parameter)
     known = {leaf: p for leaf, _, p in leaves(found.entry.element) if p.form != "array"}
     inside = [leaf for leaf in known if leaf == found.parameter or leaf.startswith(found.parameter + ".")]
     if not inside:
