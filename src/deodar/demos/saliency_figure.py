@@ -16,6 +16,7 @@ from deodar.figures._style import figure as sheet
 
 ROW = 1.75
 WIDTH = 9.6
+EXPLAINED = "white line: threshold\narrow: cued hue\ncircle: peak\ndotted boxes: right places,\n  marked by a person\ndotted lines: spatial peak"
 LOWEST, HIGHEST = -6.0, 4.0
 """Activation at the ends of the colour scale, the same in all pictures, so that they can be compared."""
 
@@ -46,6 +47,8 @@ def figure(result: Result) -> Figure:
         bar = out.colorbar(image, cax=grid[0, 3].inset_axes((0.02, 0.12, 0.045, 0.8)))
         bar.set_label("activation (0: threshold)")
         bar.ax.axhline(0, color="white", linewidth=1)
+        told = grid[0, 3].text(0.34, 0.92, EXPLAINED, va="top", fontsize=6.5, linespacing=1.6, transform=grid[0, 3].transAxes)
+        told.set_in_layout(False)
     return out
 
 
