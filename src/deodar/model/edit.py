@@ -174,6 +174,12 @@ def put(doc: Document, ident: str, path: str, value: Any) -> Document:
     return _put(doc, ident, path, value)
 
 
+def change(doc: Document, path: str, value: Any) -> Document:
+    """A document with another value of what a path names: a parameter of an element, or a document parameter."""
+    found = find.target(doc, path)
+    return knob(doc, found.knob, value) if found.entry is None else put(doc, found.entry.id, found.parameter, value)
+
+
 def every(doc: Document, ident: str, ticks: int) -> Document:
     """A document in which an element runs at another step."""
     require_ticks(ticks, doc.by_id()[ident].path)

@@ -157,11 +157,7 @@ class Model:
 
     def set(self, path: str, value: Any) -> None:
         """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`)."""
-        found = find.target(self.document, path)
-        if found.entry is None:
-            self._commit(edit.knob(self.document, found.knob, value))
-        else:
-            self._commit(edit.put(self.document, found.entry.id, found.parameter, value))
+        self._commit(edit.change(self.document, path, value))
 
     def get(self, path: str) -> Any:
         """The value of a parameter."""

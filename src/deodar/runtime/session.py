@@ -143,11 +143,8 @@ class Session:
 
     def set(self, path: str, value: Any) -> str:
         """Change a parameter from the next step on; states stay. Returns what it cost: live, rebuild or recompile."""
-        found = find.target(self.document, path_of(path))
-        if found.entry is None:
-            doc = edit.knob(self.document, found.knob, value)
-        else:
-            doc = edit.put(self.document, found.entry.id, found.parameter, value)
+        path = path_of(path)
+        doc = edit.change(self.document, path, value)
         cost = self._adopt(doc)
         self.journal.append(Change(self.tick, path, FrozenArray(value) if isinstance(value, np.ndarray) else value))
         return cost

@@ -157,11 +157,7 @@ class _Points:
         """The document at each value of each entry (not each point): values are checked one by one."""
         for path, values in zip(self.paths, self.lists, strict=True):
             for value in values:
-                found = find.target(self.doc, path)
-                if found.entry is None:
-                    yield edit.knob(self.doc, found.knob, value)
-                else:
-                    yield edit.put(self.doc, found.entry.id, found.parameter, value)
+                yield edit.change(self.doc, path, value)
 
     def rebuilt(self) -> set[str]:
         """Ids of the elements whose constants differ from point to point."""
