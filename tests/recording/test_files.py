@@ -29,6 +29,16 @@ def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
 
+def test_other_programs_open_it_without_a_warning(data: xarray.Dataset, tmp_path: Path) -> None:
+    plain = data[["u.activation"]]
+    files.save(plain, tmp_path / "record.zarr")
+    files.save(plain, tmp_path / "record.nc")
+    for opened in (xarray.open_zarr(tmp_path / "record.zarr"), xarray.open_dataset(tmp_path / "record.nc", engine="scipy")):
+        assert opened["u.activation"].dims == plain["u.activation"].dims
+        assert np.array_equal(opened["u.activation"].values, plain["u.activation"].values)
+        opened.close()
+
+
 def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) -> None:
     path = files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
     rows = [r for r in csv.reader(line for line in path.read_text().splitlines() if not line.startswith("#"))]

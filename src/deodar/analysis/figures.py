@@ -17,7 +17,9 @@ from deodar.numerics.axes import Axis
 
 # Okabe & Ito's colours, which people of every colour vision can tell apart
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, GREY = "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#999999"
-FORMATS = (".png", ".svg")
+FORMATS = (".png", ".svg", ".pdf")
+UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+"""The same figure gives the same file."""
 
 STYLE: Any = {
     "font.size": 8.0,
@@ -64,17 +66,17 @@ def save(figure: Figure, path: Path) -> None:
     """Write a figure; the ending of the name decides how.
 
     Raises:
-        OutputError: if the ending is neither .png nor .svg.
+        OutputError: if the ending is none of FORMATS.
     """
     require_format(path)
     with rc_context(STYLE):
-        figure.savefig(path, dpi=300, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
+        figure.savefig(path, dpi=300, metadata=UNDATED.get(path.suffix.lower()))
 
 
 def require_format(path: Path) -> None:
     """Refuse a file ending that no figure is written as."""
     if path.suffix.lower() not in FORMATS:
-        raise OutputError(f"a figure is written as {' or '.join(FORMATS)}, not as {path.suffix or 'a file without an ending'}", where=str(path))
+        raise OutputError(f"a figure is written as {', '.join(FORMATS)}, not as {path.suffix or 'a file without an ending'}", where=str(path))
 
 
 # ------------------------------------------------------------------------------------------------ panels

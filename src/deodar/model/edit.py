@@ -35,7 +35,7 @@ def add(doc: Document, element: Element, group: Names = (), every: int = 1, afte
     if element.name:
         names = (*group, element.name)
     else:
-        base = f"{after.names[-1] if after else ''}>{type(element).__name__}"
+        base = f"{after.names[-1]}>{type(element).__name__}" if after else type(element).__name__
         group = after.group if after and not group else group
         names = (*group, _free(base, {n[-1] for n in taken if n[:-1] == group}))
     _vacant(doc, names)

@@ -143,13 +143,20 @@ class Model:
         self._commit(edit.ungroup(self.document, split(path)))
 
     def copy(self, group: str, to: str) -> None:
-        """Copy a group, with the connections and links inside it, under another path."""
+        """Copy a group, with the connections and links inside it, under another path.
+
+        One element is copied by `model.add(model["u"].element, group="other")`.
+        """
         names, target = self._group(group), split(to)
         inside = [e.id for e in self.document.entries if e.names[: len(names)] == names]
         self._commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
     def insert(self, template: Model, group: str) -> None:
-        """Copy another model into this one, as a group. Functions of one that nobody trusts are not trusted here either."""
+        """Copy another model into this one, as a group.
+
+        Document parameters come along; one whose name this model has already is shared, at the value it has here. Functions of a model
+        that nobody trusts are not trusted here either.
+        """
         target = split(group)
         self._commit(edit.insert(self.document, template.document, lambda n: target + n))
         if not template.trusted and any(e.element.outside() for e in template.document.entries):

@@ -6,6 +6,7 @@ Writing goes beside the final place and is renamed: a record is there whole, or 
 from __future__ import annotations
 
 import stat
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -161,7 +162,10 @@ def is_zarr(path: Path) -> bool:
 
 
 def _write_zarr(data: xarray.Dataset, path: Path) -> None:
-    portable.pack(data, narrow=False).to_zarr(path, mode="w", zarr_format=3, consolidated=False)
+    with warnings.catch_warnings():
+        # other programs open a record at once, and without a warning, where its metadata stand in one place
+        warnings.filterwarnings("ignore", message="Consolidated metadata")
+        portable.pack(data, narrow=False).to_zarr(path, mode="w", zarr_format=3, consolidated=True)
 
 
 def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
