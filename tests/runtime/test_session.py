@@ -180,6 +180,14 @@ def test_a_world_is_sensed_at_its_own_period_however_the_run_is_cut() -> None:
     for n in (1, 2, 5, 7):
         s.step(n)
         assert s.read("eye.output")[0] == expected[s.tick]
+    early = dd.Session(model, world=Ramp())
+    early.step(6)
+    kept = early.snapshot()
+    early.step(7)
+    early.restore(kept)  # inside a period: it sees again what it saw there
+    for _ in range(9):
+        assert early.read("eye.output")[0] == expected[early.tick]
+        early.step(1)
     s.reset()
     assert s.read("eye.output")[0] == 0
 

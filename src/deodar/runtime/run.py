@@ -183,7 +183,13 @@ class Run:
         return whole(self.world.period, self.clock.dt, "the world's period")
 
     def _until_sensing(self) -> int:
-        return self.sense_at - self.clock.tick if self.sensors and self.sense_at > self.clock.tick else self._period() or NEVER
+        """Steps until the world is to be read again."""
+        if not self.sensors:
+            return NEVER
+        if self.sense_at > self.clock.tick:
+            return self.sense_at - self.clock.tick
+        period = self._period()
+        return period - self.clock.tick % period if period else NEVER
 
     def _sense(self) -> None:
         if not self.sensors or self.world is None:
@@ -191,10 +197,12 @@ class Run:
         if self.clock.tick < self.sense_at:
             return
         period = self._period()
-        self.sense_at = (self.clock.tick // period + 1) * period if period else NEVER
+        late = self.clock.tick % period if period else 0  # after going back to a snapshot, inside a period
+        moment = self.clock.time - late * self.clock.dt
+        self.sense_at = self.clock.tick - late + period if period else NEVER
         for ident, sensor in self.sensors.items():
             axes = tuple(sensor.axes)
-            given = self.world.sense(sensor.sensor, axes, self.clock.time)
+            given = self.world.sense(sensor.sensor, axes, moment)
             try:
                 reading = np.asarray(given, self.program.program.dtype)
             except (TypeError, ValueError):  # no numbers
