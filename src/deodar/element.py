@@ -123,8 +123,8 @@ class Element(Part):
         """The code from outside; another one makes another program."""
         return None
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
-        """What does not fit between the parameters and the axes at the ports; checked before compiling."""
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        """What does not fit between the parameters and the axes at the ports, with what to type if it is not another connection."""
         return iter(())
 
     # -------------------------------------------------------------------------------- in the compiled program

@@ -48,10 +48,10 @@ class Weighting(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         if given != shape(self.axes):
-            yield f"weights has shape {list(given)}, its axes have {list(shape(self.axes))} samples"
+            yield f"weights has shape {list(given)}, its axes have {list(shape(self.axes))} samples", "Give weights of that shape"
 
     def prepare(self, at: Setting) -> Any:
         return {"weights": at.array(self.weights)}

@@ -49,11 +49,11 @@ class Weights(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         needed = shape(self.axes) + shape(ins["input"])
         if given != needed:
-            yield f"weights has shape {list(given)}; target and source samples make {list(needed)}"
+            yield f"weights has shape {list(given)}; target and source samples make {list(needed)}", "Give weights of that shape"
 
     def prepare(self, at: Setting) -> Any:
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}

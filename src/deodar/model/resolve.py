@@ -273,7 +273,7 @@ class _Resolver:
         if node.id in self.failed:
             return  # what does not arrive as it should would only show once more
         for what in entry.element.misfits(node.ins):
-            self.problem(node.id, *self.between(node, what))
+            self.problem(node.id, *(what if isinstance(what, tuple) else self.between(node, what)))
         clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
         if clash:
             self.problem(node.id, f"a port and a parameter are both called {sorted(clash)[0]!r}", "Rename one of them in the element's class")
