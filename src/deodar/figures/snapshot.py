@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
 from deodar.errors import RecordError
-from deodar.figures import _color, _lines, _map, _style
+from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._view import TIME, TRIAL, View
 
 ACROSS = False
@@ -25,11 +25,7 @@ def draw(variable: xarray.DataArray, **view: Any) -> Figure:
         variable: a variable of a record, of up to two dimensions.
         view: see `deodar.figures._view.View`: at, trial, where.
     """
-    looked = View(variable, **view)
-    with _style.style():
-        figure = _style.figure(*size(looked))
-        fill(figure, looked)
-    return figure
+    return _draw.alone(size, fill, variable, view)
 
 
 def suits(view: View) -> bool:

@@ -9,7 +9,7 @@ import xarray
 from matplotlib.figure import Figure, FigureBase
 
 from deodar.errors import RecordError
-from deodar.figures import _color, _lines, _map, _style
+from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._view import View
 
 ACROSS = False
@@ -27,11 +27,7 @@ def draw(variable: xarray.DataArray, **view: Any) -> Figure:
         variable: a variable of a record.
         view: see `deodar.figures._view.View`: at, trial, where.
     """
-    looked = View(variable, **view)
-    with _style.style():
-        figure = _style.figure(*size(looked))
-        fill(figure, looked)
-    return figure
+    return _draw.alone(size, fill, variable, view)
 
 
 def suits(view: View) -> bool:

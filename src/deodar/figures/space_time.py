@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
 from deodar.errors import RecordError
-from deodar.figures import _color, _style
+from deodar.figures import _color, _draw, _style
 from deodar.figures._view import TIME, View
 
 ACROSS = True
@@ -23,11 +23,7 @@ def draw(variable: xarray.DataArray, **view: Any) -> Figure:
         variable: a variable of a record.
         view: see `deodar.figures._view.View`: trial, where.
     """
-    looked = View(variable, **view)
-    with _style.style():
-        figure = _style.figure(*size(looked))
-        fill(figure, looked)
-    return figure
+    return _draw.alone(size, fill, variable, view)
 
 
 def suits(view: View) -> bool:
