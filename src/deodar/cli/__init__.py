@@ -11,11 +11,12 @@ import importlib
 import pkgutil
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from types import ModuleType
 from typing import NoReturn
 
 from deodar import __version__
-from deodar.errors import DeodarError, did_you_mean
+from deodar.errors import DeodarError, UnknownName, did_you_mean
 
 
 def commands() -> dict[str, ModuleType]:
@@ -34,6 +35,9 @@ def parser() -> argparse.ArgumentParser:
     """The parser of the whole command line."""
     top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
+    top.add_argument(
+        "--import", dest="imports", action="append", default=[], metavar="MODULE", help="import a module with elements of your own first"
+    )
     inside = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, module in commands().items():
         sub = inside.add_parser(name, help=module.HELP, description=module.HELP)
@@ -50,6 +54,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     args = parser().parse_args(given)
     try:
+        for name in args.imports:
+            _import(name)
         return int(args.run(args))
     except DeodarError as error:
         print(f"deodar {args.command}: {error}", file=sys.stderr)
@@ -62,3 +68,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     except MemoryError:
         print(f"deodar {args.command}: there is not enough memory for this. Take fewer samples or fewer trials", file=sys.stderr)
     return 1
+
+
+def _import(name: str) -> None:
+    """Run a module of the user's, named on the command line, so that the kinds it registers are known."""
+    if str(Path.cwd()) not in sys.path:
+        sys.path.insert(0, str(Path.cwd()))
+    try:
+        importlib.import_module(name)
+    except DeodarError:
+        raise
+    except Exception as error:  # a module may raise anything
+        first = (str(error).strip() or "no message").splitlines()[0]
+        raise UnknownName(
+            f"the module {name!r} cannot be imported ({type(error).__name__}: {first})", fix="It is named without .py and found in the working folder"
+        ) from None

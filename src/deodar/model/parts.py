@@ -108,7 +108,7 @@ def _from_json(
     try:
         cls = registry.kind(data["kind"])
     except UnknownName as error:
-        own = "If it is one of your own, import its module before the document is loaded"
+        own = "If it is one of your own, import its module first (on the command line: deodar --import MODULE ...)"
         problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
         return None
     if not issubclass(cls, base):

@@ -1,0 +1,47 @@
+"""`deodar --import MODULE`: elements of one's own from the shell."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+OWN = '''
+from dataclasses import dataclass
+from deodar.element import Coupling
+from deodar.registry import register
+
+@register
+@dataclass(frozen=True)
+class Doubling(Coupling):
+    """Twice the input."""
+
+    def output(self, at, state, inputs, constants, time, noise):
+        return {"output": 2.0 * inputs["input"]}
+'''
+DOCUMENT = """{"deodar": 1, "axes": {"x": {"lower": 0, "upper": 9, "samples": 10}},
+ "elements": {"b": {"kind": "Boost", "axes": ["x"], "amplitude": 1.5}, "d": {"kind": "Doubling"}},
+ "connections": [{"source": "b.output", "target": "d.input"}]}"""
+
+
+def call(here: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "deodar", *arguments], cwd=here, capture_output=True, text=True, timeout=60)
+
+
+def test_an_element_of_ones_own_runs_from_the_shell(tmp_path: Path) -> None:
+    (tmp_path / "own.py").write_text(OWN)
+    (tmp_path / "model.json").write_text(DOCUMENT)
+    unknown = call(tmp_path, "check", "model.json")
+    assert unknown.returncode == 1 and "--import MODULE" in unknown.stderr + unknown.stdout
+    assert call(tmp_path, "--import", "own", "check", "model.json").returncode == 0
+    done = call(tmp_path, "--import", "own", "run", "model.json", "--duration", "2", "--record", "d.output", "--format", "csv", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert "3.0" in (tmp_path / "out" / "record.csv").read_text()
+    assert "Twice the input" in call(tmp_path, "--import", "own", "elements", "Doubling").stdout
+
+
+def test_a_module_that_fails_is_one_clear_error(tmp_path: Path) -> None:
+    (tmp_path / "broken.py").write_text("raise ValueError('half done')")
+    for name, says in (("broken", "half done"), ("absent", "No module named")):
+        done = call(tmp_path, "--import", name, "elements")
+        assert done.returncode == 1 and says in done.stderr and "Traceback" not in done.stderr
