@@ -24,6 +24,7 @@ from deodar.numerics.axes import shape
 from deodar.parameters import real, show
 from deodar.recording.provenance import provenance
 from deodar.runtime import memory
+from deodar.runtime.interrupt import stoppable
 from deodar.runtime.run import Run, require_step, whole
 from deodar.runtime.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
@@ -91,20 +92,26 @@ def simulate(
     nodes, _ = resolve(doc)
     cells = sum(_cells(nodes, entry, port) for entry, port in ports)
     memory.require(nodes, precision, batch.size, cells * count * batch.size, points.rebuilt(), points.size)
-    program = executable(model, doc, precision, batch, points.leaves if sweep else ())
-    run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
-    found = [program.port(i, port) for i, port in ports]
-    store = _Store(program, found, batch, count)
-    about = provenance(
-        model, doc, run, duration=float(duration), seed=seed, every=every, record=None if record is None else _list(record),
-        trials=list(numbers) if names else None, sweep=points.by_path,
-    )  # fmt: skip
     stopped = False
-    try:
-        with _bar(steps, progress) as shown:
-            run.record(steps, found, start, gap, store.collect, shown)
-    except KeyboardInterrupt:
-        stopped = True
+    with stoppable() as check:
+        program = executable(model, doc, precision, batch, points.leaves if sweep else ())
+        run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
+        found = [program.port(i, port) for i, port in ports]
+        store = _Store(program, found, batch, count)
+        about = provenance(
+            model, doc, run, duration=float(duration), seed=seed, every=every, record=None if record is None else _list(record),
+            trials=list(numbers) if names else None, sweep=points.by_path,
+        )  # fmt: skip
+        try:
+            with _bar(steps, progress) as shown:
+
+                def between(done: int) -> None:
+                    check()
+                    shown(done)
+
+                run.record(steps, found, start, gap, store.collect, between)
+        except KeyboardInterrupt:
+            stopped = True
     from deodar.recording.record import dataset
 
     times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)
@@ -250,10 +257,10 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, S
 
 
 @contextlib.contextmanager
-def _bar(steps: int, progress: bool | None) -> Generator[Callable[[int], None] | None]:
+def _bar(steps: int, progress: bool | None) -> Generator[Callable[[int], None]]:
     """A progress bar that appears once the run takes longer than SHOW_AFTER."""
     if progress is False or (progress is None and not sys.stderr.isatty()):
-        yield None
+        yield lambda done: None
         return
     import time
 
