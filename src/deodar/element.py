@@ -77,6 +77,7 @@ class Element(Part):
         direct: for each output port that passes inputs on in the same instant, which; ports not named show the state.
         stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
         linear: whether the default output is linear in the one input.
+        levels: for a port, the parameters that are levels on its scale, by what they are called: drawn as lines in plots.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = dc.field(default="", kw_only=True)
@@ -85,6 +86,7 @@ class Element(Part):
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     stateful: ClassVar[bool] = False
     linear: ClassVar[bool] = False
+    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
 
     def __rshift__(self, other: object) -> Any:
         raise ModelError(
@@ -144,6 +146,13 @@ class Element(Part):
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         """The state at t + dt. `noise` holds standard normal deviates over `noise_axes`, or None."""
         return state
+
+    def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+        """The new state after a step if its input had been larger by `amount` (over the axes): for hands that reach into a running model.
+
+        None where that is not a simple sum, or where there is no such input.
+        """
+        return None
 
     @classmethod
     def example(cls) -> Self:

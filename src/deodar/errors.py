@@ -76,7 +76,11 @@ class TimeError(DeodarError):
 
 
 class NotFinite(DeodarError):
-    """Raised at the end of a chunk in which a value became infinite or undefined; names the element and the step."""
+    """Raised at the end of a chunk in which a value became infinite or undefined; names the step, and the elements in `paths`."""
+
+    def __init__(self, what: str | Sequence[Problem], paths: Sequence[str] = (), fix: str = "") -> None:
+        self.paths = tuple(paths)
+        super().__init__(what, fix=fix)
 
 
 class TooLarge(DeodarError):

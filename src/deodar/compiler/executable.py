@@ -138,8 +138,12 @@ class Executable:
         """The executable that reads ports of a state."""
         key = ("read", tuple(ports))
         if key not in self._known:
-            self._known[key], _ = self._compile(lambda *a: self._read(ports, *a), *self._example[:-1])
+            self._known[key] = self.new_reader(ports)
         return self._known[key]
+
+    def new_reader(self, ports: Sequence[Port]) -> Any:
+        """The same, for a caller that keeps it itself."""
+        return self._compile(lambda *a: self._read(ports, *a), *self._example[:-1])[0]
 
     def call(self, executable: Any, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""

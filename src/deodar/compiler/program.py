@@ -28,10 +28,10 @@ Tree = Any
 
 @dc.dataclass(frozen=True)
 class Port:
-    """A port of a row of a group, to be read: output port, or input port (then the sum that arrives there)."""
+    """A port of a row of a group (of all rows: None), to be read: output port, or input port (then the sum that arrives there)."""
 
     group: int
-    row: int
+    row: int | None
     name: str
 
 
@@ -217,9 +217,9 @@ class Program:
         return total
 
     def _port(self, p: Port, buffers: Buffers) -> Array:
-        if p.name in self.plan.groups[p.group].like.outs:
-            return buffers[p.group, p.name, 0][p.row]
-        return self._sum(p.group, p.name, buffers, now=True)[p.row]
+        shown = p.name in self.plan.groups[p.group].like.outs
+        rows = buffers[p.group, p.name, 0] if shown else self._sum(p.group, p.name, buffers, now=True)
+        return rows if p.row is None else rows[p.row]
 
     def _each(self, g: int, fn: Callable[..., Any], values: Tree, *args: Any, only: str = "") -> Any:
         """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""

@@ -36,7 +36,7 @@ class Field(Element):
         tau: time constant, in the document's time unit; > 0, and no shorter than the step.
         resting_level: h, the attractor without input.
         sigmoid: g, output as a function of activation.
-        kernel: interaction kernels; their sum is k. On a node their amplitudes are its self-excitation.
+        kernel: k, the sum of the interaction kernels. On a node their amplitudes are its self-excitation.
         global_inhibition: c, on the integral of the output.
         noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by the root of
             the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) / tau.
@@ -63,6 +63,7 @@ class Field(Element):
     noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")] = 0.0
 
     stateful: ClassVar[bool] = True
+    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         axes = tuple(self.axes)
@@ -99,6 +100,9 @@ class Field(Element):
         u, h, s = state["activation"], self.resting_level, inputs["input"]
         rate = -u + h + s + self._interaction(self.sigmoid(u), constants)
         return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
+
+    def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+        return {"activation": state["activation"] + dt / self.tau * amount}
 
     def _interaction(self, g: Any, constants: Any) -> Any:
         axes = tuple(self.axes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import jax
@@ -164,6 +164,30 @@ class Run:
         seen = self.program.call(reader, self.values, self.constants, self.state, self.keys, self.sensed, self._now())
         return [np.asarray(a) for a in seen]
 
+    def look(self, reader: Any) -> Sequence[Any]:
+        """What a reader that the caller keeps sees in the present state."""
+        self._sense()
+        return self.program.call(reader, self.values, self.constants, self.state, self.keys, self.sensed, self._now())
+
+    def row(self, group: int, row: int) -> dict[str, np.ndarray]:
+        """The state of one element of a single run."""
+        return {name: np.asarray(values[row]) for name, values in self.state["groups"][group].items()}
+
+    def put_row(self, group: int, row: int, state: Mapping[str, Any]) -> None:
+        """Another state for one element of a single run."""
+        new = host(self.state)
+        for name, values in state.items():
+            new["groups"][group][name][row] = values
+        self.state = new
+
+    def see(self, world: World | None) -> None:
+        """Another world from now on. What is refused changes nothing."""
+        self.sensors = provided(self.doc, world)
+        self.world = world
+        if world is not None:
+            world.reset(self.seed)
+        self.sensed, self.sense_at = self.program.blind(), 0
+
     def _now(self) -> dict[str, Any]:
         dtype = self.program.program.dtype
         start = dtype.type(self.clock.time)
@@ -255,7 +279,7 @@ class Run:
                 spoilt = ~np.isfinite(values).all(axis=tuple(k for k in range(values.ndim) if k != lead))
                 end = self.clock.tick - (values.shape[lead] - 1) * every
                 clock = dc.replace(self.clock, tick=end + int(np.argmax(spoilt)) * every)
-                name = self._path(self.program.plan.groups[port.group].nodes[port.row])
+                name = self._path(self.program.plan.groups[port.group].nodes[port.row or 0])
                 raise _not_finite([f"{name}.{port.name}"], clock, self.doc.time_unit)
 
     def _path(self, node: Any) -> str:
@@ -268,6 +292,7 @@ def _not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
     shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
     return NotFinite(
         f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt {clock.dt:g})",
+        names,
         fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import html
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from deodar.compiler.executable import Executable, executable, require_range
 from deodar.compiler.plan import cost
 from deodar.compiler.program import Port, array_key
-from deodar.errors import ModelError, ParameterError, TimeError
+from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
 from deodar.leaves import get, leaves, structure
 from deodar.model import edit, find
 from deodar.model.document import Document
@@ -21,7 +21,8 @@ from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.runtime import memory
-from deodar.runtime.run import Clock, Run, host, require_duration, require_step, whole
+from deodar.runtime.look import Look, Place
+from deodar.runtime.run import Clock, Run, host, provided, require_duration, require_step, whole
 from deodar.worlds._base import World
 
 Tree = Any
@@ -109,10 +110,28 @@ class Session:
             rest -= waiting * self.dt
         self.step(waiting + whole(rest, self._coming_dt or self.dt, "a duration"))
 
-    def reset(self) -> None:
-        """State, time and noise back to the start; parameters stay."""
-        self.journal.append(Change(self.tick, "reset", 0))
+    def reset(self, seed: int | None = None) -> None:
+        """State, time and noise back to the start, with another seed if one is given; parameters stay."""
+        new = self.seed if seed is None else require_seed(seed)
+        self.journal.append(Change(self.tick, "reset", new))
+        self._run.seed = new
         self._run.reset()
+
+    def push(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
+        """So many Euler steps with an input to an element that no connection brings: a hand that reaches into the running model.
+
+        Exactly as if `amount` (over the element's axes, or one number) were added to its input, noise included.
+        """
+        entry = find.element(self.document, path_of(path))
+        self.require_push(entry.id)
+        self.journal.append(Change(self.tick, f"push {entry.path}", (FrozenArray(amount), n)))
+        g, r = self._run.program.plan.row[entry.id]
+        for _ in range(n):
+            dt = self.dt
+            self.step()
+            state = self._run.row(g, r)
+            pushed = entry.element.push(state, amount, dt)
+            self._run.put_row(g, r, pushed or state)
 
     def _to_new_dt(self, most: int) -> int:
         """Steps taken until a changed dt may take effect: the next tick common to all parts."""
@@ -128,7 +147,33 @@ class Session:
             self._coming_dt = None
         return taken
 
+    def require_push(self, ident: str) -> None:
+        """Refuse to push an element that takes no input from outside."""
+        entry = self.document.by_id().get(ident)
+        if entry is None or ident not in self.program.plan.row:
+            raise UnknownName(f"the element with the id {ident} does not run")
+        g, r = self.program.plan.row[ident]
+        if entry.every != 1 or entry.element.push(self._run.row(g, r), 0.0, self.dt) is None:
+            raise ParameterError("takes no input from outside", where=entry.path, fix="Push a field or node that runs at every tick")
+
     # -------------------------------------------------------------------------------- looking and changing
+
+    def look(self, look: Look, places: Iterable[Place]) -> Mapping[Place, np.ndarray]:
+        """Many ports now, through a look that was compiled for the program that runs."""
+        return look.arrays(self._run.look(look.reader) if look.ports else [], places)
+
+    def require(self, document: Document) -> None:
+        """Refuse a document that could not go on here: a step too long for a time constant, a sensor that the world does not have."""
+        for step in {self.dt, self._coming_dt or self.dt}:
+            require_step(document, step)
+        provided(document, self.world)
+
+    def cost(self, document: Document) -> str:
+        """What going on with another document would cost: live, rebuild or recompile."""
+        changed = _changed(self.document, document)
+        if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
+            return "recompile"
+        return "rebuild" if "rebuild" in {cost for _, _, cost, _ in changed} else "live"
 
     def read(self, path: str | Handle) -> np.ndarray:
         """What a port holds now: an array over the port's axes in their order, of shape () for a node."""
@@ -180,6 +225,21 @@ class Session:
         self._fill(snapshot.states)
 
     # -------------------------------------------------------------------------------- properties
+
+    @property
+    def program(self) -> Executable:
+        """The compiled program that runs."""
+        return self._run.program
+
+    @property
+    def world(self) -> World | None:
+        """What the sensors read; another one is read from the next step on."""
+        return self._run.world
+
+    @world.setter
+    def world(self, world: World | None) -> None:
+        self._run.see(world)
+        self.journal.append(Change(self.tick, "world", None if world is None else world.describe()))
 
     @property
     def document(self) -> Document:
@@ -235,10 +295,9 @@ class Session:
 
     def _adopt(self, doc: Document) -> str:
         run = self._run
-        for step in {run.clock.dt, self._coming_dt or run.clock.dt}:
-            require_step(doc, step)
+        self.require(doc)
         changed = _changed(run.doc, doc)
-        if changed is not None and all(run.program.holds(leaf) and not off for leaf, _, _, off in changed):
+        if changed is not None and self.cost(doc) != "recompile":
             return self._change(doc, changed)
         states = _rows(run.program, run.state)
         run.load(executable(self._model, doc, self._precision), doc)

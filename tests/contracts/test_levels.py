@@ -1,0 +1,23 @@
+"""What an element names as levels of a port exists, and is a number that can be changed while it runs."""
+
+from __future__ import annotations
+
+import pytest
+
+from deodar.leaves import leaves
+from tests.contracts.build import KINDS, around, example, session
+
+
+@pytest.mark.parametrize("kind", [name for name, cls in KINDS.items() if cls.levels])
+def test_levels_name_ports_and_numbers(kind: str) -> None:
+    element = example(kind)
+    numbers = {path for path, value, p in leaves(element) if isinstance(value, float) and p.cost == "live"}
+    running = session(around(element))
+    for port, levels in element.levels.items():
+        assert running.read(f"example.{port}").size
+        assert levels and all(levels)
+        assert set(levels.values()) <= numbers
+
+
+def test_a_field_says_where_its_threshold_and_its_resting_level_are() -> None:
+    assert set(KINDS["Field"].levels["activation"]) == {"threshold", "resting level"}
