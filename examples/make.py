@@ -37,9 +37,10 @@ def detection() -> dd.Model:
     model.add(dd.GaussianStimulus("weak", [X], center=50, sigma=5, amplitude=3.5, windows=[(100, 1000)])) >> u
     model.add(dd.GaussianStimulus("more", [X], center=50, sigma=5, amplitude=2.5, windows=[(400, 700)])) >> u
     model.describe(
-        notes="Detection. An input of 3.5 comes at 100 ms and leaves the field below threshold. At 400 ms it grows to 6 and one peak"
-        " arises at 50 deg. At 700 ms it is 3.5 again: the peak stays, where there was none before (hysteresis). At 1000 ms the"
-        " input goes, and the peak with it. Run it for 1300 ms."
+        notes="Detection. An input that grows makes a peak all at once; the peak stays when the input shrinks again. An input of 3.5"
+        " comes at 100 ms and leaves the field below threshold. At 400 ms it grows to 6 and one peak arises at 50 deg. At 700 ms"
+        " it is 3.5 again: the peak stays, where there was none before (hysteresis). At 1000 ms the input goes, and the peak"
+        " with it. Run it for 1300 ms."
     )
     return model
 
@@ -51,8 +52,9 @@ def selection() -> dd.Model:
     for name, center in (("left", 30), ("right", 70)):
         model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[(100, 600)])) >> u
     model.describe(
-        notes="Selection. Two equal inputs come at 100 ms, at 30 and 70 deg. Both grow, and one wins: exactly one"
-        " peak stands at 600 ms. Which one, the noise decides: about half of the trials each. Run 100 trials for 600 ms."
+        notes="Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at 100 ms, at 30 and 70 deg."
+        " Both grow, and one wins: exactly one peak stands at 600 ms. Which one, the noise decides: about half of the trials"
+        " each. Run 100 trials for 600 ms."
     )
     return model
 
@@ -63,8 +65,8 @@ def working_memory() -> dd.Model:
     u = model.add(field("u", 18, 0.3, noise=0.2))
     model.add(dd.GaussianStimulus("cue", [X], center=35, sigma=5, amplitude=6, windows=[(100, 300)])) >> u
     model.describe(
-        notes="Working memory. An input at 35 deg is there from 100 to 300 ms. The peak it makes sustains itself: at 1500 ms there is"
-        " still one peak, within 5 deg of where the input was. Run it for 1500 ms."
+        notes="Working memory. A peak that outlives its input. An input at 35 deg is there from 100 to 300 ms. The peak it makes"
+        " sustains itself: at 1500 ms there is still one peak, within 5 deg of where the input was. Run it for 1500 ms."
     )
     return model
 
@@ -75,8 +77,9 @@ def forgetting() -> dd.Model:
     model.describe(name="forgetting")
     model.add(Boost("inhibition", [X], amplitude=-3, windows=[(900, 1100)])) >> model["u"]
     model.describe(
-        notes="Forgetting. The working memory again, and a homogeneous inhibition of -3 from 900 to 1100 ms. It takes the field through"
-        " the reverse detection instability: the peak is there at 900 ms, gone at 1100 ms, and does not come back. Run it for 1500 ms."
+        notes="Forgetting. Inhibition of the whole field erases a memory. The working memory again, and a homogeneous inhibition of"
+        " -3 from 900 to 1100 ms. It takes the field through the reverse detection instability: the peak is there at 900 ms,"
+        " gone at 1100 ms, and does not come back. Run it for 1500 ms."
     )
     return model
 
@@ -89,9 +92,9 @@ def boost() -> dd.Model:
         model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=amplitude)) >> u
     model.add(Boost("boost", [X], amplitude=2.6, windows=[(300, 900)])) >> u
     model.describe(
-        notes="Boost. Two weak inputs preshape the field at 65 deg (2.0) and 30 deg (1.4); both stay below threshold. At 300 ms a boost"
-        " of 2.6 lifts the whole field, and one peak arises at the stronger preshape, 65 deg, as high as any other. At 900 ms the"
-        " boost goes, and the peak too. Run it for 1200 ms."
+        notes="Boost. Lifting the whole field turns weak traces into one decision. Two weak inputs preshape the field at 65 deg (2.0)"
+        " and 30 deg (1.4); both stay below threshold. At 300 ms a boost of 2.6 lifts the whole field, and one peak arises at"
+        " the stronger preshape, 65 deg, as high as any other. At 900 ms the boost goes, and the peak too. Run it for 1200 ms."
     )
     return model
 
@@ -112,9 +115,10 @@ def projection() -> dd.Model:
     colour >> dd.Gain(3) >> model.add(dd.Project([place, hue], name="expand")) >> scene
     scene >> model.add(dd.Project([place], name="contract")) >> dd.Gain(0.15) >> where
     model.describe(
-        notes="Projection. A scene of two objects, red at 12 cm and green at 36 cm, over place and hue; neither makes a peak. At 300 ms"
-        " a colour cue makes a peak at 120 deg in `colour`; its output expands over place into a ridge in `scene`, where it meets the"
-        " green object: one peak. Contracted over hue it makes one peak in `where`, at 36 cm. Run it for 900 ms."
+        notes="Projection. A colour selects a place, through a field over both. A scene of two objects, red at 12 cm and green at 36"
+        " cm, over place and hue; neither makes a peak. At 300 ms a colour cue makes a peak at 120 deg in `colour`; its output"
+        " expands over place into a ridge in `scene`, where it meets the green object: one peak. Contracted over hue it makes"
+        " one peak in `where`, at 36 cm. Run it for 900 ms."
     )
     return model
 
@@ -126,8 +130,9 @@ def node() -> dd.Model:
     model.add(Boost("on", [], amplitude=3, windows=[(200, 350)])) >> u
     model.add(Boost("off", [], amplitude=-3, windows=[(700, 850)])) >> u
     model.describe(
-        notes="Node. A field of no dimension, with self-excitation 4 and resting level -2: a switch with two stable states, near -2 and"
-        " +2. A pulse at 200 ms turns it on, and it stays on; a pulse at 700 ms turns it off, and it stays off. Run it for 1100 ms."
+        notes="Node. A field of no dimension that excites itself is a switch. With self-excitation 4 and resting level -2 it has two"
+        " stable states, near -2 and +2. A pulse at 200 ms turns it on, and it stays on; a pulse at 700 ms turns it off, and it"
+        " stays off. Run it for 1100 ms."
     )
     return model
 
@@ -138,10 +143,11 @@ def correlated_noise() -> dd.Model:
     kernel = [dd.Gaussian(12, 5, normalized=True)]
     model.add(dd.Field("u", [X], tau=10, resting_level=-1.5, kernel=kernel, global_inhibition=0.5, noise=3, noise_length=8))
     model.describe(
-        notes="Correlated noise. A field below detection, without any input. Neighbours within about 8 deg share their noise, so that it can lift"
-        " a whole stretch over the threshold. At 400 ms about half of the trials hold one peak, none holds two, and the peaks stand all"
-        " over the field. `noise` is here the standard deviation at a point; with a correlation length, refining the grid leaves the"
-        " rate of such events as it is. Run 100 trials for 400 ms."
+        notes="Correlated noise. Noise that neighbours share makes peaks by itself, here and there. A field below detection, without"
+        " any input. Neighbours within about 8 deg share their noise, so that it can lift a whole stretch over the threshold. At"
+        " 400 ms about half of the trials hold one peak, none holds two, and the peaks stand all over the field. `noise` is here"
+        " the standard deviation at a point; with a correlation length, refining the grid leaves the rate of such events as it"
+        " is. Run 100 trials for 400 ms."
     )
     return model
 
@@ -153,8 +159,9 @@ def timed_stimuli() -> dd.Model:
     model.add(BoxStimulus("early", [X], center=20, width=12, amplitude=6, windows=[(100, 300), (700, 900)])) >> u
     model.add(BoxStimulus("late", [X], center=80, width=12, amplitude=6, windows=[(400, 600), (1000, 1200)])) >> u
     model.describe(
-        notes="Timed stimuli. Two box stimuli, each on in two windows of time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at"
-        " 550 and 1150 ms, and nowhere at 50, 380 and 680 ms: the windows are part of the document. Run it for 1300 ms."
+        notes="Timed stimuli. Inputs come and go at times that stand in the document. Two box stimuli, each on in two windows of"
+        " time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at 550 and 1150 ms, and nowhere at 50, 380 and 680 ms:"
+        " the windows are part of the document. Run it for 1300 ms."
     )
     return model
 
@@ -186,10 +193,10 @@ def groups() -> dd.Model:
     for before, after in itertools.pairwise(names):
         model[f"{before}.satisfied"] >> model.add(dd.Gain(4, name=f"{before} then {after}")) >> model[f"{after}.intention"]
     model.describe(
-        notes="Groups. Four elementary behaviours, copied from one template: a bistable intention node and a condition of satisfaction that"
-        " ends it. One intention is on at a time, in the order search, approach, grasp, lift; each goes off when its signal `done`"
-        " comes, at 500, 1100, 1700 and 2300 ms, and hands over to the next. The document parameter `tempo` is the time constant of all"
-        " eight nodes. Run it for 2800 ms."
+        notes="Groups. Four behaviours take turns, each until its condition of satisfaction. They are copied from one template: a"
+        " bistable intention node and a condition of satisfaction that ends it. One intention is on at a time, in the order"
+        " search, approach, grasp, lift; each goes off when its signal `done` comes, at 500, 1100, 1700 and 2300 ms, and hands"
+        " over to the next. The document parameter `tempo` is the time constant of all eight nodes. Run it for 2800 ms."
     )
     return model
 
@@ -203,9 +210,10 @@ def motor_attractor() -> dd.Model:
     model.add(dd.GaussianStimulus("second", [heading], center=-120, sigma=8, amplitude=7, windows=[(1300, 2000)])) >> target
     target >> model.add(Attractor("turn", heading, tau=1500, initial=0))
     model.describe(
-        notes="Motor attractor. The peak of `target` draws the motor variable `turn` to 150 deg; without a peak, from 900 to 1300 ms, it"
-        " stays there. Then a peak at -120 deg draws it the short way round, over 180 deg: it ends at -120 deg and never passes 0 on"
-        " this way. Run it for 2000 ms."
+        notes="Motor attractor. A motor variable turns to the place of a peak, and stays where it is without one. The peak of"
+        " `target` draws the motor variable `turn` to 150 deg; without a peak, from 900 to 1300 ms, it stays there. Then a peak"
+        " at -120 deg draws it the short way round, over 180 deg: it ends at -120 deg and never passes 0 on this way. Run it for"
+        " 2000 ms."
     )
     return model
 
@@ -214,9 +222,10 @@ def saliency() -> dd.Model:
     """The architecture of `deodar demo saliency`."""
     model = published.saliency(hue=0.0)
     model.describe(
-        notes="Sandamirskaya (2014), figure 2, over both dimensions of a picture. It senses a picture, so it is run with one:"
-        " --world picture:FILE. A cue for red comes at 500 ms; where the picture holds a red object, exactly one peak arises on it in"
-        " `perceptual` and in `spatial`, and `pan` and `tilt` turn to it. Run it for 3500 ms."
+        notes="Saliency. A colour cue selects an object in a picture, and a motor variable turns to it. Sandamirskaya (2014), figure"
+        " 2, over both dimensions of a picture. It senses a picture, so it is run with one: --world picture:FILE. A cue for red"
+        " comes at 500 ms; where the picture holds a red object, exactly one peak arises on it in `perceptual` and in `spatial`,"
+        " and `pan` and `tilt` turn to it. Run it for 3500 ms."
     )
     return model
 

@@ -1,0 +1,233 @@
+"""Draw the examples anew for the gallery: what one sees when they run, one small picture each.
+
+    python examples/pictures.py
+
+Every function below runs one document for as long as its notes say and draws it, `NAME.png`. Activation is drawn from dark to bright, the
+threshold as a thin line; time runs to the right.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+import deodar as dd
+from deodar.demos.saliency import photographs
+
+HERE = Path(__file__).parent
+SIZE = (320, 200)
+COLORS = matplotlib.colormaps["cividis"]
+DARK, BRIGHT, LINE = COLORS(0.0), COLORS(1.0), (1.0, 1.0, 1.0, 0.9)
+SCALE = 3
+"""Drawn so much larger, then made smaller: soft edges."""
+
+Box = tuple[float, float, float, float]
+WHOLE: Box = (0, 0, 1, 1)
+
+
+def run(name: str, *paths: str, seed: int = 0) -> xarray.Dataset:
+    """A document, for as long as its notes say."""
+    model = dd.load(HERE / f"{name}.json")
+    found = re.search(r"(\d+) ms\.$", model.document.notes)
+    assert found is not None
+    return dd.simulate(model, float(found[1]), seed=seed, record=list(paths), every=5, progress=False)
+
+
+# ------------------------------------------------------------------------------------------------ what is drawn
+
+
+def blank() -> Figure:
+    """An empty picture."""
+    return Figure(figsize=(SIZE[0] / 100, SIZE[1] / 100), dpi=100 * SCALE, facecolor=DARK)
+
+
+def part(figure: Figure, box: Box = WHOLE) -> Axes:
+    """A part of the picture, without frame or numbers."""
+    axes = figure.add_axes(box)
+    axes.set_axis_off()
+    return axes
+
+
+def heat(axes: Axes, values: np.ndarray, low: float, high: float, threshold: bool = True) -> None:
+    """Activation over two dimensions, the second upwards."""
+    width, height = values.shape
+    axes.imshow(values.T, origin="lower", aspect="auto", cmap=COLORS, vmin=low, vmax=high, extent=(0, width, 0, height), interpolation="bilinear")
+    if threshold and values.min() < 0 < values.max():
+        axes.contour(np.arange(width) + 0.5, np.arange(height) + 0.5, values.T, levels=[0], colors=[LINE], linewidths=0.8)
+    axes.set_xlim(0, width)
+    axes.set_ylim(0, height)
+
+
+def course(axes: Axes, u: xarray.DataArray, low: float, high: float) -> None:
+    """The activation of a node over time, bright where it is on."""
+    axes.fill_between(u.time, u, 0, where=u > 0, color=COLORS(0.75), linewidth=0)
+    axes.axhline(0, color=LINE, linewidth=0.5)
+    axes.plot(u.time, u, color=BRIGHT, linewidth=1.6)
+    axes.set_xlim(float(u.time[0]), float(u.time[-1]))
+    axes.set_ylim(low, high)
+
+
+def space_time(name: str, seed: int = 0, darkest: float = 0.01) -> Figure:
+    """A field of one dimension over time; below the quantile `darkest` all is dark."""
+    figure = blank()
+    u = run(name, "u.activation", seed=seed)["u.activation"].values
+    heat(part(figure), u, *np.quantile(u, (darkest, 0.985)))
+    return figure
+
+
+# ------------------------------------------------------------------------------------------------ the examples
+
+
+def detection() -> Figure:
+    """One peak, after a while of nothing."""
+    return space_time("detection")
+
+
+def selection() -> Figure:
+    """Two inputs, one peak."""
+    return space_time("selection")
+
+
+def working_memory() -> Figure:
+    """A peak that stays."""
+    return space_time("working_memory")
+
+
+def forgetting() -> Figure:
+    """A peak that stays until it is erased."""
+    return space_time("forgetting")
+
+
+def boost() -> Figure:
+    """Traces, and a peak for as long as the boost lasts."""
+    return space_time("boost")
+
+
+def timed_stimuli() -> Figure:
+    """Peaks here and there."""
+    return space_time("timed_stimuli")
+
+
+def correlated_noise() -> Figure:
+    """A peak out of noise."""
+    return space_time("correlated_noise", seed=10, darkest=0.3)
+
+
+def projection() -> Figure:
+    """The field over place and hue in the middle, hue at its left, place below."""
+    figure = blank()
+    end = run("projection", "scene.activation", "colour.activation", "where.activation").isel(time=-1)
+    scene, colour, where = (end[f"{name}.activation"].values for name in ("scene", "colour", "where"))
+    low = min(float(u.min()) for u in (scene, colour, where))
+    heat(part(figure, (0.1, 0.16, 0.9, 0.84)), scene, low, float(scene.max()))
+    heat(part(figure, (0, 0.16, 0.085, 0.84)), np.repeat(colour[None], 2, 0), low, float(colour.max()), threshold=False)
+    heat(part(figure, (0.1, 0, 0.9, 0.136)), np.repeat(where[:, None], 2, 1), low, float(where.max()), threshold=False)
+    return figure
+
+
+def node() -> Figure:
+    """A switch, turned on and off."""
+    figure = blank()
+    u = run("node", "u.activation")["u.activation"]
+    course(part(figure), u, -6, 7)
+    return figure
+
+
+def groups() -> Figure:
+    """Four behaviours in turn."""
+    figure = blank()
+    names = ("search", "approach", "grasp", "lift")
+    data = run("groups", *(f"{name}.intention.activation" for name in names))
+    for k, name in enumerate(names):
+        course(part(figure, (0, 0.75 - 0.25 * k, 1, 0.25)), data[f"{name}.intention.activation"], -11, 8)
+    return figure
+
+
+def motor_attractor() -> Figure:
+    """Two peaks one after the other, and the motor variable that turns to them, the short way round."""
+    figure = blank()
+    data = run("motor_attractor", "target.activation", "turn.output")
+    u, turn = data["target.activation"].values, data["turn.output"].values
+    axes = part(figure)
+    heat(axes, u, float(np.quantile(u, 0.01)), float(u.max()), threshold=False)
+    place = (turn + 180) / 360 * u.shape[1]
+    place[1:][np.abs(np.diff(place)) > u.shape[1] / 2] = np.nan
+    axes.plot(np.arange(len(place)) + 0.5, place, color="white", linewidth=1.8)
+    return figure
+
+
+def saliency() -> Figure:
+    """A photograph as the model sees it, and where the peak for red stands."""
+    figure = blank()
+    scene = next(s for s in photographs() if s.name == "coffee")
+    model = dd.load(HERE / "saliency.json")
+    model.set("cue.center", 5.0)
+    paths = ["eye.output", "spatial.activation", "pan.output", "tilt.output"]
+    end = dd.simulate(model, 3500, record=paths, every=3500, world=scene.picture, progress=False).isel(time=-1)
+    seen, u = end["eye.output"].values, end["spatial.activation"]
+    width, height = scene.picture.size
+    x, y = u[u.dims[0]].values, u[u.dims[1]].values
+    side = float(x[0] + x[-1])
+    axes = part(figure)
+    axes.imshow(0.15 + 0.75 * seen.transpose(1, 0, 2), extent=(0, side, side, 0), interpolation="nearest", aspect="auto")
+    axes.contour(x, y, u.values.T, levels=[0], colors=["white"], linewidths=2)
+    axes.plot(float(end["pan.output"]), float(end["tilt.output"]), "+", color="white", markersize=11, markeredgewidth=2)
+    half = side / 2 * min(height / width, SIZE[1] / SIZE[0])
+    axes.set_xlim(0, side)
+    axes.set_ylim(side / 2 + half, side / 2 - half)
+    return figure
+
+
+PICTURES: tuple[Callable[[], Figure], ...] = (
+    detection,
+    selection,
+    working_memory,
+    forgetting,
+    boost,
+    node,
+    timed_stimuli,
+    correlated_noise,
+    projection,
+    groups,
+    motor_attractor,
+    saliency,
+)
+
+
+def scale_colors() -> Image.Image:
+    """The colours of the scale, pure and mixed with the white of lines, for pictures that hold no others."""
+    pure = COLORS(np.linspace(0, 1, 40))[:, :3]
+    mixed = [pure[::5] * (1 - part) + part for part in (0.33, 0.67)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette((np.concatenate([pure, *mixed, [[1, 1, 1]]]) * 255).round().astype(np.uint8).tobytes())
+    return palette
+
+
+def write(figure: Figure, path: Path, photograph: bool) -> None:
+    """A small file: as many colours as the eye sees."""
+    drawn = io.BytesIO()
+    FigureCanvasAgg(figure).print_png(drawn)
+    picture = Image.open(drawn).convert("RGB").resize(SIZE, Image.Resampling.BOX)
+    few = picture.quantize(40) if photograph else picture.quantize(palette=scale_colors(), dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
+
+
+def main(folder: Path = HERE) -> None:
+    """Draw every example."""
+    for draw in PICTURES:
+        write(draw(), folder / f"{draw.__name__}.png", photograph=draw is saliency)
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:]))
