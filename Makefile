@@ -6,13 +6,14 @@ ifeq ($(OS),Windows_NT)
   BIN := .venv/Scripts
 endif
 
-.PHONY: demo test lint types docs schema bench clean
+.PHONY: demo test lint types studio docs schema bench clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
-test: .venv/installed-test lint types
+test: .venv/installed-test lint types studio
 	$(BIN)/python -m pytest
+	$(BIN)/python studio/build.py check test browser
 
 lint: .venv/installed-test
 	$(BIN)/python -m ruff check .
@@ -20,6 +21,10 @@ lint: .venv/installed-test
 
 types: .venv/installed-test
 	$(BIN)/python -m pyright
+
+# the page of the studio, unless it is there already
+studio: .venv/installed-test
+	$(BIN)/python studio/build.py build
 
 docs: .venv/installed-docs
 	$(BIN)/python docs/build.py

@@ -18,6 +18,7 @@ from deodar.architectures import saliency as published
 from deodar.elements.attractor import Attractor
 from deodar.elements.boost import Boost
 from deodar.elements.box_stimulus import BoxStimulus
+from deodar.numerics.windows import Window
 
 HERE = Path(__file__).parent
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
@@ -50,7 +51,7 @@ def selection() -> dd.Model:
     model = dd.Model("selection")
     u = model.add(field("u", 12, 0.6, noise=1.0))
     for name, center in (("left", 30), ("right", 70)):
-        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[(100, 600)])) >> u
+        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[Window(100)])) >> u
     model.describe(
         notes="Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at 100 ms, at 30 and 70 deg."
         " Both grow, and one wins: exactly one peak stands at 600 ms. Which one, the noise decides: about half of the trials"

@@ -29,6 +29,7 @@ TEXT = {
     ".html",
     ".js",
     ".ts",
+    ".tsx",
     ".svg",
     ".csv",
     ".sh",

@@ -68,6 +68,24 @@ def test_steps_and_a_shot_of_them(driven: Driven) -> None:
     assert not engine.running
 
 
+def test_what_was_asked_for_before_there_was_a_session_is_shown(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "activation")
+    driven.do(lambda: engine.load(None))
+    driven.do(lambda: engine.show([place], [Wish(place)]))
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    driven.until(lambda: place in engine.shot.arrays)
+
+
+def test_play_waits_for_a_session(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.load(None))
+    driven.do(lambda: engine.play(True))
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    driven.until(lambda: engine.shot.tick > 5)
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    assert not engine.running, "another document stands still at first"
+
+
 def test_real_time_is_kept_and_slow_motion_too(driven: Driven) -> None:
     """At real time a second takes a second; the machine may be slow, so that only the upper side is sharp."""
     engine = driven.engine

@@ -285,6 +285,16 @@ class History:
         self._future.clear()
         self.document = document
 
+    def amend(self, document: Document) -> None:
+        """Take a new document in the place of the present one: one change made in many small ones, or one that nobody would undo."""
+        self.document = document
+        self._future.clear()
+
+    @property
+    def ahead(self) -> int:
+        """How many changes were undone and can be made again."""
+        return len(self._future)
+
     def undo(self) -> bool:
         """Back to the document before; False where there is none."""
         if not self._past:

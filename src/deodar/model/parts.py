@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import typing
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, cast
 
 from deodar import registry
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
-from deodar.parameters import PLAIN, FrozenArray, Parameter, an, normal, parameters, show
+from deodar.leaves import get
+from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, parameter, parameters, show
 
 
 def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
@@ -178,3 +179,44 @@ def part_from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mappi
     if problems:
         raise ParameterError(problems)
     return part
+
+
+def value_from_json(part: Any, path: str, data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray]) -> Any:
+    """The value that plain data describe for one parameter of a part (`tau`, `kernel`, `kernel.0`, `kernel.0.sigma`), not yet checked against it."""
+    p, whole = _declared(part, path)
+    problems: list[Problem] = []
+    value: Any = data
+    if p.form in ("axes", "axis") and whole and data is not None:
+        keys = cast("list[Any]", data if p.form == "axes" else [data])
+        if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in keys):
+            raise ParameterError(f"{show(data)} is not among the document's axes", where=where, fix=f"There are: {', '.join(axes) or 'none'}")
+        value = [axes[k] for k in keys] if p.form == "axes" else axes[keys[0]]
+    elif p.form == "parts" and whole:
+        if not isinstance(data, list):
+            raise ParameterError(f"needs a list, not {show(data)}", where=where)
+        items = cast("list[Any]", data)
+        value = [_from_json(v, f"{where}.{i}", axes, arrays, cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
+    elif p.form in ("part", "parts") and data is not None:
+        value = _from_json(data, where, axes, arrays, cast(Any, p.of), problems, {})
+    elif p.form == "array" and isinstance(data, dict):
+        value = arrays.get(cast("dict[str, Any]", data).get("array", ""))
+    if problems:
+        raise ParameterError(problems)
+    return value
+
+
+def _declared(part: Any, path: str) -> tuple[Parameter, bool]:
+    """The declaration that a path ends in, and whether it means the whole value (not an item of it)."""
+    *before, last = path.split(".")
+    holder, p = part, None
+    for step in before:
+        if isinstance(holder, Part):
+            p = parameter(type(holder), step)
+            holder = getattr(holder, step)
+        else:
+            holder = get(holder, step)
+    if isinstance(holder, Part):
+        return parameter(type(holder), last), True
+    if p is None:
+        raise UnknownName(f"nothing lies inside {path!r}")
+    return p, False

@@ -119,16 +119,17 @@ class Engine:
     # -------------------------------------------------------------------------------- in the engine's thread, through `call`
 
     def load(self, session: Session | None) -> None:
-        """Take another session, standing still."""
-        self.session, self.running, self.hand, self._target = session, False, None, None
+        """Take another session. It stands still, unless `play` was called while there was none."""
+        self.running = self.running and self.session is None and session is not None
+        self.session, self.hand, self._target = session, None, None
         self.failure, self._look, self._sample, self._steps = ((), ()), None, None, 0
         self._looks.clear()
-        self.traces.clear()
         self.restart()
+        self._make()
 
     def play(self, running: bool) -> None:
         """Let time go on, or stand still."""
-        self.running = running and self.session is not None
+        self.running = running
         self._steps, self.failure = 0, ((), ()) if running else self.failure
         self.pace.restart()
         self._stale = True

@@ -1,0 +1,40 @@
+"""`deodar studio [FILE]`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from deodar.cli import _options
+
+HELP = "open the studio in the browser: run a model, tune it, watch it"
+EPILOG = """Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder (without FILE: below the working
+folder), and listens on this machine only. With --host it can be reached from others, and then needs the token in the printed address."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("file", type=Path, nargs="?", metavar="FILE", help="a document (.json)")
+    parser.add_argument("--port", type=_options.whole, metavar="N", help="port to listen on (default: the first free one from 8430 on; 0: any)")
+    parser.add_argument("--host", default="127.0.0.1", metavar="H", help="address to listen on (default 127.0.0.1: this machine only)")
+    parser.add_argument("--no-browser", action="store_true", help="do not open the browser, only print the address")
+    _options.add_world(parser)
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Until Ctrl-C."""
+    from deodar.server.serve import serve
+
+    if args.port is not None and args.port > 65535:
+        args.wrong("a port is a number from 0 to 65535")
+    root = Path.cwd() if args.file is None else args.file.resolve().parent
+    if not root.is_dir():
+        args.wrong(f"there is no folder {root}")
+
+    def say(address: str) -> None:
+        print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
+
+    serve(args.file, root, args.host, args.port, not args.no_browser, args.trust, _options.world(args.world), say)
+    return 0

@@ -1,0 +1,102 @@
+"""The application: the built page, the pictures of the gallery, and one socket."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import AsyncGenerator, Callable
+from pathlib import Path
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import FileResponse, PlainTextResponse, Response
+from starlette.routing import Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp
+from starlette.websockets import WebSocket
+
+from deodar.errors import DeodarError
+from deodar.server import gallery
+from deodar.server.connection import Connection
+from deodar.server.guard import Guard
+from deodar.server.hub import Hub
+from deodar.worlds._base import World
+
+STATIC = Path(__file__).with_name("static")
+NOT_BUILT = """The page of the studio has not been built.
+
+In a copy of the repository, with the environment switched on, type
+
+    python studio/build.py build
+
+or install deodar again, which builds it too:
+
+    python -m pip install -e .          (with uv:  uv sync --reinstall-package deodar)
+"""
+FOR_EVER = {"cache-control": "public, max-age=31536000, immutable"}
+
+
+class Studio:
+    """What is served, and for whom.
+
+    Args:
+        root: the folder below which files are read and written.
+        file: the document to open first.
+        trust: whether functions that documents name may be run.
+        world: what sensors read.
+        host, port, token: see `Guard`.
+        ready: called once everything is up.
+    """
+
+    def __init__(
+        self, root: Path, file: Path | None, trust: bool, world: World | None, host: str, port: int, token: str, ready: Callable[[], None]
+    ) -> None:
+        self._root, self._file, self._trust, self._world, self._ready = root, file, trust, world, ready
+        self._hub: Hub | None = None
+        routes = [
+            Route("/", self._page),
+            Route("/examples/{name}", self._picture),
+            WebSocketRoute("/ws", self._socket),
+            Mount("/assets", _Assets(directory=STATIC / "assets", check_dir=False)),
+            Route("/{name}", self._file_of_page),
+        ]
+        self.app: ASGIApp = Guard(Starlette(routes=routes, lifespan=self._life), host, port, token)
+
+    @contextlib.asynccontextmanager
+    async def _life(self, app: Starlette) -> AsyncGenerator[None]:
+        self._hub = Hub(self._root, self._trust, self._world)
+        if self._file is not None:
+            await self._hub.project.open_file(self._file, True)
+        self._ready()
+        yield
+        await self._hub.close()
+
+    async def _page(self, request: Request) -> Response:
+        index = STATIC / "index.html"
+        if not index.is_file():
+            return PlainTextResponse(NOT_BUILT, 503)
+        return FileResponse(index, headers={"cache-control": "no-cache"})
+
+    async def _file_of_page(self, request: Request) -> Response:
+        """What lies beside the page: its sign."""
+        path = STATIC / request.path_params["name"]
+        return FileResponse(path) if path.parent == STATIC and path.is_file() else PlainTextResponse("not found", 404)
+
+    async def _picture(self, request: Request) -> Response:
+        try:
+            path = gallery.picture_file(request.path_params["name"].removesuffix(".png"))
+        except DeodarError:
+            path = None
+        return FileResponse(path) if path is not None else PlainTextResponse("not found", 404)
+
+    async def _socket(self, socket: WebSocket) -> None:
+        assert self._hub is not None
+        await Connection(socket, self._hub).run()
+
+
+class _Assets(StaticFiles):
+    """Files whose names change with their content."""
+
+    def file_response(self, *args: object, **values: object) -> Response:
+        response = super().file_response(*args, **values)  # type: ignore[arg-type]
+        response.headers.update(FOR_EVER)
+        return response

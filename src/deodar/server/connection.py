@@ -1,0 +1,204 @@
+"""One page: what it asks for is done one after the other, what it has to know is sent when it is ready for it.
+
+Nothing is queued for a page but answers. After each exchange the page says that it took everything in (`drawn`); only then the next one is
+put together, from what is true at that moment. A page that is slow sees fewer frames, and the server holds nothing back for it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import logging
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from deodar.errors import DeodarError
+from deodar.server import requests, view
+from deodar.server.project import Asks
+from deodar.server.stream import Stream
+from deodar.server.to_page import Answer, Clock, Folder, Gallery, Opened, Problem, ToPage, Trouble
+from deodar.server.to_server import Drawn, ToServer
+
+if TYPE_CHECKING:
+    from deodar.server.hub import Hub
+
+MOST_ANSWERS = 64
+"""Answers that may wait for a page; one that asks for more without reading is not listened to meanwhile."""
+
+MOST_MALFORMED = 20
+IDLE = 0.25
+"""Longest wall time between two clocks while it runs, in seconds."""
+
+
+class Connection:
+    """One socket.
+
+    Attributes:
+        streams: what the page watches, by its numbers.
+        pushes: whether the hand that reaches in is this page's.
+    """
+
+    def __init__(self, socket: WebSocket, hub: Hub) -> None:
+        self.hub = hub
+        self.streams: dict[int, Stream] = {}
+        self.pushes = False
+        self._socket = socket
+        self._news = asyncio.Event()
+        self._room = asyncio.Event()
+        self._answers: deque[Answer | Folder] = deque()
+        self._exchange = 0
+        self._ready = True
+        self._shot = -1
+        self._known: dict[str, Any] = {}
+        self._session, self._version = -1, -1
+        self._malformed = 0
+        self._decoder = msgspec.json.Decoder(ToServer)
+
+    def wake(self) -> None:
+        """Look whether there is something to send."""
+        self._news.set()
+
+    async def run(self) -> None:
+        """Until the page goes."""
+        await self._socket.accept()
+        self.hub.connections.add(self)
+        both = [asyncio.create_task(self._receive()), asyncio.create_task(self._send())]
+        try:
+            done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+            for task in done:
+                task.result()  # an error of ours is told on the terminal; the page comes back and starts afresh
+        finally:
+            self.hub.leave(self)
+            for task in both:
+                task.cancel()
+
+    # -------------------------------------------------------------------------------- from the page
+
+    async def _receive(self) -> None:
+        while True:
+            data = await self._socket.receive()
+            if data["type"] == "websocket.disconnect":
+                return
+            text = data.get("text") or ""
+            try:
+                message = self._decoder.decode(text)
+            except (msgspec.DecodeError, RecursionError, UnicodeEncodeError) as error:
+                self._malformed += 1
+                self._refuse(_request(text), f"The message is not understood: {error}")
+                if self._malformed >= MOST_MALFORMED:
+                    await self._socket.close(1008, "too many messages that are not understood")
+                    return
+                continue
+            if isinstance(message, Drawn):
+                if message.frame == self._exchange:
+                    self._ready = True
+                    self.hub.engine.want()
+                    self.wake()
+                continue
+            await self._do(message)
+            while len(self._answers) >= MOST_ANSWERS:
+                self._room.clear()
+                await self._room.wait()
+
+    async def _do(self, message: Any) -> None:
+        try:
+            answers = await requests.do(self, message)
+        except Asks as asks:
+            answers = [Answer(request=message.request, ask=asks.question)]
+        except DeodarError as error:
+            model = self.hub.project.model
+            problems = view.problems(error.problems, None if model is None else model.document)
+            answers = [Answer(request=message.request, problems=problems)]
+        except OSError as error:
+            what = f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}"
+            answers = [Answer(request=message.request, problems=[Problem(what=what)])]
+        except Exception as error:
+            logging.getLogger("deodar.studio").exception("a request of the page failed")
+            what = f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the studio tells more."
+            answers = [Answer(request=message.request, problems=[Problem(what=what)])]
+        self._answers.extend(a for a in answers if message.request)
+        self.wake()
+
+    def _refuse(self, request: int, what: str) -> None:
+        self._answers.append(Answer(request=request, problems=[Problem(what=what)]))
+        self.wake()
+
+    # -------------------------------------------------------------------------------- to the page
+
+    async def _send(self) -> None:
+        try:
+            await self._text(self.hub.welcome)
+            while True:
+                self._news.clear()
+                if self._ready:
+                    await self._say()
+                with contextlib.suppress(TimeoutError):
+                    await asyncio.wait_for(self._news.wait(), IDLE)
+        except (WebSocketDisconnect, RuntimeError, OSError):
+            pass  # it is gone; the receiving side ends the connection
+
+    async def _say(self) -> None:
+        """Everything that is new, ended by a clock."""
+        hub, engine = self.hub, self.hub.engine
+        spoke = False
+        for message in self._news_of_state():
+            await self._text(message)
+            spoke = True
+        shot = engine.shot
+        sent = shot.number != self._shot
+        self._shot = shot.number
+        for stream in list(self.streams.values()):
+            told = stream.news(engine.session)
+            if told is not None:
+                await self._text(told)
+                sent = spoke = True
+            data = stream.frame(engine) if sent else None
+            if data is not None:
+                await self._socket.send_bytes(data)
+                spoke = True
+        while self._answers:
+            await self._text(self._answers.popleft())
+            self._room.set()
+            spoke = True
+        clock = hub.clock(0)
+        if spoke or clock != self._known.get("clock"):
+            self._known["clock"] = clock
+            self._exchange += 1
+            self._ready = False
+            await self._text(msgspec.structs.replace(clock, frame=self._exchange))
+
+    def _news_of_state(self) -> list[ToPage]:
+        project = self.hub.project
+        out: list[ToPage] = []
+        if (self._session, self._version) != (project.session, project.version):
+            changes = project.changes_since(self._session, self._version)
+            if changes is None:
+                out.append(Opened(session=project.session, version=project.version, document=project.view()))
+                self._new("gallery", self.hub.gallery(), out)
+            else:
+                out.extend(changes)
+            self._session, self._version = project.session, project.version
+            file, problems = project.trouble
+            self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
+        return out
+
+    def _new(self, what: str, message: Gallery | Trouble | Clock, out: list[ToPage]) -> None:
+        if self._known.get(what) != message:
+            self._known[what] = message
+            out.append(message)
+
+    async def _text(self, message: ToPage) -> None:
+        await self._socket.send_text(msgspec.json.encode(message).decode())
+
+
+def _request(text: str) -> int:
+    """The number of a request that is not understood, as far as it can be told."""
+    try:
+        number: Any = json.loads(text)["request"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return 0
+    return number if isinstance(number, int) and 0 <= number < 2**31 else 0

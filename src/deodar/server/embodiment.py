@@ -1,0 +1,77 @@
+"""Which world the sensors of the open document read."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import tempfile
+from pathlib import Path
+
+from deodar import registry
+from deodar.elements.sensor import Sensor
+from deodar.errors import WorldError, did_you_mean
+from deodar.model.document import Document
+from deodar.worlds._base import World
+
+MOST_BYTES = 32 * 2**20
+
+
+class Embodiment:
+    """The world that was chosen; where none was, or it lacks a sensor, an example of a kind that has them all.
+
+    Attributes:
+        label: the world that is read, in a few words.
+    """
+
+    def __init__(self, chosen: World | None = None) -> None:
+        self.chosen = chosen
+        self.label = ""
+        self._name = "" if chosen is None else _named(type(chosen).__name__, str(chosen.describe().get("file", "")))
+
+    def world(self, doc: Document) -> World | None:
+        """The world for a document; None where it senses nothing, or nothing fits (then running says so)."""
+        wanted = sensors(doc)
+        self.label = ""
+        if not wanted:
+            return None
+        if self.chosen is None or not wanted <= set(self.chosen.sensors):
+            fitting = [cls for cls in registry.kinds("worlds").values() if wanted <= set(cls.sensors)]
+            if fitting:
+                self.label = _named(fitting[0].__name__, "an example")
+                return fitting[0].example()
+        self.label = self._name
+        return self.chosen
+
+    def open(self, kind: str, path: Path, name: str) -> World:
+        """Choose a world of a kind, made from a file that the person calls `name`."""
+        kinds = registry.kinds("worlds")
+        if kind not in kinds:
+            raise WorldError(f"there is no world {kind!r}", fix=did_you_mean(kind, kinds))
+        try:
+            self.chosen = kinds[kind].open(str(path))
+        except WorldError as error:
+            raise WorldError(error.problems[0].what, where=name, fix=error.problems[0].fix) from None
+        self.label = self._name = _named(kind, name)
+        return self.chosen
+
+    def open_content(self, kind: str, name: str, content: str) -> World:
+        """Choose a world of a kind, made from the content (base64) of a file called `name`."""
+        try:
+            data = base64.b64decode(content, validate=True)
+        except (binascii.Error, ValueError):
+            raise WorldError("the content is not base64", where=name) from None
+        if len(data) > MOST_BYTES:
+            raise WorldError(f"is larger than {MOST_BYTES // 2**20} MiB", where=name)
+        with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
+            path = Path(folder) / f"dropped{Path(name).suffix}"
+            path.write_bytes(data)
+            return self.open(kind, path, name)
+
+
+def sensors(doc: Document) -> set[str]:
+    """Names of the sensors that a document reads."""
+    return {e.element.sensor for e in doc.entries if isinstance(e.element, Sensor)}
+
+
+def _named(kind: str, name: str) -> str:
+    return f"{kind}: {name}" if name else kind

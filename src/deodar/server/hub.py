@@ -1,0 +1,107 @@
+"""What all pages share: the project, the engine, and who is to be told when something happened."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from pathlib import Path
+
+from deodar import __version__
+from deodar.runtime.engine import Engine
+from deodar.server import gallery, kinds
+from deodar.server.connection import Connection
+from deodar.server.embodiment import Embodiment
+from deodar.server.keeper import Keeper, state_folder
+from deodar.server.project import Project
+from deodar.server.to_page import Clock, Gallery, Welcome
+from deodar.server.workspace import Workspace
+from deodar.worlds._base import World
+
+KEEP_SECONDS = 3.0
+"""Wall time between two looks for unsaved edits to keep."""
+
+
+class Hub:
+    """Made in the event loop's thread, where everything but the engine lives."""
+
+    def __init__(self, root: Path, trust: bool, world: World | None) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._told = False
+        self.connections: set[Connection] = set()
+        self.workspace = Workspace(root)
+        self.keeper = Keeper(state_folder())
+        self.embodiment = Embodiment(world)
+        self.engine = Engine(self._from_engine)
+        self.project = Project(self.workspace, self.keeper, self.engine, self.embodiment, trust, self.tell)
+        self.welcome = Welcome(version=__version__, root=str(self.workspace.root), kinds=kinds.kinds(), examples=gallery.examples())
+        self._keeping = asyncio.create_task(self._keep())
+
+    # -------------------------------------------------------------------------------- telling
+
+    def tell(self) -> None:
+        """Something changed: every page looks whether it concerns it."""
+        self._told = False
+        for connection in self.connections:
+            connection.wake()
+
+    def _from_engine(self) -> None:
+        """The same from the engine's thread, once for many calls."""
+        if not self._told:
+            self._told = True
+            with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is left to be told
+                self._loop.call_soon_threadsafe(self.tell)
+
+    def gallery(self) -> Gallery:
+        """What can be gone on with."""
+        recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
+        return Gallery(recent=recent, recoveries=self.keeper.kept())
+
+    def clock(self, frame: int) -> Clock:
+        """Where the run is."""
+        engine, shot, session = self.engine, self.engine.shot, self.engine.session
+        hand = engine.hand
+        return Clock(
+            frame=frame,
+            running=engine.running,
+            time=shot.time,
+            tick=shot.tick,
+            dt=1.0 if session is None else session.dt,
+            seed=0 if session is None else session.seed,
+            speed=engine.pace.speed,
+            factor=engine.pace.factor if engine.running else 0.0,
+            steps=engine.pace.steps if engine.running else 0.0,
+            busy=self.project.busy or engine.busy,
+            failure=self.project.failures(),
+            world=self.embodiment.label,
+            senses=session is not None and bool(session.program.plan.sensors),
+            pushing="" if hand is None else hand.element,
+        )
+
+    # -------------------------------------------------------------------------------- watching
+
+    def watch(self) -> None:
+        """Tell the engine what all pages together look at."""
+        streams = [s for c in self.connections for s in c.streams.values()]
+        places = {s.place for s in streams if s.wish is None}
+        wishes = list(dict.fromkeys(s.wish for s in streams if s.wish is not None))
+        self.engine.call(lambda: self.engine.show(places, wishes))
+
+    def leave(self, connection: Connection) -> None:
+        """A page is gone; the run goes on."""
+        self.connections.discard(connection)
+        if self.engine.hand is not None and connection.pushes:
+            self.engine.call(lambda: self.engine.push(None))
+        self.watch()
+
+    # -------------------------------------------------------------------------------- ending
+
+    async def _keep(self) -> None:
+        while True:
+            await asyncio.sleep(KEEP_SECONDS)
+            self.project.keep()
+
+    async def close(self) -> None:
+        """End the engine; unsaved edits stay kept."""
+        self._keeping.cancel()
+        self.project.keep()
+        await asyncio.to_thread(self.engine.close)

@@ -1,0 +1,123 @@
+"""What the studio keeps between its runs, in the user's state folder: unsaved edits, and which files were open."""
+
+from __future__ import annotations
+
+import contextlib
+import datetime
+import json
+import os
+import re
+import secrets
+from pathlib import Path
+from typing import Any, cast
+
+import psutil
+
+from deodar.errors import DeodarError, UnknownName
+from deodar.model import files
+from deodar.model.document import Document
+from deodar.server.to_page import Recovery
+
+MOST_RECENT = 12
+NAME = re.compile(r"^[0-9a-f]{16}$")
+
+
+def state_folder() -> Path:
+    """The folder: DEODAR_STATE, else where the system keeps such things."""
+    given = os.environ.get("DEODAR_STATE")
+    if given:
+        return Path(given)
+    import platformdirs
+
+    return Path(platformdirs.user_state_dir("deodar")) / "studio"
+
+
+class Keeper:
+    """Unsaved edits and recent files. What cannot be written is not kept; nothing fails for it."""
+
+    def __init__(self, folder: Path) -> None:
+        self._unsaved = folder / "unsaved"
+        self._recent = folder / "recent.json"
+
+    # -------------------------------------------------------------------------------- unsaved edits
+
+    def new_name(self) -> str:
+        """A name under which the edits of one document are kept."""
+        return secrets.token_hex(8)
+
+    def keep(self, name: str, document: Document, file: str) -> None:
+        """Write the document as it is edited."""
+        with contextlib.suppress(OSError, DeodarError):
+            self._unsaved.mkdir(parents=True, exist_ok=True)
+            files.save(document, self._document(name), force=True)
+            now = datetime.datetime.now().astimezone().isoformat(timespec="seconds")
+            note = {"title": document.name, "file": file, "when": now, "process": [os.getpid(), psutil.Process().create_time()]}
+            self._note(name).write_text(json.dumps(note), encoding="utf-8")
+
+    def forget(self, name: str) -> None:
+        """Throw kept edits away."""
+        self._require(name)
+        with contextlib.suppress(OSError):
+            for path in self._unsaved.glob(f"{name}.*"):
+                path.unlink(missing_ok=True)
+
+    def kept(self) -> list[Recovery]:
+        """Edits that were kept and that no studio still holds, newest first."""
+        out: list[Recovery] = []
+        for path in self._unsaved.glob("*.note"):
+            note = _read(path)
+            if NAME.match(path.stem) and isinstance(note, dict) and self._document(path.stem).is_file():
+                data = cast("dict[str, Any]", note)
+                if not _lives(data.get("process")):
+                    text = {key: str(data.get(key, "")) for key in ("title", "file", "when")}
+                    out.append(Recovery(name=path.stem, title=text["title"], file=text["file"], when=text["when"]))
+        return sorted(out, key=lambda r: r.when, reverse=True)
+
+    def read(self, name: str) -> tuple[Document, str]:
+        """A document that was kept, and the file it belongs to."""
+        self._require(name)
+        note: Any = _read(self._note(name))
+        return files.load(self._document(name)), str(note.get("file", "")) if isinstance(note, dict) else ""
+
+    def _require(self, name: str) -> None:
+        if not NAME.match(name):
+            raise UnknownName(f"no unsaved edits are kept under the name {name!r}")
+
+    def _document(self, name: str) -> Path:
+        return self._unsaved / f"{name}.json"
+
+    def _note(self, name: str) -> Path:
+        return self._unsaved / f"{name}.note"
+
+    # -------------------------------------------------------------------------------- recent files
+
+    def opened(self, path: Path) -> None:
+        """Remember a file that was opened or written."""
+        names = [str(path), *(n for n in self._names() if n != str(path))][:MOST_RECENT]
+        with contextlib.suppress(OSError):
+            self._recent.parent.mkdir(parents=True, exist_ok=True)
+            self._recent.write_text(json.dumps(names), encoding="utf-8")
+
+    def recent(self) -> list[Path]:
+        """Files that were open, the last one first, as far as they are still there."""
+        return [p for p in map(Path, self._names()) if p.is_file()]
+
+    def _names(self) -> list[str]:
+        found: Any = _read(self._recent)
+        return [n for n in cast("list[Any]", found) if isinstance(n, str)] if isinstance(found, list) else []
+
+
+def _read(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
+def _lives(process: Any) -> bool:
+    """Whether the process (number and moment of its start) still runs and holds the edits."""
+    try:
+        number, started = process
+        return psutil.Process(number).create_time() == started
+    except (psutil.Error, TypeError, ValueError):
+        return False

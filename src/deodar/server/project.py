@@ -1,0 +1,372 @@
+"""The document that is open: its history, its file, and the engine that runs it.
+
+Lives in the thread of the event loop. What a change would break is refused before it enters the history.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses as dc
+from collections import deque
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+from deodar.errors import DeodarError, DocumentError
+from deodar.errors import Problem as Wrong
+from deodar.leaves import get
+from deodar.model import edit, files
+from deodar.model.check import check
+from deodar.model.document import Document
+from deodar.model.model import Model
+from deodar.runtime.engine import Engine
+from deodar.runtime.session import Session
+from deodar.server import view
+from deodar.server.embodiment import Embodiment
+from deodar.server.keeper import Keeper
+from deodar.server.to_page import Changed, DocumentView, Problem
+from deodar.server.workspace import Workspace, digest
+from deodar.worlds._base import World
+
+Ask = Literal["unsaved", "replace"]
+Cost = Literal["live", "rebuild", "recompile"]
+MOST_CHANGES = 256
+"""Changes of single parameters that a page may lag behind before it is sent the whole document."""
+
+LOOKS = ("panels", "folded")
+"""What of the layout is no edit worth asking about: how panels stand, which groups are folded."""
+
+
+class Asks(Exception):
+    """A question that the person has to settle first."""
+
+    def __init__(self, question: Ask) -> None:
+        self.question: Ask = question
+        super().__init__(question)
+
+
+class Project:
+    """What is open, if anything.
+
+    Attributes:
+        session: counts the documents that were opened.
+        version: counts what a page has to be told.
+        model: the document being edited, with its history.
+        file: where it is saved.
+        trouble: the file that could not be opened, and what is wrong with it.
+        failure: why the document does not run.
+        busy: what is being made, in words.
+    """
+
+    def __init__(
+        self, workspace: Workspace, keeper: Keeper, engine: Engine, embodiment: Embodiment, trust: bool, changed: Callable[[], None]
+    ) -> None:
+        self.workspace, self.keeper, self.engine, self.embodiment = workspace, keeper, engine, embodiment
+        self._trust, self._changed = trust, changed
+        self.session, self.version = 0, 0
+        self.model: Model | None = None
+        self.file: Path | None = None
+        self.trouble: tuple[str, Sequence[Wrong]] = ("", ())
+        self.failure: Sequence[Wrong] = ()
+        self.busy = ""
+        self._name = ""
+        self._saved: Document | None = None
+        self._kept: Document | None = None
+        self._digest = ""
+        self._gesture: object = None
+        self._changes: deque[tuple[int, Changed]] = deque(maxlen=MOST_CHANGES)
+        self._starting: asyncio.Task[None] | None = None
+
+    # -------------------------------------------------------------------------------- looking
+
+    def view(self) -> DocumentView | None:
+        """The document for the page."""
+        if self.model is None:
+            return None
+        history = self.model.history
+        file = "" if self.file is None else self.workspace.shown(self.file)
+        return view.document(self.model.document, file, self.unsaved, history.depth, history.ahead)
+
+    def changes_since(self, session: int, version: int) -> list[Changed] | None:
+        """Single changes that bring a page from that version to this one; None if it needs the whole document."""
+        if session != self.session:
+            return None
+        found = [change for at, change in self._changes if at > version]
+        return found if len(found) == self.version - version else None
+
+    @property
+    def unsaved(self) -> bool:
+        """Whether there are edits that no file holds."""
+        return self.model is not None and self._saved is not self.model.document and _plain(self.model.document) != self._saved
+
+    def failures(self) -> list[Problem]:
+        """Why nothing runs, if so."""
+        doc = None if self.model is None else self.model.document
+        problems, paths = self.engine.failure
+        return [*view.problems(self.failure, doc), *view.problems(problems, doc, paths)]
+
+    # -------------------------------------------------------------------------------- opening and closing
+
+    async def open_file(self, path: Path, discard: bool) -> None:
+        """Open a document; what is wrong with it becomes the trouble that the page shows."""
+        await self._open(lambda: files.load(path), path, str(path), discard)
+
+    async def open_copy(self, path: Path, title: str, discard: bool) -> None:
+        """Open a document as one without a file: an example."""
+        await self._open(lambda: files.load(path), None, title, discard)
+
+    async def open_text(self, text: str, title: str, discard: bool) -> None:
+        """Open a document given as text."""
+
+        def read() -> Document:
+            data = files.parse(text)
+            if isinstance(data, dict) and "arrays" in data:
+                fix = "Put both files below the studio's folder and open the document by its name"
+                raise DocumentError("has its arrays in a file beside it, which was not dropped with it", where=title, fix=fix)
+            return files.from_data(data, {})
+
+        await self._open(read, None, title, discard)
+
+    async def recover(self, name: str, discard: bool) -> None:
+        """Go on with unsaved edits that were kept."""
+        self._ask_unsaved(discard)
+        doc, file = self.keeper.read(name)
+        path = Path(file) if file else None
+        if path is not None and not self.workspace.holds(path):
+            path = None
+        await self._open(lambda: doc, path, doc.name, True)
+        if self.model is not None:
+            self._saved = None
+            self._name, self._kept = name, self.model.document
+            self._moved()
+
+    async def close(self, discard: bool) -> None:
+        """No document any more."""
+        self._ask_unsaved(discard)
+        await self._leave()
+        self._moved()
+
+    async def _open(self, read: Callable[[], Document], file: Path | None, title: str, discard: bool) -> None:
+        self._ask_unsaved(discard)
+        try:
+            doc = await asyncio.to_thread(read)
+            problems = check(doc)
+            if problems:
+                raise DocumentError(problems)
+        except DeodarError as error:
+            await self._leave()
+            self.trouble = (title, error.problems)
+            self._moved()
+            return
+        await self._leave()
+        self.model = Model(document=doc, trusted=self._trust)
+        self.file, self._saved, self._digest = file, _plain(doc), digest(file) if file is not None else ""
+        self._name, self._kept = self.keeper.new_name(), doc
+        if file is not None:
+            self.keeper.opened(file)
+        self._moved()
+        self._starting = asyncio.create_task(self._start(self.session))
+
+    async def _leave(self) -> None:
+        if self._name:
+            self.keeper.forget(self._name)
+        self.session += 1
+        self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
+        self.trouble, self.failure, self.busy = ("", ()), (), ""
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
+
+    async def _start(self, number: int) -> None:
+        """Compile the document and give it to the engine, unless another one was opened meanwhile."""
+        model = self.model
+        assert model is not None
+        self.busy, self.failure = "compiling", ()
+        self._changed()
+        doc = model.document
+
+        def make() -> Session:
+            session = Session(model, world=self.embodiment.world(doc))
+            session.program.chunk(())
+            return session
+
+        try:
+            session = await asyncio.to_thread(make)
+        except DeodarError as error:
+            if number == self.session:
+                self.busy, self.failure = "", error.problems
+                self._changed()
+            return
+        except Exception as error:  # code from outside that runs while it is compiled
+            if number == self.session:
+                self.busy, self.failure = "", [Wrong("", f"{type(error).__name__}: {error}")]
+                self._changed()
+            return
+        if number == self.session:
+            self.busy = ""
+            await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(session)))
+            if model.document is not doc:
+                await self._adopt(model.document)
+            self._changed()
+
+    def _ask_unsaved(self, discard: bool) -> None:
+        if self.unsaved and not discard:
+            raise Asks("unsaved")
+
+    # -------------------------------------------------------------------------------- saving
+
+    async def save(self, path: str, replace: bool) -> Path:
+        """Write the document; asks before it writes over what is not its own, or what changed since it was read."""
+        model = self._require()
+        place = self.workspace.target(path) if path else self.file
+        if place is None:
+            raise DocumentError("has no file yet", where=model.name, fix="Save it under a name")
+        own = self.file is not None and place == self.file
+        now = digest(place)
+        if not replace and now and not (own and now == self._digest):
+            raise Asks("replace")
+        doc = model.document
+        await asyncio.to_thread(files.save, doc, place, True)
+        self.file, self._saved, self._digest, self._kept = place, _plain(doc), digest(place), doc
+        self.keeper.forget(self._name)
+        self.keeper.opened(place)
+        self._moved()
+        return place
+
+    def keep(self) -> None:
+        """Keep unsaved edits, if there are new ones."""
+        if self.model is not None and self.unsaved and self._kept is not self.model.document:
+            self._kept = self.model.document
+            self.keeper.keep(self._name, self.model.document, "" if self.file is None else str(self.file))
+
+    # -------------------------------------------------------------------------------- editing
+
+    async def set(self, element: str, parameter: str, value: Any, gesture: object) -> Cost:
+        """Change a parameter of an element, or (empty element) of the document."""
+        model = self._require()
+        doc = model.document
+        if not element:
+            if parameter not in [k.name for k in doc.knobs]:
+                raise DocumentError("there is no such document parameter", where=parameter)
+            new = edit.knob(doc, parameter, value)
+            return await self._commit(new, gesture)
+        entry = doc.by_id().get(element)
+        if entry is None:
+            raise DocumentError("the element is gone", where=element)
+        new = edit.put(doc, element, parameter, view.read_value(doc, entry, parameter, value))
+        shown = view.shown_value(new, element, parameter)
+        return await self._commit(new, gesture, (element, parameter, shown))
+
+    async def change(self, how: Callable[[Document], Document]) -> Cost:
+        """Any other change, as one step of undo."""
+        return await self._commit(how(self._require().document), None)
+
+    async def describe(self, values: dict[str, Any]) -> None:
+        """Change general properties."""
+        await self.change(lambda doc: edit.describe(doc, **values))
+
+    async def embody(self, world: World) -> None:
+        """Let the sensors read another world; where there is none to read, it waits for a document that senses."""
+        model, session = self._require(), self.engine.session
+        self.embodiment.world(model.document)
+        if session is None:
+            self._starting = asyncio.create_task(self._restart())
+        elif session.program.plan.sensors:
+            await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
+        self._changed()
+
+    def touch(self) -> None:
+        """Something beside the document changed that pages show."""
+        self._moved()
+
+    async def arrange(self, layout: dict[str, Any], undoable: bool) -> None:
+        """Change parts of the layout."""
+        model = self._require()
+        merged = {k: v for k, v in {**model.document.layout, **layout}.items() if v is not None}
+        new = edit.arrange(model.document, merged)
+        if undoable:
+            model.history.commit(new)
+        else:
+            model.history.amend(new)
+        self._gesture = None
+        self._moved()
+
+    async def undo(self) -> None:
+        """Take the last change back."""
+        await self._travel(lambda h: h.undo(), lambda h: h.redo())
+
+    async def redo(self) -> None:
+        """Make the change again that was taken back."""
+        await self._travel(lambda h: h.redo(), lambda h: h.undo())
+
+    async def _travel(self, there: Callable[[edit.History], bool], back: Callable[[edit.History], bool]) -> None:
+        history = self._require().history
+        if there(history):
+            try:
+                await self._adopt(history.document)
+            except DeodarError:
+                back(history)
+                raise
+            self._gesture = None
+            self._moved()
+
+    async def _commit(self, doc: Document, gesture: object, leaf: tuple[str, str, Any] | None = None) -> Cost:
+        model = self._require()
+        if doc == model.document:
+            return "live"
+        cost = await self._adopt(doc)
+        if gesture is not None and gesture == self._gesture:
+            model.history.amend(doc)
+        else:
+            model.history.commit(doc)
+        self._gesture = gesture
+        if leaf is None or cost == "recompile":
+            self._moved()
+        else:
+            self.version += 1
+            element, parameter, value = leaf
+            change = Changed(
+                version=self.version, element=element, parameter=parameter, value=value, cost=cost, unsaved=self.unsaved,
+                undo=model.history.depth, redo=model.history.ahead,
+            )  # fmt: skip
+            self._changes.append((self.version, change))
+            self._changed()
+        return cost
+
+    async def _adopt(self, doc: Document) -> Cost:
+        """Let the engine go on with a document. One with problems is edited on, while what runs stays as it was."""
+        model = self._require()
+        session = self.engine.session
+        if session is None:
+            if not self.busy:
+                self._starting = asyncio.create_task(self._restart())
+            return "recompile"
+        if session.cost(doc) == "recompile" and check(doc):
+            return "recompile"
+        cost: Any = await asyncio.wrap_future(self.engine.call(lambda: self.engine.adopt(model, doc)))
+        return cost
+
+    async def _restart(self) -> None:
+        """Try again to compile what did not, now that it was edited."""
+        await asyncio.sleep(0)  # the edit enters the history first
+        if self.model is not None and not check(self.model.document):
+            await self._start(self.session)
+
+    def _require(self) -> Model:
+        if self.model is None:
+            raise DocumentError("no document is open")
+        return self.model
+
+    def _moved(self) -> None:
+        """Every page needs the whole document again."""
+        self.version += 1
+        self._changes.clear()
+        self._changed()
+
+
+def _plain(doc: Document) -> Document:
+    """The document without what of its layout is no edit."""
+    return dc.replace(doc, layout={k: v for k, v in doc.layout.items() if k not in LOOKS})
+
+
+def leaf_value(doc: Document, element: str, parameter: str) -> float:
+    """A number in the document."""
+    return float(get(doc.by_id()[element].element, parameter))

@@ -1,0 +1,95 @@
+"""JSON Schema and TypeScript of the messages, generated from their declaration.
+
+    python -m deodar.server.protocol
+
+writes `protocol.schema.json` beside this file and, in a copy of the repository, `studio/src/protocol.ts`.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from deodar.server.to_page import ToPage
+from deodar.server.to_server import ToServer
+
+SCHEMA = Path(__file__).with_name("protocol.schema.json")
+TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
+HEAD = "// Generated from src/deodar/server/to_server.py and to_page.py by `python -m deodar.server.protocol`; change those, not this one.\n"
+
+
+def schema() -> dict[str, Any]:
+    """Both unions and everything in them."""
+    (server, page), defs = msgspec.json.schema_components([ToServer, ToPage], ref_template="#/$defs/{name}")
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "deodar studio",
+        "$defs": defs | {"ToServer": server, "ToPage": page},
+    }
+
+
+def schema_text() -> str:
+    """The schema as it is shipped."""
+    return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+def typescript() -> str:
+    """The same as TypeScript types."""
+    out = [HEAD]
+    for name, form in sorted(schema()["$defs"].items()):
+        description = form.get("description", "")
+        out.append("".join(f"// {line.strip()}\n" if line.strip() else "//\n" for line in description.splitlines()))
+        if "properties" in form:
+            out.append(f"export type {name} = {_record(form)};\n\n")
+        else:
+            lines = "".join(f"\n  | {_type(f)}" for f in form["anyOf"])
+            out.append(f"export type {name} ={lines};\n\n")
+    return "".join(out).rstrip() + "\n"
+
+
+def _record(form: dict[str, Any]) -> str:
+    required = set(form.get("required", []))
+    lines = [f"  {key}{'' if key in required else '?'}: {_type(inner)};" for key, inner in form["properties"].items()]
+    return "{\n" + "\n".join(lines) + "\n}"
+
+
+def _type(form: dict[str, Any]) -> str:
+    if "$ref" in form:
+        return form["$ref"].rsplit("/", 1)[1]
+    if "enum" in form:
+        return " | ".join(json.dumps(v) for v in form["enum"])
+    if "const" in form:
+        return json.dumps(form["const"])
+    if "anyOf" in form:
+        return " | ".join(dict.fromkeys(_type(f) for f in form["anyOf"]))
+    match form.get("type"):
+        case "array":
+            inner = _type(form["items"]) if form.get("items") else "unknown"
+            return f"({inner})[]" if " " in inner else f"{inner}[]"
+        case "object":
+            inner = form.get("additionalProperties")
+            return f"Record<string, {_type(inner) if isinstance(inner, dict) else 'unknown'}>"
+        case "integer" | "number":
+            return "number"
+        case "string":
+            return "string"
+        case "boolean":
+            return "boolean"
+        case "null":
+            return "null"
+        case _:
+            return "unknown"
+
+
+def write() -> None:
+    """Write both files anew."""
+    SCHEMA.write_text(schema_text(), encoding="utf-8", newline="\n")
+    if TYPESCRIPT.parent.is_dir():
+        TYPESCRIPT.write_text(typescript(), encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    write()

@@ -1,0 +1,227 @@
+"""What is done for each request of a page: one function for each message of `to_server`."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from deodar.errors import DocumentError, ParameterError
+from deodar.model import edit
+from deodar.numerics.axes import Axes
+from deodar.runtime.engine import Hand
+from deodar.runtime.trace import Wish
+from deodar.server import gallery, project, to_server
+from deodar.server.stream import Stream
+from deodar.server.to_page import Answer, Folder
+
+if TYPE_CHECKING:
+    from deodar.server.connection import Connection
+
+MOST_STREAMS = 2000
+"""Streams that one page may watch."""
+
+Answers = list[Answer | Folder]
+
+
+async def do(page: Connection, message: Any) -> Answers:
+    """Do what is asked; the last of the answers ends the request."""
+    done = await _DO[type(message)](page, message)
+    if isinstance(done, Folder):
+        return [done, Answer(request=message.request)]
+    return [done or Answer(request=message.request)]
+
+
+# ------------------------------------------------------------------------------------------------ files
+
+
+async def _open_file(page: Connection, m: to_server.OpenFile) -> None:
+    await page.hub.project.open_file(page.hub.workspace.inside(m.path), m.discard)
+
+
+async def _open_example(page: Connection, m: to_server.OpenExample) -> None:
+    await page.hub.project.open_copy(gallery.example_file(m.name), m.name, m.discard)
+
+
+async def _open_text(page: Connection, m: to_server.OpenText) -> None:
+    await page.hub.project.open_text(m.text, m.name, m.discard)
+
+
+async def _recover(page: Connection, m: to_server.Recover) -> None:
+    await page.hub.project.recover(m.name, m.discard)
+
+
+async def _forget(page: Connection, m: to_server.Forget) -> None:
+    page.hub.keeper.forget(m.name)
+    page.hub.project.touch()
+
+
+async def _close(page: Connection, m: to_server.Close) -> None:
+    await page.hub.project.close(m.discard)
+
+
+async def _save(page: Connection, m: to_server.Save) -> Answer:
+    path: Path = await page.hub.project.save(m.path, m.replace)
+    return Answer(request=m.request, file=page.hub.workspace.shown(path))
+
+
+async def _list_folder(page: Connection, m: to_server.ListFolder) -> Folder:
+    return page.hub.workspace.listed(m.request, m.path)
+
+
+# ------------------------------------------------------------------------------------------------ edits
+
+
+async def _set(page: Connection, m: to_server.Set) -> Answer:
+    gesture = (id(page), m.gesture) if m.gesture else None
+    cost = await page.hub.project.set(m.element, m.parameter, m.value, gesture)
+    return Answer(request=m.request, cost=cost)
+
+
+async def _describe(page: Connection, m: to_server.Describe) -> None:
+    given = {key: value for key in ("name", "notes", "dt") if (value := getattr(m, key)) is not None}
+    await page.hub.project.describe(given)
+
+
+async def _add_knob(page: Connection, m: to_server.AddKnob) -> None:
+    def change(doc: edit.Document) -> edit.Document:
+        if m.name in [k.name for k in doc.knobs]:
+            raise ParameterError("there is already a document parameter of that name", where=m.name)
+        return edit.link(edit.knob(doc, m.name, project.leaf_value(doc, m.element, m.parameter)), m.element, m.parameter, m.name)
+
+    await page.hub.project.change(change)
+
+
+async def _link(page: Connection, m: to_server.Link) -> None:
+    await page.hub.project.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
+
+
+async def _unlink(page: Connection, m: to_server.Unlink) -> None:
+    await page.hub.project.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
+
+
+async def _remove_knob(page: Connection, m: to_server.RemoveKnob) -> None:
+    await page.hub.project.change(lambda doc: edit.remove_knob(doc, m.name))
+
+
+async def _arrange(page: Connection, m: to_server.Arrange) -> None:
+    await page.hub.project.arrange(m.layout, m.undoable)
+
+
+async def _undo(page: Connection, m: to_server.Undo) -> None:
+    await page.hub.project.undo()
+
+
+async def _redo(page: Connection, m: to_server.Redo) -> None:
+    await page.hub.project.redo()
+
+
+# ------------------------------------------------------------------------------------------------ running
+
+
+async def _engine(page: Connection, function: Callable[[], Any]) -> None:
+    await asyncio.wrap_future(page.hub.engine.call(function))
+
+
+async def _play(page: Connection, m: to_server.Play) -> None:
+    await _engine(page, lambda: page.hub.engine.play(True))
+
+
+async def _pause(page: Connection, m: to_server.Pause) -> None:
+    await _engine(page, lambda: page.hub.engine.play(False))
+
+
+async def _step(page: Connection, m: to_server.Step) -> None:
+    await _engine(page, lambda: page.hub.engine.step(m.n))
+
+
+async def _reset(page: Connection, m: to_server.Reset) -> None:
+    await _engine(page, lambda: page.hub.engine.reset(m.seed))
+
+
+async def _speed(page: Connection, m: to_server.Speed) -> None:
+    await _engine(page, lambda: page.hub.engine.pace.go(m.factor))
+
+
+async def _push(page: Connection, m: to_server.Push) -> None:
+    engine = page.hub.engine
+    session = engine.session
+    entry = None if session is None else session.document.by_id().get(m.element)
+    if session is None or entry is None:
+        raise DocumentError("there is no such element in what runs", where=m.element)
+    session.require_push(m.element)
+    hand = Hand(m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m))
+    page.pushes = True
+    await _engine(page, lambda: engine.push(hand))
+
+
+async def _release(page: Connection, m: to_server.Release) -> None:
+    page.pushes = False
+    await _engine(page, lambda: page.hub.engine.push(None))
+
+
+def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:
+    """A Gaussian over axes, or the same everywhere."""
+    if not math.isfinite(m.amplitude):
+        raise ParameterError("needs a finite number", where="amplitude")
+    out = np.asarray(m.amplitude, float)
+    for i, axis in enumerate(axes):
+        bump = np.ones(axis.samples)
+        if m.center is not None and i < len(m.center):
+            sigma = m.sigma[i] if m.sigma is not None and i < len(m.sigma) else 0.05 * axis.range
+            distance = axis.points - m.center[i]
+            distance = distance - axis.range * np.round(distance / axis.range) if axis.periodic else distance
+            bump = np.exp(-0.5 * (distance / max(abs(sigma), 1e-9)) ** 2)
+        out = out[..., None] * bump
+    return out
+
+
+async def _use_world(page: Connection, m: to_server.UseWorld) -> None:
+    world = page.hub.embodiment.open(m.kind, page.hub.workspace.inside(m.path), m.path)
+    await page.hub.project.embody(world)
+
+
+async def _use_world_content(page: Connection, m: to_server.UseWorldContent) -> None:
+    world = await asyncio.to_thread(page.hub.embodiment.open_content, m.kind, m.name, m.content)
+    await page.hub.project.embody(world)
+
+
+# ------------------------------------------------------------------------------------------------ watching
+
+
+async def _watch(page: Connection, m: to_server.Watch) -> None:
+    _require_room(page, m.stream)
+    page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most)
+    page.hub.watch()
+
+
+async def _trace(page: Connection, m: to_server.Trace) -> None:
+    _require_room(page, m.stream)
+    place = (m.element, m.port)
+    page.streams[m.stream] = Stream(m.stream, place, wish=Wish(place, m.reduce, tuple(m.at)))
+    page.hub.watch()
+
+
+async def _unwatch(page: Connection, m: to_server.Unwatch) -> None:
+    if page.streams.pop(m.stream, None) is not None:
+        page.hub.watch()
+
+
+def _require_room(page: Connection, stream: int) -> None:
+    if stream not in page.streams and len(page.streams) >= MOST_STREAMS:
+        raise ParameterError(f"a page watches at most {MOST_STREAMS} streams")
+
+
+_DO: dict[type[Any], Callable[[Connection, Any], Awaitable[Any]]] = {
+    to_server.OpenFile: _open_file, to_server.OpenExample: _open_example, to_server.OpenText: _open_text, to_server.Recover: _recover,
+    to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save, to_server.ListFolder: _list_folder, to_server.Set: _set,
+    to_server.Describe: _describe, to_server.AddKnob: _add_knob, to_server.Link: _link, to_server.Unlink: _unlink,
+    to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.Undo: _undo, to_server.Redo: _redo, to_server.Play: _play,
+    to_server.Pause: _pause, to_server.Step: _step, to_server.Reset: _reset, to_server.Speed: _speed, to_server.Push: _push,
+    to_server.Release: _release, to_server.UseWorld: _use_world, to_server.UseWorldContent: _use_world_content, to_server.Watch: _watch,
+    to_server.Trace: _trace, to_server.Unwatch: _unwatch,
+}  # fmt: skip

@@ -1,0 +1,75 @@
+"""Start the studio: a socket, an address, a browser."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import socket
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+
+import uvicorn
+
+from deodar.errors import OutputError
+from deodar.server.app import Studio
+from deodar.server.guard import is_local
+from deodar.worlds._base import World
+
+PORT = 8430
+"""First port that is tried; where it is taken, the next free one."""
+
+TRIED = 20
+MOST_MESSAGE = 64 * 2**20
+"""Longest message from a page, in bytes: a dropped document, or a picture as base64."""
+
+
+def serve(
+    file: Path | None, root: Path, host: str, port: int | None, browser: bool, trust: bool, world: World | None, say: Callable[[str], None]
+) -> None:
+    """Serve until Ctrl-C. `say` gets the address once it answers."""
+
+    def ready(address: str) -> None:
+        say(address)
+        if browser:
+            webbrowser.open(address)
+
+    server, bound = prepare(file, root, host, port, trust, world, ready)
+    server.run(sockets=[bound])
+
+
+def prepare(
+    file: Path | None, root: Path, host: str, port: int | None, trust: bool, world: World | None, ready: Callable[[str], None]
+) -> tuple[uvicorn.Server, socket.socket]:
+    """A server that is not started yet, and the socket it is to listen at; `ready` gets the address once everything is up."""
+    bound = bind(host, port)
+    number = bound.getsockname()[1]
+    token = "" if is_local(host) else secrets.token_urlsafe(24)
+    shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
+    address = f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={token}' if token else ''}"
+    studio = Studio(root, file, trust, world, host, number, token, lambda: ready(address))
+    config = uvicorn.Config(
+        studio.app, log_level="warning", ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=MOST_MESSAGE, lifespan="on",
+        timeout_graceful_shutdown=2, server_header=False,
+    )  # fmt: skip
+    return uvicorn.Server(config), bound
+
+
+def bind(host: str, port: int | None) -> socket.socket:
+    """A socket on the port, or without one on the first free port from `PORT` on."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    wanted = [port] if port is not None else [*range(PORT, PORT + TRIED), 0]
+    for number in wanted:
+        bound = socket.socket(family)
+        if os.name == "posix":  # a port that was just left; elsewhere this would also take one that is in use
+            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            bound.bind((host, number))
+            bound.listen(100)  # whoever is told the address may come at once
+            return bound
+        except (OSError, OverflowError) as error:
+            bound.close()
+            if port is not None:
+                why = getattr(error, "strerror", None) or str(error)
+                raise OutputError(f"cannot listen at {host} on port {number}: {why}", fix="Take another one: --port 0 finds a free one") from None
+    raise OutputError(f"no free port at {host}", fix="Name one: --port N")

@@ -1,0 +1,120 @@
+"""What one page watches: ports as thinned frames, and time courses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from deodar.errors import DeodarError, Problem
+from deodar.model import find
+from deodar.numerics.axes import Axes, Axis
+from deodar.runtime.engine import Engine
+from deodar.runtime.look import Place
+from deodar.runtime.session import Session
+from deodar.runtime.trace import Trace, Wish
+from deodar.server import frames, view
+from deodar.server.to_page import Announced, Lost
+
+CHANNELS = ("channel", 3)
+"""Name and samples of a last axis that makes an array a picture."""
+
+
+class Stream:
+    """A port of an element under a number of the page's choice. With a `wish` its time course."""
+
+    def __init__(self, number: int, place: Place, most: int = 0, wish: Wish | None = None) -> None:
+        self.number, self.place, self.most, self.wish = number, place, most, wish
+        self._said: Announced | Lost | None = None
+        self._axes: Axes = ()
+        self._trace: Trace | None = None
+        self._taken = 0
+
+    def news(self, session: Session | None) -> Announced | Lost | None:
+        """What the page has to be told about the stream, if it is something new."""
+        told = None if session is None else self._form(session)
+        if told is None or told == self._said:
+            return None
+        self._said = told
+        return told
+
+    def frame(self, engine: Engine) -> bytes | None:
+        """What there is to send, if anything."""
+        if not isinstance(self._said, Announced):
+            return None
+        shot = engine.shot
+        if self.wish is not None:
+            return self._samples(engine.traces.get(self.wish), shot.number)
+        array = shot.arrays.get(self.place)
+        if array is None:
+            return None
+        values = thin(fold(array, self._axes), self.most, self._said.channels)
+        if list(values.shape) != self._said.shape:
+            return None  # of the program before
+        return frames.pack(self.number, shot.number, shot.time, values)
+
+    def _samples(self, trace: Trace | None, number: int) -> bytes | None:
+        if trace is not self._trace:
+            self._trace, self._taken = trace, 0
+        if trace is None or trace.count == self._taken:
+            return None
+        samples = trace.since(self._taken)
+        self._taken = trace.count
+        start = float(samples[0, 0])
+        return frames.pack(self.number, number, start, samples - [start, 0.0])
+
+    def _form(self, session: Session) -> Announced | Lost:
+        ident, port = self.place
+        program = session.program
+        try:
+            entry = session.document.by_id().get(ident)
+            if entry is None or ident not in program.plan.row:
+                return _lost(self.number, Problem("", "the element is not there"))
+            find.port(session.document, f"{entry.path}.{port}")
+            self._axes = program.axes(program.port(ident, port))
+        except (DeodarError, KeyError) as error:
+            problems = error.problems if isinstance(error, DeodarError) else ()
+            return _lost(self.number, problems[0] if problems else Problem(ident, f"has no port {port!r}"))
+        if self.wish is not None:
+            return Announced(stream=self.number, shape=[2], axes=[], folded=[], channels=False)
+        channels = is_picture(self._axes)
+        kept = self._axes if channels else self._axes[:2]
+        shape = [_thinned(a.samples, self.most) for a in kept]
+        if channels:
+            shape[-1] = CHANNELS[1]
+        return Announced(
+            stream=self.number,
+            shape=shape,
+            axes=[view.axis(a) for a in kept],
+            folded=[a.name for a in self._axes[len(kept) :]],
+            channels=channels,
+        )
+
+
+def is_picture(axes: Sequence[Axis]) -> bool:
+    """Whether an array over these axes is a picture in three channels."""
+    return len(axes) == 3 and (axes[2].name, axes[2].samples) == CHANNELS
+
+
+def fold(array: np.ndarray, axes: Sequence[Axis]) -> np.ndarray:
+    """The maximum over all axes beyond the second; a picture stays as it is."""
+    if array.ndim <= 2 or is_picture(axes):
+        return array
+    return array.max(axis=tuple(range(2, array.ndim)))
+
+
+def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
+    """At most so many samples along each axis (0: all), evenly spread, the ends among them; channels all stay."""
+    for d in range(array.ndim - channels):
+        n = array.shape[d]
+        if _thinned(n, most) < n:
+            array = array.take(np.linspace(0, n - 1, _thinned(n, most)).round().astype(int), axis=d)
+    return array
+
+
+def _thinned(samples: int, most: int) -> int:
+    return samples if most == 0 else min(samples, max(2, most))
+
+
+def _lost(number: int, problem: Problem) -> Lost:
+    return Lost(stream=number, problem=view.problems([problem])[0])

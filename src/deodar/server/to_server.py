@@ -1,0 +1,231 @@
+"""What the page may say to the server: one union, declared once."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from deodar.server.message import Id, Message
+
+Text = Annotated[str, msgspec.Meta(max_length=4096)]
+Count = Annotated[int, msgspec.Meta(ge=0, le=2**31 - 1)]
+Seed = Annotated[int, msgspec.Meta(ge=0, le=2**32 - 1)]
+
+
+class Request(Message, frozen=True):
+    """What the page asks for. Where `request` is not 0, an `answer` with the same number follows."""
+
+    request: Count = 0
+
+
+class OpenFile(Request, frozen=True, kw_only=True, tag="open_file"):
+    """Open a document below the root. `discard` allows to throw unsaved edits away."""
+
+    path: Text
+    discard: bool = False
+
+
+class OpenExample(Request, frozen=True, kw_only=True, tag="open_example"):
+    """Open one of the examples, as a document without a file."""
+
+    name: Text
+    discard: bool = False
+
+
+class OpenText(Request, frozen=True, kw_only=True, tag="open_text"):
+    """Open the content of a file that was dropped on the page, as a document without a file."""
+
+    name: Text
+    text: str
+    discard: bool = False
+
+
+class Recover(Request, frozen=True, kw_only=True, tag="recover"):
+    """Open unsaved edits that were kept."""
+
+    name: Text
+    discard: bool = False
+
+
+class Forget(Request, frozen=True, kw_only=True, tag="forget"):
+    """Throw unsaved edits away that were kept."""
+
+    name: Text
+
+
+class Close(Request, frozen=True, kw_only=True, tag="close"):
+    """Close the document and go to the gallery."""
+
+    discard: bool = False
+
+
+class Save(Request, frozen=True, kw_only=True, tag="save"):
+    """Write the document, to its own file where `path` is empty. `replace` allows to write over a file that is not the one it came from,
+    or that changed on disk since.
+    """
+
+    path: Text = ""
+    replace: bool = False
+
+
+class ListFolder(Request, frozen=True, kw_only=True, tag="list_folder"):
+    """Ask for the documents and folders in a folder below the root; a `folder` follows."""
+
+    path: Text = ""
+
+
+class Set(Request, frozen=True, kw_only=True, tag="set"):
+    """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of that name.
+
+    `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that share a `gesture` (not 0) are
+    one step of undo: a slider that is dragged.
+    """
+
+    element: Id
+    parameter: Text
+    value: Any
+    gesture: Count = 0
+
+
+class Describe(Request, frozen=True, kw_only=True, tag="describe"):
+    """Change general properties of the document; what is None stays."""
+
+    name: Text | None = None
+    notes: str | None = None
+    dt: float | None = None
+
+
+class AddKnob(Request, frozen=True, kw_only=True, tag="add_knob"):
+    """A new document parameter, at the value of the first parameter that it drives."""
+
+    name: Text
+    element: Id
+    parameter: Text
+
+
+class Link(Request, frozen=True, kw_only=True, tag="link"):
+    """Let a document parameter drive a parameter of an element."""
+
+    name: Text
+    element: Id
+    parameter: Text
+
+
+class Unlink(Request, frozen=True, kw_only=True, tag="unlink"):
+    """Let a parameter stand for itself again."""
+
+    element: Id
+    parameter: Text
+
+
+class RemoveKnob(Request, frozen=True, kw_only=True, tag="remove_knob"):
+    """Take a document parameter away; what it drove keeps its value."""
+
+    name: Text
+
+
+class Arrange(Request, frozen=True, kw_only=True, tag="arrange"):
+    """Change parts of the layout: each key given replaces that key of the document's layout, None takes it away."""
+
+    layout: dict[str, Any]
+    undoable: bool = True
+
+
+class Undo(Request, frozen=True, kw_only=True, tag="undo"):
+    """Take the last change back."""
+
+
+class Redo(Request, frozen=True, kw_only=True, tag="redo"):
+    """Make the change again that was taken back."""
+
+
+class Play(Request, frozen=True, kw_only=True, tag="play"):
+    """Run on."""
+
+
+class Pause(Request, frozen=True, kw_only=True, tag="pause"):
+    """Stand still."""
+
+
+class Step(Request, frozen=True, kw_only=True, tag="step"):
+    """So many Euler steps, then stand still."""
+
+    n: Annotated[int, msgspec.Meta(ge=1, le=1_000_000)] = 1
+
+
+class Reset(Request, frozen=True, kw_only=True, tag="reset"):
+    """State, time and noise back to the start; with a seed, another one from then on. Parameters stay."""
+
+    seed: Seed | None = None
+
+
+class Speed(Request, frozen=True, kw_only=True, tag="speed"):
+    """Document time in relation to the clock on the wall: 1 is real time, None as fast as possible."""
+
+    factor: Annotated[float, msgspec.Meta(gt=0, le=1e6)] | None
+
+
+class Push(Request, frozen=True, kw_only=True, tag="push"):
+    """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same where it is None."""
+
+    element: Id
+    amplitude: float
+    center: list[float] | None = None
+    sigma: list[float] | None = None
+
+
+class Release(Request, frozen=True, kw_only=True, tag="release"):
+    """End of `push`."""
+
+
+class UseWorld(Request, frozen=True, kw_only=True, tag="use_world"):
+    """Let the sensors read a world of that kind, opened with a file below the root."""
+
+    kind: Text
+    path: Text
+
+
+class UseWorldContent(Request, frozen=True, kw_only=True, tag="use_world_content"):
+    """Let the sensors read a world made of the content (base64) of a file that was dropped on the page."""
+
+    kind: Text
+    name: Text
+    content: str
+
+
+class Watch(Request, frozen=True, kw_only=True, tag="watch"):
+    """Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples along each axis (0: all)."""
+
+    stream: Count
+    element: Id
+    port: Text
+    most: Count = 0
+
+
+class Trace(Request, frozen=True, kw_only=True, tag="trace"):
+    """Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its mean."""
+
+    stream: Count
+    element: Id
+    port: Text
+    reduce: Literal["at", "max", "mean"] = "max"
+    at: list[float] = []
+
+
+class Unwatch(Request, frozen=True, kw_only=True, tag="unwatch"):
+    """End a stream."""
+
+    stream: Count
+
+
+class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
+    """The page has taken in the frames up to the clock of this number; only then the next ones are sent."""
+
+    frame: Count
+
+
+ToServer = (
+    OpenFile | OpenExample | OpenText | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink | RemoveKnob
+    | Arrange | Undo | Redo | Play | Pause | Step | Reset | Speed | Push | Release | UseWorld | UseWorldContent | Watch | Trace | Unwatch | Drawn
+)  # fmt: skip

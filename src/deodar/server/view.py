@@ -1,0 +1,103 @@
+"""The document as the page sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from deodar.element import Element
+from deodar.errors import Problem as Wrong
+from deodar.model import files, find
+from deodar.model.check import check
+from deodar.model.document import Document, Entry
+from deodar.model.parts import value_from_json
+from deodar.model.resolve import Node, resolve
+from deodar.numerics.axes import Axis
+from deodar.server.to_page import AxisView, ConnectionView, DocumentView, ElementView, KnobView, LinkView, Problem
+
+BESIDE = ("kind", "id", "every")
+"""What a document writes of an element besides its parameters."""
+
+
+def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:
+    """Everything about the document."""
+    data, _ = files.to_data(doc)
+    nodes = {n.id: n for n in resolve(doc)[0] if n.declared}
+    named = {_axis(data["axes"][key]): key for key in data["axes"]}
+    return DocumentView(
+        file=file,
+        title=doc.name,
+        time_unit=doc.time_unit,
+        dt=doc.dt,
+        notes=doc.notes,
+        axes=[axis(a, key) for a, key in named.items()],
+        elements=[_element(e, data["elements"][e.path], nodes.get(e.id), named) for e in doc.entries],
+        connections=[
+            ConnectionView(source=c.source, source_port=c.source_port, target=c.target, target_port=c.target_port, reads=c.reads)
+            for c in doc.connections
+        ],
+        groups=[list(g) for g in doc.groups],
+        knobs=[KnobView(name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links]) for k in doc.knobs],
+        layout=dict(doc.layout),
+        problems=problems(check(doc), doc),
+        unsaved=unsaved,
+        undo=undo,
+        redo=redo,
+    )
+
+
+def axis(a: Axis, key: str = "") -> AxisView:
+    """An axis, under its key in the document where it has one."""
+    return AxisView(key=key, name=a.name, lower=a.lower, upper=a.upper, samples=a.samples, periodic=a.periodic, unit=a.unit)
+
+
+def problems(found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()) -> list[Problem]:
+    """Problems as the page shows them, each with the element that it belongs to: named in `where`, or in `paths`."""
+    entries = doc.entries if doc is not None else ()
+    out: list[Problem] = []
+    for p in found:
+        concerned = [e.id for path in (p.where, *paths) for e in entries if _names(path, e.path)] or [""]
+        out += [Problem(what=p.what, where=p.where, fix=p.fix, element=ident) for ident in dict.fromkeys(concerned)]
+    return out
+
+
+def _names(where: str, path: str) -> bool:
+    """Whether a place begins with a path: `u`, `u.tau`, `u (script.py:3)`, `u -> v`."""
+    return where == path or where.startswith((f"{path}.", f"{path} ("))
+
+
+def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mapping[Axis, str]) -> ElementView:
+    ports = {} if node is None else {**node.ins, **node.outs}
+    return ElementView(
+        id=e.id,
+        path=e.path,
+        name=e.names[-1],
+        group=list(e.group),
+        kind=type(e.element).__name__,
+        every=e.every,
+        values={k: v for k, v in data.items() if k not in BESIDE},
+        inputs=list(e.element.ports()),
+        outputs=find.outputs(e),
+        axes={port: [named.get(a, a.name) for a in axes] for port, axes in ports.items()},
+        pushable=e.every == 1 and type(e.element).push is not Element.push,
+    )
+
+
+def _axis(data: Mapping[str, Any]) -> Axis:
+    return Axis(**data)
+
+
+def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
+    """What the page says about a parameter, as the document holds it."""
+    data, arrays = files.to_data(doc)
+    axes = {key: _axis(found) for key, found in data["axes"].items()}
+    return value_from_json(entry.element, parameter, value, f"{entry.path}.{parameter}", axes, arrays)
+
+
+def shown_value(doc: Document, element: str, parameter: str) -> Any:
+    """A parameter as the page sees it."""
+    data, _ = files.to_data(doc)
+    value: Any = data["elements"][doc.by_id()[element].path]
+    for step in parameter.split("."):
+        value = value[int(step)] if isinstance(value, list) else value[step]
+    return value

@@ -1,0 +1,82 @@
+/** `deodar studio` as a person starts it, in folders of its own. */
+import { spawn } from "node:child_process";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+
+const ROOT = join(import.meta.dirname, "..", "..");
+const ADDRESS = /http:\/\/127\.0\.0\.1:\d+\S*(?=\s)/;
+const PATIENCE = 60_000;
+const GRACE = 10_000;
+
+export interface ServerOptions {
+  /** The document to open, as typed in the working folder; without one, the gallery. */
+  file?: string;
+  /** Python modules in the working folder that are imported first. */
+  imports?: string[];
+  /** Further words of the command line. */
+  words?: string[];
+}
+
+export interface Server {
+  url: string;
+  /** What it has printed so far. */
+  said: () => string;
+  stop: (signal?: NodeJS.Signals) => Promise<void>;
+}
+
+/** The Python that has deodar: the one that runs the tests, else the one of the environment in .venv. */
+function python(): string {
+  const named = process.env["DEODAR_PYTHON"];
+  if (named) return named;
+  const found = ["bin/python", "Scripts/python.exe"].map((name) => join(ROOT, ".venv", name)).find((path) => existsSync(path));
+  if (!found) throw new Error("There is no .venv with deodar in it. Type `make test`, or set DEODAR_PYTHON to a Python that has deodar.");
+  return found;
+}
+
+/** A server that listens. It works in `folder` and keeps what is unsaved in `state`. */
+export async function startServer(folder: string, state: string, options: ServerOptions = {}): Promise<Server> {
+  const imports = (options.imports ?? []).flatMap((name) => ["--import", name]);
+  const file = options.file ? [options.file] : [];
+  const words = ["-m", "deodar", ...imports, "studio", ...file, "--no-browser", "--port", "0", ...(options.words ?? [])];
+  const env = {
+    // programs that earlier tests compiled are compiled once
+    DEODAR_CACHE: join(ROOT, ".pytest_cache", "programs"),
+    ...process.env,
+    DEODAR_STATE: state,
+    PYTHONUNBUFFERED: "1",
+    COLUMNS: "400",
+    NO_COLOR: "1",
+  };
+  const child = spawn(python(), words, { cwd: folder, env, stdio: ["ignore", "pipe", "pipe"] });
+  const orphan = () => child.kill("SIGKILL");
+  process.once("exit", orphan);
+  const ended = new Promise<void>((resolve) => child.once("close", () => resolve()));
+
+  let text = "";
+  let timer: NodeJS.Timeout | undefined;
+  const url = await new Promise<string>((resolve, reject) => {
+    const fail = (why: string) => {
+      child.kill("SIGKILL");
+      reject(new Error(`deodar studio ${why}. It said:\n${text}`));
+    };
+    timer = setTimeout(fail, PATIENCE, "printed no address");
+    child.once("error", (error) => fail(`did not start (${error.message})`));
+    child.once("close", (status) => fail(`ended with status ${status}`));
+    for (const stream of [child.stdout, child.stderr]) {
+      stream.setEncoding("utf8").on("data", (piece: string) => {
+        text += piece;
+        const found = ADDRESS.exec(text);
+        if (found) resolve(found[0]);
+      });
+    }
+  }).finally(() => clearTimeout(timer));
+
+  const stop = async (signal: NodeJS.Signals = "SIGTERM") => {
+    child.kill(signal);
+    const impatient = setTimeout(orphan, GRACE);
+    await ended;
+    clearTimeout(impatient);
+    process.removeListener("exit", orphan);
+  };
+  return { url, said: () => text, stop };
+}

@@ -1,0 +1,108 @@
+/** A running studio with its page open in a browser, for one test. */
+import { cpSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, join } from "node:path";
+
+import type { Browser, BrowserContext, Page } from "playwright-core";
+
+import { launch } from "./chromium";
+import { type Server, type ServerOptions, startServer } from "./server";
+
+const ROOT = join(import.meta.dirname, "..", "..");
+const SIZE = { width: 1280, height: 800 };
+
+export interface StudioOptions extends ServerOptions {
+  /** Files and folders of the repository that are copied into the working folder first, such as examples/selection.json. */
+  copies?: string[];
+  colours?: "light" | "dark";
+  /** Messages of the browser's console that belong to the test, such as those of a lost connection. */
+  expected?: RegExp[];
+}
+
+export interface Studio {
+  page: Page;
+  url: string;
+  /** The working folder: FILE is looked for here. */
+  folder: string;
+  browser: Browser;
+  context: BrowserContext;
+  /** The server that runs now. */
+  readonly server: Server;
+  /** Ends the server, as told by the signal, and starts it again at the same address. */
+  restart: (signal?: NodeJS.Signals) => Promise<void>;
+  /** A further page before the same server. */
+  another: () => Promise<Page>;
+  /** Ends browser and server, and fails where a page reported an error. */
+  stop: () => Promise<void>;
+}
+
+export async function startStudio(options: StudioOptions = {}): Promise<Studio> {
+  const home = mkdtempSync(join(tmpdir(), "deodar-studio-"));
+  const folder = join(home, "folder");
+  mkdirSync(folder);
+  for (const name of options.copies ?? []) cpSync(join(ROOT, name), join(folder, basename(name)), { recursive: true });
+
+  const closing: (() => Promise<void>)[] = [async () => rmSync(home, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 })];
+  const close = async () => {
+    for (const one of closing.splice(0).reverse()) await one();
+  };
+  const errors: string[] = [];
+  try {
+    const state = join(home, "state");
+    let server = await startServer(folder, state, options);
+    closing.push(() => server.stop());
+    const restart = async (signal?: NodeJS.Signals) => {
+      await server.stop(signal);
+      const port = new URL(server.url).port;
+      server = await startServer(folder, state, { ...options, words: [...(options.words ?? []), "--port", port] });
+    };
+    const browser = await launch();
+    closing.push(() => browser.close());
+    const context = await browser.newContext({
+      viewport: SIZE,
+      locale: "en-US",
+      colorScheme: options.colours ?? "light",
+      reducedMotion: "reduce",
+      acceptDownloads: true,
+    });
+    const another = async () => {
+      const page = await context.newPage();
+      const note = (text: string) => {
+        if (!options.expected?.some((pattern) => pattern.test(text))) errors.push(text);
+      };
+      page.on("pageerror", (error) => note(error.stack ?? error.message));
+      page.on("console", (message) => {
+        if (message.type() === "error") note(`${message.text()} (${message.location().url})`);
+      });
+      await page.goto(server.url);
+      return page;
+    };
+    const page = await another();
+    const stop = async () => {
+      await close();
+      if (errors.length > 0) throw new Error(`The page reported:\n${errors.join("\n")}`);
+    };
+    return {
+      page,
+      url: server.url,
+      folder,
+      browser,
+      context,
+      get server() {
+        return server;
+      },
+      restart,
+      another,
+      stop,
+    };
+  } catch (error) {
+    await close();
+    throw error;
+  }
+}
+
+/** A picture of the page as NAME.png in the folder that DEODAR_SHOTS names; without the variable, none. */
+export async function shot(page: Page, name: string): Promise<void> {
+  const folder = process.env["DEODAR_SHOTS"];
+  if (folder) await page.screenshot({ path: join(folder, `${name}.png`) });
+}

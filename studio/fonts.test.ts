@@ -1,0 +1,21 @@
+import { readFileSync } from "node:fs";
+
+import { expect, test } from "vitest";
+
+import { onlyWoff2 } from "./fonts";
+
+test("a font keeps its source in woff2 alone", () => {
+  const css = `src:url(a.woff2) format("woff2"),url(a.woff) format("woff"),url('a.ttf') format('truetype');color:red`;
+  expect(onlyWoff2(css)).toBe(`src:url(a.woff2) format("woff2");color:red`);
+});
+
+test("a font without woff2 is left alone", () => {
+  const css = `src: url(a.ttf) format("truetype")`;
+  expect(onlyWoff2(css)).toBe(css);
+});
+
+test("the stylesheet of the formulas keeps no other source", () => {
+  const css = onlyWoff2(readFileSync("node_modules/katex/dist/katex.min.css", "utf8"));
+  expect(css).toContain("KaTeX_Main-Regular.woff2");
+  expect(css).not.toMatch(/\.woff\)|\.ttf\)/);
+});

@@ -1,0 +1,82 @@
+// The whole page: what stands on it, and what stands before it.
+
+import { useEffect } from "react";
+
+import { Dock } from "./panels/Dock";
+import { Dialogs } from "./pages/Dialogs";
+import { DropArea } from "./pages/DropArea";
+import { GalleryPage } from "./pages/GalleryPage";
+import { Header } from "./pages/Header";
+import { LostBanner } from "./pages/LostBanner";
+import { Notices } from "./pages/Notices";
+import { ProblemsPage } from "./pages/ProblemsPage";
+import { Splash } from "./pages/Splash";
+import { useView } from "./pages/view";
+import { useShortcuts } from "./shortcuts";
+import { useStudio } from "./store";
+import { FailureBar } from "./transport/FailureBar";
+import classes from "./App.module.css";
+
+export function App() {
+  useShortcuts();
+  useAskBeforeLeaving();
+  useFreshStart();
+  return (
+    <div className={classes.app}>
+      <LostBanner />
+      <div className={classes.page}>
+        <Page />
+      </div>
+      <Notices />
+      <Dialogs />
+      <DropArea />
+    </div>
+  );
+}
+
+function Page() {
+  const ready = useStudio((state) => state.welcome !== null);
+  const trouble = useStudio((state) => state.trouble);
+  const open = useStudio((state) => state.document !== null);
+  const gallery = useView((view) => view.gallery);
+  if (!ready) {
+    return <Splash />;
+  }
+  if (trouble !== null) {
+    return <ProblemsPage trouble={trouble} />;
+  }
+  if (!open || gallery) {
+    return <GalleryPage />;
+  }
+  return (
+    <div className={classes.studio}>
+      <Header />
+      <FailureBar />
+      <main className={classes.dock}>
+        <Dock />
+      </main>
+    </div>
+  );
+}
+
+// The browser asks before a page with unsaved edits is closed.
+function useAskBeforeLeaving(): void {
+  const unsaved = useStudio((state) => state.document?.unsaved ?? false);
+  useEffect(() => {
+    if (!unsaved) {
+      return;
+    }
+    const leaving = (event: BeforeUnloadEvent) => event.preventDefault();
+    addEventListener("beforeunload", leaving);
+    return () => removeEventListener("beforeunload", leaving);
+  }, [unsaved]);
+}
+
+// Another document: what was said of the one before is over, and so is the look into the gallery.
+function useFreshStart(): void {
+  const session = useStudio((state) => state.session);
+  useEffect(() => {
+    useView.setState({ gallery: false });
+    useStudio.setState({ notices: [] });
+  }, [session]);
+}

@@ -1,0 +1,78 @@
+// What the pointer rests on, in short: what it is, its equation, its main values, what is wrong with it.
+
+import { Popover } from "@mantine/core";
+import { IconAlertTriangle } from "@tabler/icons-react";
+import { useEffect } from "react";
+import { Tex } from "../inspector/Tex";
+import { useStudio } from "../store";
+import { facts } from "./facts";
+import { useHover } from "./hover";
+import { useTrouble } from "./trouble";
+
+export function Card() {
+  const target = useHover((state) => state.target);
+  const { stay, leave, close } = useHover.getState();
+  useEffect(() => {
+    const escape = (event: KeyboardEvent) => event.key === "Escape" && close();
+    window.addEventListener("keydown", escape);
+    return () => {
+      window.removeEventListener("keydown", escape);
+      close();
+    };
+  }, [close]);
+  if (target === null) {
+    return null;
+  }
+  const { element, left, top, width, height } = target;
+  return (
+    <Popover key={element} opened position="right-start" offset={10} width={290} shadow="md" withinPortal trapFocus={false} returnFocus={false} closeOnEscape={false}>
+      <Popover.Target>
+        <div aria-hidden style={{ position: "fixed", left, top, width, height, pointerEvents: "none" }} />
+      </Popover.Target>
+      <Popover.Dropdown className="graph-card" onPointerEnter={stay} onPointerLeave={leave} role="tooltip">
+        <Said element={element} />
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
+
+function Said({ element: id }: { element: string }) {
+  const element = useStudio((state) => state.elements.get(id));
+  const kinds = useStudio((state) => state.kinds);
+  const document = useStudio((state) => state.document);
+  const trouble = useTrouble(id);
+  const kind = kinds.get(element?.kind ?? "");
+  if (element === undefined || document === null) {
+    return null;
+  }
+  return (
+    <>
+      <div className="graph-card-path">{element.path}</div>
+      <div className="graph-box-kind">{kind?.title ?? element.kind}</div>
+      {trouble !== "" && (
+        <div className="graph-card-trouble">
+          <IconAlertTriangle size={14} aria-hidden />
+          <span>{trouble}</span>
+        </div>
+      )}
+      {(kind?.equation ?? []).map((line) => (
+        <div key={line} className="graph-card-equation">
+          <Tex source={line} />
+        </div>
+      ))}
+      {kind !== undefined && (
+        <dl className="graph-card-facts">
+          {facts(element, kind, kinds, document).map(({ name, label, symbol, value }) => (
+            <div key={name}>
+              <dt title={label}>
+                <span className="one-line">{label}</span>
+                {symbol !== "" && <Tex source={symbol} />}
+              </dt>
+              <dd className="numbers">{value}</dd>
+            </div>
+          ))}
+        </dl>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,43 @@
+// The buttons of the canvas.
+
+import { ActionIcon, Tooltip } from "@mantine/core";
+import { IconMaximize, IconMinus, IconPlus, IconSearch, IconSitemap } from "@tabler/icons-react";
+import { useReactFlow } from "@xyflow/react";
+import type { ReactNode } from "react";
+
+type Props = { onSearch: () => void; onTidy: () => void };
+
+export function Controls({ onSearch, onTidy }: Props) {
+  const { zoomIn, zoomOut, fitView } = useReactFlow();
+  return (
+    <div className="graph-controls" role="toolbar" aria-label="Canvas">
+      <Control label="Search ( / )" onClick={onSearch}>
+        <IconSearch size={16} />
+      </Control>
+      <Control label="Zoom in" onClick={() => void zoomIn()}>
+        <IconPlus size={16} />
+      </Control>
+      <Control label="Zoom out" onClick={() => void zoomOut()}>
+        <IconMinus size={16} />
+      </Control>
+      <Control label="Show everything" onClick={() => void fitView(FIT)}>
+        <IconMaximize size={16} />
+      </Control>
+      <Control label="Tidy: lay everything out anew" onClick={onTidy}>
+        <IconSitemap size={16} style={{ transform: "rotate(-90deg)" }} />
+      </Control>
+    </div>
+  );
+}
+
+export const FIT = { padding: 0.12, maxZoom: 1.15, duration: 200 };
+
+function Control({ label, onClick, children }: { label: string; onClick: () => void; children: ReactNode }) {
+  return (
+    <Tooltip label={label} position="right">
+      <ActionIcon size="md" aria-label={label} onClick={onClick}>
+        {children}
+      </ActionIcon>
+    </Tooltip>
+  );
+}

@@ -1,0 +1,45 @@
+// A folded group: one box with its name and how much is in it.
+
+import { ActionIcon } from "@mantine/core";
+import { IconAlertTriangle, IconChevronRight } from "@tabler/icons-react";
+import { Handle, Position, type NodeProps } from "@xyflow/react";
+import { memo } from "react";
+import { useStudio } from "../store";
+import { fold } from "./arrange";
+import type { FoldedNode } from "./scene";
+import { troubleOf } from "./trouble";
+import { keyOf } from "./tree";
+
+export const Folded = memo(function Folded({ data: { key, name, count } }: NodeProps<FoldedNode>) {
+  const inside = useStudio((state) => state.document?.elements.some((e) => within(e.group, key) && troubleOf(e.id, state) !== "") ?? false);
+  const selected = useStudio((state) => state.selected.some((id) => within(state.elements.get(id)?.group ?? [], key)));
+  return (
+    <div
+      className="graph-folded"
+      data-trouble={inside || undefined}
+      data-selected={selected || undefined}
+      onDoubleClick={(event) => {
+        event.stopPropagation();
+        fold(key, false);
+      }}
+    >
+      <Handle type="target" position={Position.Left} />
+      <ActionIcon className="nodrag" size="sm" aria-label={`Unfold ${key}`} title="Unfold this group" onClick={() => fold(key, false)}>
+        <IconChevronRight size={15} />
+      </ActionIcon>
+      <div className="graph-folded-words">
+        <div className="graph-box-name one-line" title={key}>
+          {name}
+        </div>
+        <div className="graph-box-kind">{count === 1 ? "1 element" : `${count} elements`}</div>
+      </div>
+      {inside && <IconAlertTriangle className="graph-box-alert" size={16} role="img" aria-label="A problem is in this group" />}
+      <Handle type="source" position={Position.Right} />
+    </div>
+  );
+});
+
+function within(group: string[], key: string): boolean {
+  const own = keyOf(group);
+  return own === key || own.startsWith(`${key}/`);
+}

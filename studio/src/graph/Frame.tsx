@@ -1,0 +1,23 @@
+// An open group: a frame around what is in it, moved by its title.
+
+import { ActionIcon } from "@mantine/core";
+import { IconChevronDown } from "@tabler/icons-react";
+import type { NodeProps } from "@xyflow/react";
+import { memo } from "react";
+import { fold } from "./arrange";
+import type { FrameNode } from "./scene";
+
+export const Frame = memo(function Frame({ data: { key, name } }: NodeProps<FrameNode>) {
+  return (
+    <div className="graph-frame">
+      <div className="graph-frame-title">
+        <ActionIcon className="nodrag" size="sm" aria-label={`Fold ${key}`} title="Fold this group" onClick={() => fold(key, true)}>
+          <IconChevronDown size={15} />
+        </ActionIcon>
+        <span className="one-line" title={key}>
+          {name}
+        </span>
+      </div>
+    </div>
+  );
+});

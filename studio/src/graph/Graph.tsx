@@ -1,0 +1,169 @@
+// The architecture on a canvas.
+
+import { Background, BackgroundVariant, MarkerType, MiniMap, ReactFlow, ReactFlowProvider, useReactFlow, type Edge, type EdgeTypes, type NodeTypes } from "@xyflow/react";
+import "@xyflow/react/dist/base.css";
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { openPlot } from "../panels/openPlot";
+import { useStudio } from "../store";
+import { place, unfold } from "./arrange";
+import { Box } from "./Box";
+import { Card } from "./Card";
+import { Controls, FIT } from "./Controls";
+import { Folded } from "./Folded";
+import { Frame } from "./Frame";
+import "./graph.css";
+import { useHover } from "./hover";
+import { Painter } from "./painter";
+import { PainterContext } from "./PainterContext";
+import { foldedAround, scene, type SceneNode, type Structure } from "./scene";
+import { Search } from "./Search";
+import { useStructure } from "./structure";
+import { useNodes } from "./useNodes";
+import { WireEdge } from "./WireEdge";
+
+const NODES: NodeTypes = { box: Box, frame: Frame, folded: Folded };
+const EDGES: EdgeTypes = { wire: WireEdge };
+const ARROW = { markerEnd: { type: MarkerType.ArrowClosed, width: 14, height: 14, color: "var(--graph-wire)" } };
+// Painting dots costs a browser without a graphics card as much as a hundred boxes do.
+const MOST_DOTTED = 60;
+const MAP = { width: 150, height: 96 };
+const MULTI = ["Shift", "Meta", "Control"];
+
+export function Graph() {
+  const structure = useStructure();
+  const session = useStudio((state) => state.session);
+  if (structure === null) {
+    return <div className="graph" />;
+  }
+  if (structure.elements.length === 0) {
+    return (
+      <div className="graph">
+        <p className="graph-empty">This document has no elements yet.</p>
+      </div>
+    );
+  }
+  return (
+    <ReactFlowProvider key={session}>
+      <Canvas structure={structure} />
+    </ReactFlowProvider>
+  );
+}
+
+function Canvas({ structure }: { structure: Structure }) {
+  const kinds = useStudio((state) => state.kinds);
+  const now = useMemo(() => scene(structure, kinds), [structure, kinds]);
+  const { nodes, onNodesChange, settle } = useNodes(now);
+  const [painter] = useState(() => new Painter());
+  const [searching, setSearching] = useState(false);
+  const around = useRef<HTMLDivElement>(null);
+  const center = useCenter(now);
+  const flow = useReactFlow();
+
+  useEffect(() => {
+    const key = (event: KeyboardEvent) => {
+      const slash = event.key === "/" && !isTyping(event.target);
+      const control = event.key.toLowerCase() === "f" && (event.ctrlKey || event.metaKey) && (around.current?.contains(document.activeElement) ?? false);
+      if (!event.defaultPrevented && (slash || control)) {
+        event.preventDefault();
+        setSearching(true);
+      }
+    };
+    window.addEventListener("keydown", key);
+    return () => window.removeEventListener("keydown", key);
+  }, []);
+
+  const tidy = useCallback(async () => {
+    const { problems = [] } = await place(scene({ ...structure, layout: { ...structure.layout, boxes: {} } }, kinds).places.elements);
+    if (problems.length === 0) {
+      requestAnimationFrame(() => void flow.fitView(FIT));
+    }
+  }, [structure, kinds, flow]);
+
+  // While the canvas is moved it is one layer that the browser only shifts: live boxes rest, and nothing is painted anew.
+  const move = useCallback(
+    (moving: boolean) => {
+      useHover.getState().close();
+      painter.hold(moving);
+      around.current?.toggleAttribute("data-moving", moving);
+    },
+    [painter],
+  );
+
+  return (
+    <PainterContext value={painter}>
+      <div className="graph" ref={around}>
+        <ReactFlow<SceneNode, Edge>
+          nodes={nodes}
+          edges={now.wires as Edge[]}
+          nodeTypes={NODES}
+          edgeTypes={EDGES}
+          defaultEdgeOptions={ARROW}
+          onNodesChange={onNodesChange}
+          onNodeDragStart={() => useHover.getState().close()}
+          onNodeDragStop={settle}
+          onNodeDoubleClick={(_, node) => node.type === "box" && openPlot({ element: node.id })}
+          onPaneClick={() => useStudio.getState().select([])}
+          onMoveStart={() => move(true)}
+          onMoveEnd={() => move(false)}
+          onlyRenderVisibleElements
+          nodesConnectable={false}
+          edgesFocusable={false}
+          zIndexMode="manual"
+          elevateNodesOnSelect={false}
+          deleteKeyCode={null}
+          multiSelectionKeyCode={MULTI}
+          zoomOnDoubleClick={false}
+          minZoom={0.08}
+          maxZoom={2.5}
+          fitView
+          fitViewOptions={{ padding: FIT.padding, maxZoom: FIT.maxZoom }}
+        >
+          {nodes.length <= MOST_DOTTED && <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />}
+          <MiniMap style={MAP} pannable zoomable ariaLabel="Overview of the canvas" nodeStrokeWidth={0} nodeBorderRadius={4} nodeClassName={miniClass} />
+        </ReactFlow>
+        <Controls onSearch={() => setSearching(true)} onTidy={() => void tidy()} />
+        {searching && (
+          <Search
+            onClose={() => setSearching(false)}
+            onFound={(element) => {
+              setSearching(false);
+              useStudio.getState().select([element]);
+              center(element);
+            }}
+          />
+        )}
+        <Card />
+      </div>
+    </PainterContext>
+  );
+}
+
+// Brings an element into the middle; folded groups around it are opened first.
+function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
+  const { getNodesBounds, setCenter, getZoom } = useReactFlow();
+  const [wanted, setWanted] = useState<string | null>(null);
+  useEffect(() => {
+    if (wanted === null || foldedAround(now.tree, wanted).length > 0) {
+      return;
+    }
+    const wire = now.wires.find(({ id }) => id === now.pills.get(wanted));
+    const { x, y, width, height } = getNodesBounds(wire === undefined ? [wanted] : [wire.source, wire.target]);
+    void setCenter(x + width / 2, y + height / 2, { zoom: Math.max(getZoom(), 0.8), duration: 250 });
+    setWanted(null);
+  }, [wanted, now, getNodesBounds, setCenter, getZoom]);
+  return (element) => {
+    const folded = foldedAround(now.tree, element);
+    if (folded.length > 0) {
+      unfold(folded);
+    }
+    setWanted(element);
+  };
+}
+
+function miniClass({ type }: SceneNode): string {
+  return `graph-mini-${type}`;
+}
+
+function isTyping(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && (target.isContentEditable || target.matches("input, textarea, select"));
+}

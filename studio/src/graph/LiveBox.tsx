@@ -1,0 +1,42 @@
+// The live picture of an element: a canvas that is drawn past React. It asks for data only while it is mounted, which is while it is in sight.
+
+import { useComputedColorScheme } from "@mantine/core";
+import { useContext, useEffect, useRef } from "react";
+import { socket } from "../socket";
+import type { Live } from "../streams";
+import { clear, drawLive, type Canvas } from "./drawLive";
+import { PainterContext } from "./PainterContext";
+
+// Samples along an axis: more than the box has room for would be sent in vain.
+const MOST = 64;
+
+type Props = { element: string; port: string; label: string; width: number; height: number };
+
+export function LiveBox({ element, port, label, width, height }: Props) {
+  const painter = useContext(PainterContext);
+  const ref = useRef<HTMLCanvasElement>(null);
+  const colorScheme = useComputedColorScheme();
+
+  useEffect(() => {
+    if (ref.current === null) {
+      return;
+    }
+    const canvas: Canvas = { element: ref.current, width, height, span: null, port };
+    let form: Live["form"] = null;
+    ref.current.getContext("2d", { willReadFrequently: true });
+    clear(canvas);
+    const leave = socket.streams.subscribe({ type: "watch", element, port, most: MOST }, (live) => {
+      if (live.form !== form) {
+        form = live.form;
+        canvas.span = null;
+      }
+      painter.wish(canvas, () => drawLive(canvas, live));
+    });
+    return () => {
+      leave();
+      painter.forget(canvas);
+    };
+  }, [painter, element, port, width, height, colorScheme]);
+
+  return <canvas ref={ref} className="graph-live" role="img" aria-label={label} style={{ width, height }} />;
+}

@@ -1,0 +1,47 @@
+// A coupling on an edge: its name and the number it is known by.
+
+import { IconAlertTriangle } from "@tabler/icons-react";
+import { useStudio } from "../store";
+import { openPlot } from "../panels/openPlot";
+import { mainNumber } from "./facts";
+import { useHover } from "./hover";
+import { labelOf } from "./label";
+import { useTrouble } from "./trouble";
+
+export function Pill({ element: id }: { element: string }) {
+  const path = useStudio((state) => state.elements.get(id)?.path ?? "");
+  const label = useStudio((state) => labelOf(state.elements.get(id)?.name ?? "", state.kinds.get(state.elements.get(id)?.kind ?? "")?.title ?? ""));
+  const selected = useStudio((state) => state.selected.includes(id));
+  const trouble = useTrouble(id);
+  const number = useStudio(({ elements, kinds, document }) => {
+    const element = elements.get(id);
+    return element === undefined || document === null ? "" : mainNumber(element, kinds.get(element.kind), document);
+  });
+  const { enter, leave } = useHover.getState();
+  return (
+    <button
+      type="button"
+      className="graph-pill nodrag nopan"
+      data-selected={selected || undefined}
+      data-trouble={trouble !== "" || undefined}
+      aria-label={[path, number, trouble].filter((part) => part !== "").join(", ")}
+      aria-pressed={selected}
+      onClick={(event) => {
+        event.stopPropagation();
+        const { selected: before, select } = useStudio.getState();
+        const rest = before.filter((other) => other !== id);
+        select(event.shiftKey || event.ctrlKey || event.metaKey ? (rest.length < before.length ? rest : [...before, id]) : [id]);
+      }}
+      onDoubleClick={(event) => {
+        event.stopPropagation();
+        openPlot({ element: id });
+      }}
+      onPointerEnter={(event) => enter(id, event.currentTarget)}
+      onPointerLeave={leave}
+    >
+      {trouble !== "" && <IconAlertTriangle size={12} aria-hidden />}
+      <span className="one-line">{label}</span>
+      {number !== "" && <b className="numbers">{number}</b>}
+    </button>
+  );
+}

@@ -1,0 +1,50 @@
+// The box of an element: how large it is, what it shows, where its ports are.
+
+import type { ElementView } from "../protocol";
+import type { Point, Size } from "./layout";
+
+export const BOX = { width: 156, title: 40, port: 18, pad: 8 };
+export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20 };
+
+// The port whose values stand inside the box.
+export function livePort(element: ElementView): string | null {
+  return element.outputs.includes("activation") ? "activation" : (element.outputs[0] ?? null);
+}
+
+// How high the live picture is: a number needs less than a curve; what is not known yet may become anything.
+export function liveHeight(element: ElementView): number {
+  const port = livePort(element);
+  return port === null ? 0 : element.axes[port]?.length === 0 ? LIVE.number : LIVE.curve;
+}
+
+export function boxSize(element: ElementView): Size {
+  const live = liveHeight(element);
+  const ports = Math.max(element.inputs.length, element.outputs.length);
+  return { width: BOX.width, height: Math.max(BOX.title + (live === 0 ? 0 : live + BOX.pad), BOX.port * (ports + 1)) };
+}
+
+// The height at which the n-th of so many ports of one side stands.
+export function portHeight(height: number, n: number, of: number): number {
+  return Math.round((height * (n + 1)) / (of + 1));
+}
+
+// The places of boxes that the layout of a document holds; anything else in it is passed over.
+export function readBoxes(layout: Record<string, unknown>): Map<string, Point> {
+  const boxes = new Map<string, Point>();
+  const given = layout["boxes"];
+  if (typeof given === "object" && given !== null) {
+    for (const [id, box] of Object.entries(given as Record<string, unknown>)) {
+      const { x, y } = (box ?? {}) as Partial<Record<"x" | "y", unknown>>;
+      if (typeof x === "number" && typeof y === "number" && Number.isFinite(x) && Number.isFinite(y)) {
+        boxes.set(id, { x, y });
+      }
+    }
+  }
+  return boxes;
+}
+
+// The groups that the layout of a document holds folded.
+export function readFolded(layout: Record<string, unknown>): string[] {
+  const given = layout["folded"];
+  return Array.isArray(given) ? given.filter((key): key is string => typeof key === "string") : [];
+}

@@ -1,0 +1,47 @@
+// Documents and kinds for tests.
+
+import type { ConnectionView, DocumentView, ElementView, Kind, ParameterForm } from "../protocol";
+
+export function fakeElement(path: string, kind = "Field", more: Partial<ElementView> = {}): ElementView {
+  const parts = path.split(".");
+  return {
+    id: path,
+    path,
+    name: parts[parts.length - 1] ?? "",
+    group: parts.slice(0, -1),
+    kind,
+    every: 1,
+    values: {},
+    inputs: ["input"],
+    outputs: ["output"],
+    axes: {},
+    pushable: false,
+    ...more,
+  };
+}
+
+// "a b c": a to b, and b to c.
+export function fakeConnections(...paths: string[]): ConnectionView[] {
+  return paths.flatMap((path) => {
+    const on = path.split(" ");
+    return on.slice(1).map((target, i) => ({ source: on[i] as string, source_port: "output", target, target_port: "input", reads: "" }));
+  });
+}
+
+export function fakeDocument(elements: ElementView[], connections: ConnectionView[] = [], more: Partial<DocumentView> = {}): DocumentView {
+  const rest = { notes: "", axes: [], groups: [], knobs: [], layout: {}, problems: [], unsaved: false, undo: 0, redo: 0 };
+  return { file: "", title: "test", time_unit: "ms", dt: 1, ...rest, elements, connections, ...more };
+}
+
+export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): Kind {
+  return { name, room, title: name, equation: [], reference: "", parameters: [], ports: {}, levels: {}, example: null, ...more };
+}
+
+export function fakeForm(name: string, form: ParameterForm["form"], more: Partial<ParameterForm> = {}): ParameterForm {
+  const rest = { cost: "live" as const, meaning: name, description: "", symbol: "", unit: "", lower: null, upper: null };
+  return { name, form, ...rest, default: null, optional: false, choices: [], of: [], ...more };
+}
+
+export function kindsOf(...kinds: Kind[]): Map<string, Kind> {
+  return new Map(kinds.map((kind) => [kind.name, kind]));
+}

@@ -1,0 +1,56 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { Painter } from "./painter";
+
+let frames: ((now: number) => void)[] = [];
+const next = (now = 0) => frames.splice(0).forEach((frame) => frame(now));
+
+beforeEach(() => vi.stubGlobal("requestAnimationFrame", (frame: (now: number) => void) => frames.push(frame)));
+afterEach(() => {
+  frames = [];
+  vi.unstubAllGlobals();
+});
+
+test("only the last wish of an owner is drawn", () => {
+  const painter = new Painter();
+  const [owner, drawn] = [{}, [] as string[]];
+  painter.wish(owner, () => drawn.push("old"));
+  painter.wish(owner, () => drawn.push("new"));
+  next();
+  expect(drawn).toEqual(["new"]);
+});
+
+test("nothing is drawn while it is held, and the newest afterwards", () => {
+  const painter = new Painter();
+  const drawn: number[] = [];
+  painter.wish({}, () => drawn.push(1));
+  painter.hold(true);
+  next();
+  expect(drawn).toEqual([]);
+  painter.hold(false);
+  next();
+  expect(drawn).toEqual([1]);
+});
+
+test("who left is not drawn", () => {
+  const painter = new Painter();
+  const owner = {};
+  const draw = vi.fn();
+  painter.wish(owner, draw);
+  painter.forget(owner);
+  next();
+  expect(draw).not.toHaveBeenCalled();
+});
+
+test("many owners take turns, and all come to their turn even when the browser is slow", () => {
+  const painter = new Painter();
+  const owners = Array.from({ length: 30 }, () => ({}));
+  const times = owners.map(() => 0);
+  const wish = (i: number) => painter.wish(owners[i] as object, () => (times[i] = (times[i] ?? 0) + 1));
+  let now = 0;
+  for (let frame = 0; frame < 60; frame++) {
+    owners.forEach((_, i) => wish(i));
+    next((now += 60));
+  }
+  expect(Math.min(...times)).toBeGreaterThan(2);
+  expect(Math.max(...times) - Math.min(...times)).toBeLessThanOrEqual(1);
+});

@@ -1,0 +1,72 @@
+// When live boxes are drawn: in turn, as many for each picture of the browser as it can keep up with, and not while the canvas is moved.
+
+type Draw = () => void;
+
+const BUDGET_MS = 5;
+
+// What a browser pays for a box comes after the drawing, when it puts the page together: it shows in the time between pictures.
+const FAST_MS = 24;
+const SLOW_MS = 36;
+const LEAST = 2;
+const MOST = 200;
+
+export class Painter {
+  private waiting = new Map<object, Draw>();
+  private held = false;
+  private asked = false;
+  private share = 8;
+  private last = 0;
+
+  // Draw when there is time; a later wish of the same owner takes the place of the former.
+  wish(owner: object, draw: Draw): void {
+    this.waiting.set(owner, draw);
+    this.ask();
+  }
+
+  forget(owner: object): void {
+    this.waiting.delete(owner);
+  }
+
+  // While the canvas is moved nothing is drawn; what is newest then comes after.
+  hold(held: boolean): void {
+    this.held = held;
+    this.ask();
+  }
+
+  private ask(): void {
+    if (!this.asked && !this.held && this.waiting.size > 0) {
+      this.asked = true;
+      requestAnimationFrame((now) => this.draw(now));
+    }
+  }
+
+  private draw(now: number): void {
+    this.asked = false;
+    if (this.held) {
+      return;
+    }
+    this.adapt(now - this.last);
+    this.last = now;
+    const end = performance.now() + BUDGET_MS;
+    let left = this.share;
+    // A Map keeps the order in which owners came: who waited longest is drawn first.
+    for (const [owner, draw] of this.waiting) {
+      this.waiting.delete(owner);
+      draw();
+      left -= 1;
+      if (left <= 0 || performance.now() > end) {
+        break;
+      }
+    }
+    this.ask();
+  }
+
+  // A long pause says nothing: then there was nothing to draw.
+  private adapt(since: number): void {
+    if (since < FAST_MS) {
+      this.share = Math.min(MOST, this.share + 1);
+    } else if (since > SLOW_MS && since < 1000) {
+      this.share = Math.max(LEAST, Math.floor(this.share * 0.7));
+    }
+  }
+}

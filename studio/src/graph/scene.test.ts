@@ -1,0 +1,74 @@
+import { expect, test } from "vitest";
+import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
+import { differ, moved } from "./moved";
+import { foldedAround, groupNode, scene } from "./scene";
+
+const KINDS = kindsOf(fakeKind("Field", "elements", { title: "Neural field" }), fakeKind("Gain", "couplings"));
+const ELEMENTS = [fakeElement("s"), fakeElement("g.u"), fakeElement("g.v"), fakeElement("g.k", "Gain"), fakeElement("t")];
+const WIRES = fakeConnections("s g.u", "s g.v", "g.u g.k g.v", "g.v t");
+
+const made = (folded: string[], boxes = {}) => scene(fakeDocument(ELEMENTS, WIRES, { layout: { folded, boxes } }), KINDS);
+
+test("an open group is a frame before its elements; couplings are on edges", () => {
+  const { nodes, pills } = made([]);
+  expect(nodes.map((n) => [n.id, n.type])).toEqual([
+    ["group:g", "frame"],
+    ["g.u", "box"],
+    ["g.v", "box"],
+    ["s", "box"],
+    ["t", "box"],
+  ]);
+  expect(nodes.find((n) => n.id === "g.u")).toMatchObject({ parentId: "group:g", data: { title: "Neural field" } });
+  expect([...pills.keys()]).toEqual(["g.k"]);
+});
+
+test("edges end at a folded group, and those that run together are one", () => {
+  const { nodes, wires } = made(["g"]);
+  expect(nodes.map((n) => n.type)).toEqual(["folded", "box", "box"]);
+  expect(wires.map((w) => [w.source, w.target, w.data?.count])).toEqual([
+    ["s", "group:g", 2],
+    ["group:g", "t", 1],
+  ]);
+});
+
+test("edges back take courses that differ", () => {
+  const elements = [fakeElement("a"), fakeElement("b")];
+  const { wires } = scene(fakeDocument(elements, fakeConnections("a b", "b b", "b a", "a a")), KINDS);
+  const back = wires.filter((w) => w.source === w.target || w.target === "a").map((w) => w.data?.lane);
+  expect(back).toHaveLength(3);
+  expect(wires.find((w) => w.source === "b" && w.target === "a")?.data?.lane).toBeGreaterThan(0);
+});
+
+test("a layout that nobody could have meant is passed over", () => {
+  const odd = { boxes: { s: { x: "left", y: 1 }, t: null }, folded: [3, "g"] };
+  expect(scene(fakeDocument(ELEMENTS, WIRES, { layout: odd }), KINDS).nodes).toHaveLength(3);
+  expect(scene(fakeDocument(ELEMENTS, WIRES, { layout: { boxes: 4, folded: "g" } }), KINDS).nodes).toHaveLength(5);
+});
+
+test("what hides an element is known", () => {
+  expect(foldedAround(made(["g"]).tree, "g.k")).toEqual(["g"]);
+  expect(foldedAround(made([]).tree, "g.k")).toEqual([]);
+});
+
+test("nothing moved is nothing to tell", () => {
+  const { nodes, tree, places } = made([]);
+  expect(differ(moved(nodes, tree, places), places)).toBe(false);
+});
+
+test("a frame that is moved takes its elements along", () => {
+  const { nodes, tree, places } = made([]);
+  const shifted = nodes.map((n) => (n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 50, y: n.position.y } } : n));
+  const boxes = moved(shifted, tree, places);
+  expect(boxes.get("g.u")?.x).toBe((places.elements.get("g.u")?.x ?? 0) + 50);
+  expect(boxes.get("s")).toEqual(places.elements.get("s"));
+  expect(differ(boxes, places)).toBe(true);
+});
+
+test("a folded group that is moved takes along what it hides, and opens there", () => {
+  const { nodes, tree, places } = made(["g"]);
+  const shifted = nodes.map((n) => (n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 300, y: n.position.y - 20 } } : n));
+  const boxes = moved(shifted, tree, places);
+  expect(boxes.get("g.v")).toEqual({ x: (places.elements.get("g.v")?.x ?? 0) + 300, y: (places.elements.get("g.v")?.y ?? 0) - 20 });
+  const again = made(["g"], Object.fromEntries(boxes));
+  expect(again.places.groups.get("g")?.x).toBe((places.groups.get("g")?.x ?? 0) + 300);
+});

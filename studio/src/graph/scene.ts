@@ -1,0 +1,155 @@
+// What the canvas shows of a document: nodes and edges as xyflow takes them. Pure; live values and parameters are no part of it.
+
+import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
+import type { DocumentView, ElementView, Kind } from "../protocol";
+import { boxSize, portHeight, readBoxes, readFolded } from "./boxes";
+import { chains, type Chain } from "./chains";
+import { FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
+import { lanes } from "./lanes";
+import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
+
+export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
+
+export type BoxData = { element: string; path: string; name: string; title: string; inputs: string[]; outputs: string[] };
+export type GroupData = { key: string; name: string; count: number };
+export type WireData = { pills: string[]; reads: string; count: number; lane: number };
+
+export type BoxNode = Node<BoxData, "box">;
+export type FrameNode = Node<GroupData, "frame">;
+export type FoldedNode = Node<GroupData, "folded">;
+export type SceneNode = BoxNode | FrameNode | FoldedNode;
+export type Wire = Edge<WireData, "wire">;
+
+export type Scene = { nodes: SceneNode[]; wires: Wire[]; tree: Tree; places: Places; pills: Map<string, string> };
+
+// Ids of nodes for groups cannot be those of elements, which are hashes.
+export const groupNode = (key: string): string => `group:${key}`;
+
+export const PILL = { height: 22, gap: 4, letter: 6.6, pad: 34, most: 132 };
+
+export function scene(structure: Structure, kinds: Map<string, Kind>): Scene {
+  const { elements, groups, layout } = structure;
+  const chained = chains(structure, kinds);
+  const found = tree(elements, groups, readFolded(layout), chained.couplings);
+  const names = new Map(elements.map((e) => [e.id, e]));
+  const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e)]));
+  const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")) }));
+  const where = places(found.root, sizes, bonds, readBoxes(layout));
+  const wires = wiresOf(chained.edges, found);
+  lanes(wires, (node) => rectOf(node, where, sizes));
+  return {
+    nodes: nodesOf(found.root, names, kinds, sizes, where),
+    wires,
+    tree: found,
+    places: where,
+    pills: new Map(wires.flatMap((wire) => (wire.data?.pills ?? []).map((id) => [id, wire.id] as const))),
+  };
+}
+
+// The width that the pills of these names need on an edge, about.
+export function pillsWidth(names: string[]): number {
+  return names.reduce((sum, name) => sum + PILL.gap + Math.min(PILL.most, PILL.pad + PILL.letter * name.length), 0);
+}
+
+// Folded groups hide what is in them; an open group is a frame and stands before what is in it, as xyflow wants parents.
+function nodesOf(branch: Branch, names: Map<string, ElementView>, kinds: Map<string, Kind>, sizes: Map<string, Size>, where: Places): SceneNode[] {
+  const parent = branch.key === "" ? null : (where.groups.get(branch.key) ?? null);
+  const stand = (at: Point) => ({
+    position: { x: at.x - (parent?.x ?? 0), y: at.y - (parent?.y ?? 0) },
+    ...(parent === null ? {} : { parentId: groupNode(branch.key) }),
+  });
+  const boxes = branch.elements.flatMap((id) => {
+    const element = names.get(id);
+    const at = where.elements.get(id);
+    return element === undefined || at === undefined ? [] : [boxNode(element, kinds, sizes.get(id) ?? FOLDED, stand(at))];
+  });
+  const groups = branch.groups.flatMap((group) => {
+    const rect = where.groups.get(group.key);
+    if (rect === undefined) {
+      return [];
+    }
+    const own = groupOf(group, rect, stand(rect));
+    return group.folded ? [own] : [own, ...nodesOf(group, names, kinds, sizes, where)];
+  });
+  return [...groups, ...boxes];
+}
+
+type Stand = { position: Point; parentId?: string };
+
+function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, stand: Stand): BoxNode {
+  const { id, path, name, inputs, outputs } = element;
+  const title = kinds.get(element.kind)?.title ?? element.kind;
+  return {
+    id,
+    type: "box",
+    ...stand,
+    ...size,
+    measured: size,
+    handles: [...ports(inputs, "target", size), ...ports(outputs, "source", size)],
+    data: { element: id, path, name, title, inputs, outputs },
+    ariaLabel: `${path}, ${title}`,
+    zIndex: 2,
+  };
+}
+
+function groupOf(group: Branch, rect: Rect, stand: Stand): FrameNode | FoldedNode {
+  const data = { key: group.key, name: group.name, count: group.count };
+  const common = { id: groupNode(group.key), ...stand, width: rect.width, height: rect.height, measured: { width: rect.width, height: rect.height }, data, selectable: false };
+  if (group.folded) {
+    const handles = [...ports([""], "target", FOLDED), ...ports([""], "source", FOLDED)];
+    return { ...common, type: "folded", handles, ariaLabel: `Group ${group.key}, folded, ${group.count} elements`, zIndex: 2 };
+  }
+  return { ...common, type: "frame", handles: [], dragHandle: ".graph-frame-title", focusable: false, ariaLabel: `Group ${group.key}`, zIndex: 0 };
+}
+
+// Handles are told to xyflow beforehand: edges to nodes out of sight are then drawn without mounting those.
+function ports(names: string[], type: "source" | "target", { width, height }: Size): NodeHandle[] {
+  const left = type === "target";
+  return names.map((id, n) => ({
+    id: id === "" ? null : id,
+    type,
+    position: left ? Position.Left : Position.Right,
+    x: (left ? 0 : width) - 4,
+    y: portHeight(height, n, names.length) - 4,
+    width: 8,
+    height: 8,
+  }));
+}
+
+// Edges of elements in folded groups end at the group; those that then run between the same two ports become one, with their number.
+function wiresOf(edges: Chain[], found: Tree): Wire[] {
+  const wires = new Map<string, Wire>();
+  for (const edge of edges) {
+    const [from, to] = [hiddenBy(found, edge.source), hiddenBy(found, edge.target)];
+    if (from !== null && from === to) {
+      continue;
+    }
+    const source = from === null ? edge.source : groupNode(from.key);
+    const target = to === null ? edge.target : groupNode(to.key);
+    const sourceHandle = from === null ? edge.source_port : null;
+    const targetHandle = to === null ? edge.target_port : null;
+    const id = from === null && to === null ? edge.id : [source, sourceHandle, target, targetHandle].join(" ");
+    const known = wires.get(id)?.data;
+    if (known !== undefined) {
+      known.count += 1;
+      known.pills = [];
+      continue;
+    }
+    const data = { pills: edge.couplings, reads: edge.reads, count: 1, lane: 0 };
+    wires.set(id, { id, type: "wire", source, target, sourceHandle, targetHandle, data, focusable: false, zIndex: 1 });
+  }
+  return [...wires.values()];
+}
+
+function rectOf(node: string, where: Places, sizes: Map<string, Size>): Rect {
+  const key = node.startsWith("group:") ? node.slice("group:".length) : null;
+  const group = key === null ? undefined : where.groups.get(key);
+  return group ?? { ...(where.elements.get(node) ?? { x: 0, y: 0 }), ...(sizes.get(node) ?? FOLDED) };
+}
+
+// The folded groups that hide an element, so that it can be shown.
+export function foldedAround(found: Tree, element: string): string[] {
+  return around(found, element)
+    .filter((group) => group.folded)
+    .map((group) => group.key);
+}

@@ -1,0 +1,18 @@
+import { expect, test } from "vitest";
+import type { Clock } from "../protocol";
+import { fakeDocument } from "./fakes";
+import { labelOf } from "./label";
+import { troubleOf } from "./trouble";
+
+test("the failure of the run comes before the problems of the document", () => {
+  const document = fakeDocument([], [], { problems: [{ what: "axes", fix: "Project", element: "u" }] });
+  const clock = { failure: [{ what: "not finite", element: "u" }] } as Clock;
+  expect(troubleOf("u", { document, clock: null })).toBe("axes\nProject");
+  expect(troubleOf("u", { document, clock })).toBe("not finite");
+  expect(troubleOf("v", { document, clock })).toBe("");
+});
+
+test("a name made from a connection gives way to the kind", () => {
+  expect(labelOf("colour>Gain", "Gain")).toBe("Gain");
+  expect(labelOf("strength", "Gain")).toBe("strength");
+});

@@ -1,0 +1,96 @@
+// The nodes as they stand on the canvas: those of the scene, moved while they are dragged. The selection is the store's.
+
+import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { useStudio } from "../store";
+import { place } from "./arrange";
+import { differ, moved } from "./moved";
+import type { Scene, SceneNode } from "./scene";
+
+// Steps by arrow keys that follow each other are one change.
+const KEYS_MS = 500;
+
+export function useNodes(scene: Scene) {
+  const selected = useStudio((state) => state.selected);
+  const [nodes, setNodes] = useState<SceneNode[]>(scene.nodes);
+  const [seen, setSeen] = useState(scene);
+  if (seen !== scene) {
+    setSeen(scene);
+    setNodes((before) => reconciled(before, scene.nodes));
+  }
+  const shown = useMemo(() => marked(nodes, new Set(selected)), [nodes, selected]);
+  const latest = useRef({ nodes: shown, scene });
+  const timer = useRef(0);
+  const flow = useStoreApi();
+  useEffect(() => {
+    latest.current = { nodes: shown, scene };
+  }, [shown, scene]);
+  useEffect(() => () => window.clearTimeout(timer.current), []);
+
+  const settle = useCallback(() => {
+    window.clearTimeout(timer.current);
+    const { nodes: now, scene: of } = latest.current;
+    const boxes = moved(now, of.tree, of.places);
+    if (differ(boxes, of.places)) {
+      // Where it was not done, everything goes back to where the document has it.
+      void place(boxes).then(({ problems }) => (problems?.length ?? 0) > 0 && setNodes(latest.current.scene.nodes));
+    }
+  }, []);
+
+  const onNodesChange = useCallback(
+    (changes: NodeChange<SceneNode>[]) => {
+      choose(changes, latest.current.nodes, flow.getState().multiSelectionActive);
+      const others = changes.filter((change) => change.type !== "select");
+      if (others.length === 0) {
+        return;
+      }
+      const next = applyNodeChanges(others, latest.current.nodes);
+      latest.current = { ...latest.current, nodes: next };
+      setNodes(next);
+      if (others.some((change) => change.type === "position" && change.dragging !== true)) {
+        window.clearTimeout(timer.current);
+        timer.current = window.setTimeout(settle, KEYS_MS);
+      }
+    },
+    [settle, flow],
+  );
+
+  return { nodes: shown, onNodesChange, settle };
+}
+
+// What xyflow says was selected becomes the selection of the store. Couplings on edges are no nodes: xyflow cannot take them out.
+function choose(changes: NodeChange<SceneNode>[], nodes: SceneNode[], several: boolean): void {
+  const choices = changes.filter((change) => change.type === "select");
+  if (choices.length === 0) {
+    return;
+  }
+  const { selected, select } = useStudio.getState();
+  const next = new Set(several ? selected : selected.filter((id) => nodes.some((node) => node.id === id)));
+  for (const { id, selected: chosen } of choices) {
+    if (chosen) {
+      next.add(id);
+    } else {
+      next.delete(id);
+    }
+  }
+  if (next.size !== selected.length || selected.some((id) => !next.has(id))) {
+    select([...next]);
+  }
+}
+
+// A node that is the same stays the same object, so that React leaves it alone.
+function reconciled(before: SceneNode[], next: SceneNode[]): SceneNode[] {
+  const known = new Map(before.map((node) => [node.id, node]));
+  return next.map((node) => {
+    const old = known.get(node.id);
+    if (old === undefined || old.type !== node.type) {
+      return node;
+    }
+    const same = Object.entries(node).every(([key, value]) => JSON.stringify(old[key as keyof SceneNode]) === JSON.stringify(value));
+    return same && old.parentId === node.parentId ? old : node;
+  });
+}
+
+function marked(nodes: SceneNode[], selected: Set<string>): SceneNode[] {
+  return nodes.map((node) => ((node.selected ?? false) === selected.has(node.id) ? node : { ...node, selected: selected.has(node.id) }));
+}

@@ -1,0 +1,22 @@
+// What is selected, to read and to change: an element, or the document where nothing is selected.
+
+import "./inspector.css";
+
+import { useStudio } from "../store";
+import { DocumentInspector } from "./DocumentInspector";
+import { ElementInspector } from "./ElementInspector";
+
+export function Inspector() {
+  const selected = useStudio((state) => state.selected);
+  const open = useStudio((state) => state.document !== null);
+  const [only] = selected;
+  if (!open) {
+    return <div className="inspector inspector-empty">No document is open.</div>;
+  }
+  if (selected.length > 1) {
+    return <div className="inspector inspector-empty">{selected.length} elements are selected. Select one to see its parameters.</div>;
+  }
+  return (
+    <div className="inspector">{only === undefined ? <DocumentInspector /> : <ElementInspector key={only} id={only} />}</div>
+  );
+}

@@ -1,0 +1,30 @@
+// What is wrong with an element: in the document, and in the run.
+
+import { IconAlertTriangle } from "@tabler/icons-react";
+
+import type { Problem } from "../protocol";
+import { useStudio } from "../store";
+
+export function ProblemBanner({ element }: { element: string }) {
+  // As text, because the clock brings new objects with the same content many times a second.
+  const found = useStudio((state) =>
+    JSON.stringify([...(state.clock?.failure ?? []), ...(state.document?.problems ?? [])].filter((p) => (p.element ?? "") === element)),
+  );
+  const problems = JSON.parse(found) as Problem[];
+  if (problems.length === 0) {
+    return null;
+  }
+  return (
+    <div className="problem-banner" role="alert">
+      <IconAlertTriangle size={16} />
+      <ul>
+        {problems.map((problem, i) => (
+          <li key={i}>
+            {problem.what}
+            {problem.fix !== undefined && problem.fix !== "" && <div className="problem-fix">{problem.fix}</div>}
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}

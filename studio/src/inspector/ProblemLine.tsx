@@ -1,0 +1,11 @@
+// What is wrong with the last try, beside the field.
+
+import type { Problem } from "../protocol";
+
+export function ProblemLine({ problem }: { problem: Problem | null }) {
+  return (
+    <div className="problem-line" role="alert" hidden={problem === null}>
+      {problem !== null && [problem.what, problem.fix].filter((text) => text !== undefined && text !== "").join(". ")}
+    </div>
+  );
+}

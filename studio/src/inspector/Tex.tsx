@@ -1,0 +1,39 @@
+// TeX, typeset. KaTeX is large and comes when it is first needed; until then, and where it cannot read the source, the source is shown.
+
+import type Katex from "katex";
+import { useEffect, useMemo, useState } from "react";
+
+type Typesetter = typeof Katex;
+
+let typesetter: Typesetter | null = null;
+let coming: Promise<Typesetter> | null = null;
+
+function load(): Promise<Typesetter> {
+  coming ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(([katex]) => (typesetter = katex.default));
+  return coming;
+}
+
+function typeset(katex: Typesetter, source: string, block: boolean): string | null {
+  try {
+    return katex.renderToString(source, { displayMode: block, throwOnError: true, strict: "ignore" });
+  } catch {
+    return null;
+  }
+}
+
+export function Tex({ source, block = false }: { source: string; block?: boolean }) {
+  const [katex, setKatex] = useState<Typesetter | null>(() => typesetter);
+  useEffect(() => {
+    if (katex === null) {
+      load().then(
+        (loaded) => setKatex(() => loaded),
+        () => undefined,
+      );
+    }
+  }, [katex]);
+  const html = useMemo(() => (katex === null ? null : typeset(katex, source, block)), [katex, source, block]);
+  if (html === null) {
+    return <span className="tex-source">{source}</span>;
+  }
+  return <span className="tex" dangerouslySetInnerHTML={{ __html: html }} />;
+}

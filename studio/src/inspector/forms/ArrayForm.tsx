@@ -1,0 +1,27 @@
+// An array: what is known of it, to read only.
+
+import { numberText } from "../number";
+import { Row } from "../Row";
+import type { FormProps } from "./props";
+
+export function ArrayForm({ form, path, value }: FormProps) {
+  return (
+    <Row form={form} path={path} value={value} inline onReset={() => undefined}>
+      <span className="dim one-line grow" title={arrayText(value)}>
+        {arrayText(value)}
+      </span>
+    </Row>
+  );
+}
+
+// Shape and range where the server says them, else the name under which the array is kept.
+export function arrayText(value: unknown): string {
+  if (typeof value !== "object" || value === null) {
+    return "none";
+  }
+  const { shape, min, max, array, digest } = value as Record<string, unknown>;
+  const size = Array.isArray(shape) ? `${shape.join(" × ")} numbers` : "";
+  const range = typeof min === "number" && typeof max === "number" ? `${numberText(min)} to ${numberText(max)}` : "";
+  const known = [size, range].filter((text) => text !== "").join(", ");
+  return known || String(array ?? digest ?? "numbers");
+}

@@ -1,0 +1,30 @@
+// What axes are: name, range, samples.
+
+import type { AxisView } from "../../protocol";
+import { numberText } from "../number";
+
+export function AxisLines({ axes }: { axes: AxisView[] }) {
+  return (
+    <ul className="axis-lines">
+      {axes.map((axis) => (
+        <li key={axis.key}>
+          <b className="one-line" title={axis.name}>
+            {axis.name}
+          </b>
+          <span>
+            {numberText(axis.lower)} to {numberText(axis.upper)} {axis.unit}
+          </span>
+          <span className="dim">
+            {axis.samples} samples{axis.periodic ? ", periodic" : ""}
+          </span>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+// An axis in a list to choose from.
+export function axisOption(axis: AxisView): { value: string; label: string } {
+  const name = axis.key === axis.name ? axis.key : `${axis.key} (${axis.name})`;
+  return { value: axis.key, label: `${name}: ${numberText(axis.lower)} to ${numberText(axis.upper)} ${axis.unit}`.trim() };
+}

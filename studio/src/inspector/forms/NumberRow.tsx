@@ -1,0 +1,46 @@
+// The row of a single number: of a parameter, of one axis, of one name in a table.
+
+import type { ReactNode } from "react";
+
+import { NumberControl } from "../NumberControl";
+import { usePlace, useDriver } from "../place";
+import { axesAt, sliderRange } from "../range";
+import { Row } from "../Row";
+import { useSetting } from "../setting";
+import { unitText } from "../unit";
+import type { FormProps } from "./props";
+
+// Longer units stand beside the name.
+const MOST_UNIT = 5;
+
+type NumberRowProps = Omit<FormProps, "value"> & { value: number | null; label?: string; extra?: ReactNode };
+
+export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
+  const { element, axes, own, timeUnit } = usePlace();
+  const knob = useDriver(path);
+  const setting = useSetting<number | null>(knob === undefined ? element : "", knob?.name ?? path, knob?.value ?? value, form.cost);
+  const range = sliderRange(form, setting.value, { path, axes, own });
+  const unit = unitText(form.unit, timeUnit, axesAt(axes, form, path));
+  return (
+    <Row
+      form={form}
+      path={path}
+      value={setting.value}
+      label={label}
+      leaf={value !== null}
+      knob={knob}
+      extra={extra}
+      unit={unit.length > MOST_UNIT ? unit : ""}
+      onReset={(standard) => void setting.commit(standard as number | null)}
+    >
+      <NumberControl
+        label={path}
+        setting={setting}
+        range={range}
+        rangeKey={`${element} ${path} ${axes.map((axis) => axis.key).join(" ")}`}
+        unit={unit.length > MOST_UNIT ? "" : unit}
+        optional={form.optional}
+      />
+    </Row>
+  );
+}

@@ -1,0 +1,23 @@
+// The parameters of a kind, each by the form that fits its value.
+
+import { memo } from "react";
+
+import { useStudio } from "../../store";
+import type { Values } from "../../values";
+import { FORMS } from "./forms";
+import type { FormProps } from "./props";
+
+type PartFieldsProps = { kind: string; values: unknown; prefix?: string };
+
+export function PartFields({ kind, values, prefix = "" }: PartFieldsProps) {
+  const forms = useStudio((state) => state.kinds.get(kind))?.parameters ?? [];
+  return forms.map((form) => (
+    <Parameter key={form.name} form={form} path={`${prefix}${form.name}`} value={((values ?? {}) as Values)[form.name] ?? null} />
+  ));
+}
+
+// Only what changed is drawn anew: values that stay are the same objects.
+const Parameter = memo(function Parameter(props: FormProps) {
+  const Form = FORMS[props.form.form];
+  return <Form {...props} />;
+});

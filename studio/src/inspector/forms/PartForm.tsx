@@ -1,0 +1,33 @@
+// A part of a kind that can be chosen, with its own parameters below.
+
+import { useStudio } from "../../store";
+import { kindOf, recast } from "../part";
+import { usePlace } from "../place";
+import { ProblemLine } from "../ProblemLine";
+import { Row } from "../Row";
+import { useSetting } from "../setting";
+import { ChoiceBox } from "./ChoiceBox";
+import { PartFields } from "./PartFields";
+import type { FormProps } from "./props";
+
+export function PartForm({ form, path, value }: FormProps) {
+  const { element } = usePlace();
+  const setting = useSetting(element, path, value, form.cost);
+  const kinds = useStudio((state) => state.kinds);
+  const kind = kindOf(kinds, value);
+  const choices = form.of.map((name) => ({ value: name, label: kinds.get(name)?.title ?? name }));
+  const choose = (name: string | null) => void setting.commit(name === null ? null : recast(kinds, name, value));
+  return (
+    <>
+      <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
+        <ChoiceBox label={path} value={kind?.name ?? null} choices={choices} optional={form.optional} onCommit={choose} />
+        <ProblemLine problem={setting.problem} />
+      </Row>
+      {kind !== undefined && (
+        <div className="nested">
+          <PartFields kind={kind.name} values={value} prefix={`${path}.`} />
+        </div>
+      )}
+    </>
+  );
+}

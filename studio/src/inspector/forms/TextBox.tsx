@@ -1,0 +1,58 @@
+// Text to type: Enter or leaving the field takes it, Escape goes back.
+
+import { TextInput } from "@mantine/core";
+import { useState, type KeyboardEvent } from "react";
+
+type TextBoxProps = {
+  label: string;
+  value: string;
+  placeholder?: string;
+  rejected?: boolean;
+  autoFocus?: boolean;
+  onCommit: (value: string) => Promise<boolean>;
+  onForget?: () => void;
+};
+
+export function TextBox({ label, value, placeholder, rejected = false, autoFocus = false, onCommit, onForget }: TextBoxProps) {
+  const [draft, setDraft] = useState<string | null>(null);
+  const take = async (text: string) => text === value || (await onCommit(text));
+  const onKeyDown = async (event: KeyboardEvent) => {
+    if (event.key === "Enter" && draft !== null) {
+      event.preventDefault();
+      if (await take(draft)) {
+        setDraft(null);
+      }
+    } else if (event.key === "Escape") {
+      setDraft(null);
+      onForget?.();
+    }
+  };
+  const onBlur = () => {
+    if (draft !== null && !rejected) {
+      void take(draft);
+    } else if (draft !== null) {
+      onForget?.();
+    }
+    setDraft(null);
+  };
+  return (
+    <TextInput
+      className="grow"
+      size="xs"
+      aria-label={label}
+      title={value}
+      placeholder={placeholder}
+      value={draft ?? value}
+      error={rejected && draft !== null}
+      autoComplete="off"
+      autoFocus={autoFocus}
+      spellCheck={false}
+      onChange={(event) => {
+        setDraft(event.currentTarget.value);
+        onForget?.();
+      }}
+      onKeyDown={(event) => void onKeyDown(event)}
+      onBlur={onBlur}
+    />
+  );
+}

@@ -1,0 +1,33 @@
+// Text, or one of a few words.
+
+import { usePlace } from "../place";
+import { ProblemLine } from "../ProblemLine";
+import { Row } from "../Row";
+import { useSetting } from "../setting";
+import { ChoiceBox } from "./ChoiceBox";
+import type { FormProps } from "./props";
+import { TextBox } from "./TextBox";
+
+export function TextForm({ form, path, value }: FormProps) {
+  const { element } = usePlace();
+  const setting = useSetting(element, path, value, form.cost);
+  const text = typeof value === "string" ? value : null;
+  const few = form.choices.length > 0;
+  return (
+    <Row form={form} path={path} value={value} inline={few} onReset={(standard) => void setting.commit(standard)}>
+      {few ? (
+        <ChoiceBox label={path} value={text} choices={form.choices} optional={form.optional} onCommit={(chosen) => void setting.commit(chosen)} />
+      ) : (
+        <TextBox
+          label={path}
+          value={text ?? ""}
+          placeholder={form.optional ? "none" : undefined}
+          rejected={setting.problem !== null}
+          onCommit={(typed) => setting.commit(typed === "" && form.optional ? null : typed)}
+          onForget={setting.forget}
+        />
+      )}
+      <ProblemLine problem={setting.problem} />
+    </Row>
+  );
+}

@@ -1,0 +1,43 @@
+// Several texts, or several of a few words.
+
+import { ActionIcon } from "@mantine/core";
+import { IconX } from "@tabler/icons-react";
+
+import { AddButton } from "../AddButton";
+import { fresh, without, words } from "../part";
+import { usePlace } from "../place";
+import { ProblemLine } from "../ProblemLine";
+import { Row } from "../Row";
+import { useSetting } from "../setting";
+import { ChoiceBox } from "./ChoiceBox";
+import type { FormProps } from "./props";
+import { TextBox } from "./TextBox";
+
+export function TextsForm({ form, path, value }: FormProps) {
+  const { element } = usePlace();
+  const setting = useSetting(element, path, value, form.cost);
+  const texts = Array.isArray(value) ? (value as string[]) : typeof value === "string" ? [value] : [];
+  const few = form.choices.length > 0;
+  const commit = (next: string[]) => setting.commit(next.length === 0 && form.optional ? null : next);
+  const put = (i: number, text: string) => commit(texts.map((old, k) => (k === i ? text : old)));
+  const add = () => void commit([...texts, form.choices[0] ?? fresh(texts)]);
+  return (
+    <Row form={form} path={path} value={value} inline={texts.length === 0} onReset={(standard) => void setting.commit(standard)}>
+      {texts.map((text, i) => (
+        <div className="list-line" key={i}>
+          {few ? (
+            <ChoiceBox label={`${path} ${i + 1}`} value={text} choices={form.choices} onCommit={(chosen) => void put(i, chosen ?? text)} />
+          ) : (
+            <TextBox label={`${path} ${i + 1}`} value={text} onCommit={(typed) => put(i, typed)} onForget={setting.forget} />
+          )}
+          <ActionIcon size={20} aria-label={`Remove ${text} from ${path}`} onClick={() => void commit(without(texts, i))}>
+            <IconX size={13} />
+          </ActionIcon>
+        </div>
+      ))}
+      {texts.length === 0 && <span className="dim grow">none</span>}
+      <AddButton aria-label={`Add to ${words(path)}`} onClick={add} />
+      <ProblemLine problem={setting.problem} />
+    </Row>
+  );
+}

@@ -1,0 +1,35 @@
+// Which form shows which value. A form that is new in the protocol is missing here until it has a component: the compiler says so.
+
+import type { ComponentType } from "react";
+
+import type { ParameterForm } from "../../protocol";
+import { ArrayForm } from "./ArrayForm";
+import { AxesForm } from "./AxesForm";
+import { AxisForm } from "./AxisForm";
+import { FlagForm } from "./FlagForm";
+import { IntegerForm } from "./IntegerForm";
+import { NumberForm } from "./NumberForm";
+import { NumbersForm } from "./NumbersForm";
+import { PairsForm } from "./PairsForm";
+import { PartForm } from "./PartForm";
+import { PartsForm } from "./PartsForm";
+import { PerAxisForm } from "./PerAxisForm";
+import type { FormProps } from "./props";
+import { TextForm } from "./TextForm";
+import { TextsForm } from "./TextsForm";
+
+export const FORMS: Record<ParameterForm["form"], ComponentType<FormProps>> = {
+  array: ArrayForm,
+  axes: AxesForm,
+  axis: AxisForm,
+  flag: FlagForm,
+  integer: IntegerForm,
+  number: NumberForm,
+  numbers: NumbersForm,
+  pairs: PairsForm,
+  part: PartForm,
+  parts: PartsForm,
+  per_axis: PerAxisForm,
+  text: TextForm,
+  texts: TextsForm,
+};

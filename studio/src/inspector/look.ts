@@ -1,0 +1,64 @@
+// How a number is shown away from its own form: in a pinned row, as a document parameter.
+
+import { useMemo } from "react";
+
+import type { AxisView, ElementView, KnobView, ParameterForm } from "../protocol";
+import { useStudio } from "../store";
+import { axesOf, formAt, type Kinds } from "./leaf";
+import { symbolOf } from "./part";
+import { axesAt, type Range, sliderRange } from "./range";
+import { unitText } from "./unit";
+
+export type Look = { range: Range; unit: string; symbol: string; cost: ParameterForm["cost"]; meaning: string; optional: boolean };
+
+type Surroundings = { kinds: Kinds; axes: AxisView[]; timeUnit: string };
+
+const NO_AXES: AxisView[] = [];
+const UNDECLARED: ParameterForm = {
+  name: "",
+  form: "number",
+  cost: "live",
+  meaning: "",
+  description: "",
+  symbol: "",
+  unit: "",
+  lower: null,
+  upper: null,
+  default: null,
+  optional: false,
+  choices: [],
+  of: [],
+};
+
+// Undefined where no number stands at that path.
+export function lookOf({ kinds, axes, timeUnit }: Surroundings, element: ElementView | undefined, path: string, value: unknown): Look | undefined {
+  const form = element && formAt(kinds, element.kind, element.values, path);
+  if (element === undefined || form === undefined) {
+    return undefined;
+  }
+  const standing = { path, ...axesOf(element, kinds.get(element.kind), axes) };
+  return {
+    range: sliderRange(form, value, standing),
+    unit: unitText(form.unit, timeUnit, axesAt(standing.axes, form, path)),
+    symbol: symbolOf(form),
+    cost: form.cost,
+    meaning: form.description || form.meaning,
+    optional: form.optional,
+  };
+}
+
+export function useLook(element: string, path: string, value: unknown): Look | undefined {
+  const found = useStudio((state) => state.elements.get(element));
+  const kinds = useStudio((state) => state.kinds);
+  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
+  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  return useMemo(() => lookOf({ kinds, axes, timeUnit }, found, path, value), [kinds, axes, timeUnit, found, path, value]);
+}
+
+// A document parameter has the range and the unit of the first parameter that it drives.
+export function useKnobLook(knob: KnobView | undefined): Look {
+  const first = knob?.links[0];
+  const driven = useLook(first?.element ?? "", first?.parameter ?? "", knob?.value ?? null);
+  const range = sliderRange(UNDECLARED, knob?.value ?? null, { path: "", axes: NO_AXES, own: false });
+  return { ...(driven ?? { range, unit: "", symbol: "", cost: "live", meaning: "" }), optional: false };
+}

@@ -1,0 +1,26 @@
+// Where the forms of an inspector stand: the element, its axes, and what a document parameter drives there.
+
+import { createContext, useContext } from "react";
+
+import type { AxisView, KnobView } from "../protocol";
+import { useStudio } from "../store";
+import { driver } from "./leaf";
+
+export type Place = {
+  element: string;
+  axes: AxisView[];
+  // Whether the axes are a parameter of the element itself.
+  own: boolean;
+  timeUnit: string;
+};
+
+export const PlaceContext = createContext<Place>({ element: "", axes: [], own: false, timeUnit: "" });
+
+export function usePlace(): Place {
+  return useContext(PlaceContext);
+}
+
+export function useDriver(path: string): KnobView | undefined {
+  const { element } = usePlace();
+  return useStudio((state) => driver(state.document, element, path));
+}

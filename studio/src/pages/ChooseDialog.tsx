@@ -1,0 +1,35 @@
+// A file below the root, or one of the person's own.
+
+import { Button, FileButton, Group } from "@mantine/core";
+import { useState } from "react";
+
+import { useStudio } from "../store";
+import { FolderBrowser } from "./FolderBrowser";
+import type { Asking } from "./dialogs";
+import { parent } from "./paths";
+import { useFolder } from "./useFolder";
+
+const ACCEPTED = { files: "application/json,.json", pictures: "image/*" };
+
+export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) {
+  const file = useStudio((state) => state.document?.file ?? "");
+  const [path, setPath] = useState(parent(file));
+  const listing = useFolder(path);
+  return (
+    <>
+      <FolderBrowser path={path} listing={listing} wants={wants} onFolder={setPath} onFile={answer} marked={file} first />
+      <Group gap="xs" mt="md" justify="space-between">
+        <FileButton accept={ACCEPTED[wants]} onChange={(chosen) => chosen !== null && answer(chosen)}>
+          {(props) => (
+            <Button variant="default" {...props}>
+              From elsewhere on this computer…
+            </Button>
+          )}
+        </FileButton>
+        <Button variant="subtle" color="gray" onClick={() => answer(null)}>
+          Cancel
+        </Button>
+      </Group>
+    </>
+  );
+}

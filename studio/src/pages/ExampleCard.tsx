@@ -1,0 +1,24 @@
+// An example of the gallery: what one sees when it runs, and what it is about.
+
+import { useState } from "react";
+
+import type { ExampleView } from "../protocol";
+import { Mark } from "./Mark";
+import { leave } from "./flows";
+import classes from "./ExampleCard.module.css";
+
+export function ExampleCard({ example }: { example: ExampleView }) {
+  const [missing, setMissing] = useState(example.picture === "");
+  return (
+    <button type="button" className={classes.card} onClick={() => void leave({ type: "open_example", name: example.name })}>
+      <span className={classes.picture}>
+        {missing && <Mark size={40} color="var(--border-strong)" />}
+        {!missing && <img src={example.picture} alt="" loading="lazy" onError={() => setMissing(true)} />}
+      </span>
+      <span className={classes.text}>
+        <span className={classes.title}>{example.title}</span>
+        <span className={classes.sentence}>{example.sentence}</span>
+      </span>
+    </button>
+  );
+}

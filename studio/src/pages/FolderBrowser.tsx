@@ -1,0 +1,82 @@
+// The folders below the root, and the files of one sort in them.
+
+import { IconFileText, IconFolder, IconPhoto } from "@tabler/icons-react";
+import { useEffect, useRef } from "react";
+
+import { useStudio } from "../store";
+import { ProblemText } from "./ProblemText";
+import { joined, rootName, steps } from "./paths";
+import type { useFolder } from "./useFolder";
+import classes from "./FolderBrowser.module.css";
+
+type Props = {
+  // Where one is, and what is there; from useFolder.
+  path: string;
+  listing: ReturnType<typeof useFolder>;
+  wants: "files" | "pictures";
+  onFolder: (path: string) => void;
+  onFile: (path: string) => void;
+  // A file that is marked, by its path.
+  marked?: string;
+  // Whether the keyboard begins in the list.
+  first?: boolean;
+};
+
+export function FolderBrowser({ path, listing: { folder, problem }, wants, onFolder, onFile, marked, first = false }: Props) {
+  const root = useStudio((state) => state.welcome?.root ?? "");
+  const list = useRef<HTMLUListElement>(null);
+  const before = useRef(path);
+  useEffect(() => {
+    // The button that led here is gone; the keyboard goes on in the list.
+    if (before.current !== path) {
+      before.current = path;
+      list.current?.focus();
+    }
+  }, [path]);
+  const FileIcon = wants === "files" ? IconFileText : IconPhoto;
+  const at = (name: string) => joined(folder?.path ?? path, name);
+  const names = folder?.[wants] ?? [];
+  const empty = folder !== null && folder.folders.length + names.length === 0;
+  return (
+    <div className={classes.browser}>
+      <nav className={classes.steps} aria-label="Folder">
+        <button type="button" className={classes.step} title={root} onClick={() => onFolder("")}>
+          {rootName(root)}
+        </button>
+        {steps(path).map((step) => (
+          <span key={step.path}>
+            <span className={classes.slash}>/</span>
+            <button type="button" className={classes.step} onClick={() => onFolder(step.path)}>
+              {step.name}
+            </button>
+          </span>
+        ))}
+      </nav>
+      <ul ref={list} className={classes.list} aria-label="Content of the folder" tabIndex={-1} data-autofocus={first || undefined}>
+        {folder?.folders.map((name) => (
+          <li key={`${name}/`}>
+            <button type="button" className={classes.entry} title={name} onClick={() => onFolder(at(name))}>
+              <IconFolder size={17} stroke={1.6} aria-label="Folder" />
+              <span className="one-line">{name}</span>
+            </button>
+          </li>
+        ))}
+        {names.map((name) => (
+          <li key={name}>
+            <button type="button" className={classes.entry} title={name} data-marked={at(name) === marked || undefined}
+              onClick={() => onFile(at(name))}>
+              <FileIcon size={17} stroke={1.6} aria-hidden="true" />
+              <span className="one-line">{name}</span>
+            </button>
+          </li>
+        ))}
+        {empty && <li className={classes.empty}>{wants === "files" ? "No documents (.json) here" : "No pictures here"}</li>}
+        {problem !== null && (
+          <li className={classes.empty}>
+            <ProblemText problem={problem} />
+          </li>
+        )}
+      </ul>
+    </div>
+  );
+}

@@ -1,0 +1,84 @@
+// Where one begins: a file, what was open before, or an example.
+
+import { Button, Group } from "@mantine/core";
+import { IconArrowLeft, IconFile, IconFolderOpen } from "@tabler/icons-react";
+
+import { useStudio } from "../store";
+import { ExampleCard } from "./ExampleCard";
+import { Mark } from "./Mark";
+import { RecoveryCard } from "./RecoveryCard";
+import { SchemeToggle } from "./SchemeToggle";
+import { leave, open } from "./flows";
+import { lastPart, parent } from "./paths";
+import { useView } from "./view";
+import classes from "./GalleryPage.module.css";
+
+export function GalleryPage() {
+  const title = useStudio((state) => state.document?.title ?? null);
+  const welcome = useStudio((state) => state.welcome);
+  const gallery = useStudio((state) => state.gallery);
+  const recent = gallery?.recent ?? [];
+  const recoveries = gallery?.recoveries ?? [];
+  return (
+    <main className={classes.page}>
+      <div className={classes.column}>
+        <header className={classes.header}>
+          <Mark size={40} />
+          <div className={classes.titles}>
+            <h1>deodar studio</h1>
+            <p>Open an architecture of neural fields, run it, and see it answer.</p>
+          </div>
+          {title !== null && (
+            <Button variant="default" maw={260} leftSection={<IconArrowLeft size={16} />} onClick={() => useView.setState({ gallery: false })}>
+              Back to {title}
+            </Button>
+          )}
+          <SchemeToggle />
+        </header>
+
+        {recoveries.map((recovery) => (
+          <RecoveryCard key={recovery.name} recovery={recovery} />
+        ))}
+
+        <section className={classes.files} aria-label="Files">
+          <Group gap="sm" className={classes.open}>
+            <Button leftSection={<IconFolderOpen size={17} />} onClick={() => void open()}>
+              Open a file
+            </Button>
+            <span className={classes.hint}>or drop one on this page</span>
+          </Group>
+          {recent.length > 0 && (
+            <ul className={classes.recent} aria-label="Recent files">
+              {recent.map((path) => (
+                <li key={path}>
+                  <button type="button" className={classes.file} title={path} onClick={() => void leave({ type: "open_file", path })}>
+                    <IconFile size={16} stroke={1.5} aria-hidden="true" />
+                    <span className="one-line">{lastPart(path)}</span>
+                    <span className={`${classes.folder} one-line`}>{parent(path)}</span>
+                  </button>
+                </li>
+              ))}
+            </ul>
+          )}
+        </section>
+
+        <section aria-labelledby="examples">
+          <h2 id="examples" className={classes.heading}>
+            Examples
+          </h2>
+          <ul className={classes.grid}>
+            {welcome?.examples.map((example) => (
+              <li key={example.name}>
+                <ExampleCard example={example} />
+              </li>
+            ))}
+          </ul>
+        </section>
+
+        <footer className={classes.footer}>
+          deodar {welcome?.version} <span title="Files are read and written below this folder">{welcome?.root}</span>
+        </footer>
+      </div>
+    </main>
+  );
+}

@@ -1,0 +1,14 @@
+// One thing that is wrong: where, what, what to do about it.
+
+import type { Problem } from "../protocol";
+import classes from "./ProblemText.module.css";
+
+export function ProblemText({ problem }: { problem: Problem }) {
+  return (
+    <div className={classes.problem}>
+      {problem.where !== undefined && problem.where !== "" && <div className={classes.where}>{problem.where}</div>}
+      <div className={classes.what}>{problem.what}</div>
+      {problem.fix !== undefined && problem.fix !== "" && <div className={classes.fix}>{problem.fix}</div>}
+    </div>
+  );
+}

@@ -1,0 +1,62 @@
+// A file that could not be opened, with everything that is wrong in it.
+
+import { Button, Group } from "@mantine/core";
+import { IconArrowLeft, IconFileAlert, IconRefresh } from "@tabler/icons-react";
+import { useState } from "react";
+
+import type { Problem, Trouble } from "../protocol";
+import { useStudio } from "../store";
+import { ProblemText } from "./ProblemText";
+import { leave } from "./flows";
+import { belowRoot, isWhole } from "./paths";
+import classes from "./ProblemsPage.module.css";
+
+export function ProblemsPage({ trouble }: { trouble: Trouble }) {
+  const root = useStudio((state) => state.welcome?.root ?? "");
+  const [trying, setTrying] = useState(false);
+  const again = async () => {
+    setTrying(true);
+    await leave({ type: "open_file", path: trouble.file });
+    setTrying(false);
+  };
+  const count = trouble.problems.length;
+  return (
+    <main className={classes.page}>
+      <div className={classes.column}>
+        <header className={classes.header}>
+          <IconFileAlert size={34} stroke={1.5} className={classes.icon} aria-hidden="true" />
+          <div className={classes.titles}>
+            <h1>{belowRoot(root, trouble.file)} cannot be opened</h1>
+            <p>{count === 1 ? "There is one problem." : `There are ${count} problems.`}</p>
+          </div>
+        </header>
+        <ol className={classes.list} aria-label="Problems">
+          {trouble.problems.map((problem, i) => (
+            <li key={i} className={classes.problem}>
+              <span className={`${classes.number} numbers`} aria-hidden="true">
+                {i + 1}
+              </span>
+              <ProblemText problem={within(trouble.file, problem)} />
+            </li>
+          ))}
+        </ol>
+        <Group gap="xs">
+          {isWhole(trouble.file) && (
+            <Button leftSection={<IconRefresh size={16} />} loading={trying} onClick={() => void again()} autoFocus>
+              Try again
+            </Button>
+          )}
+          <Button variant="default" leftSection={<IconArrowLeft size={16} />} onClick={() => void leave({ type: "close" })}>
+            Back to the gallery
+          </Button>
+        </Group>
+      </div>
+    </main>
+  );
+}
+
+// The file is named above; where in it is what matters here.
+function within(file: string, problem: Problem): Problem {
+  const where = problem.where ?? "";
+  return { ...problem, where: where === file ? "" : where.startsWith(`${file}: `) ? where.slice(file.length + 2) : where };
+}

@@ -1,0 +1,57 @@
+// The keys of the page, and what the mouse does in the panels.
+
+import { Kbd } from "@mantine/core";
+import { Fragment } from "react";
+
+import { keysText, SHORTCUTS } from "../shortcuts";
+import classes from "./ShortcutsDialog.module.css";
+
+type Line = { keys: readonly string[]; does: string };
+
+const ELSEWHERE: Record<string, readonly Line[]> = {
+  "In the architecture": [
+    { keys: ["/"], does: "Search" },
+    { keys: ["Double click"], does: "Plot an element" },
+  ],
+  "In a plot of a field": [
+    { keys: ["Right button"], does: "Add input while it is held" },
+    { keys: ["Shift", "Right button"], does: "Boost the whole field" },
+    { keys: ["I"], does: "Add input with the keyboard" },
+  ],
+};
+
+export function ShortcutsDialog() {
+  return (
+    <div className={classes.columns}>
+      <Lines title="Everywhere" lines={SHORTCUTS} together=" or " />
+      <div>
+        {Object.entries(ELSEWHERE).map(([title, lines]) => (
+          <Lines key={title} title={title} lines={lines} together=" " />
+        ))}
+      </div>
+    </div>
+  );
+}
+
+function Lines({ title, lines, together }: { title: string; lines: readonly Line[]; together: string }) {
+  return (
+    <section className={classes.section}>
+      <h3 className={classes.title}>{title}</h3>
+      <dl className={classes.lines}>
+        {lines.map(({ keys, does }) => (
+          <div key={does} className={classes.line}>
+            <dt>{does}</dt>
+            <dd>
+              {keys.map((key, i) => (
+                <Fragment key={key}>
+                  {i > 0 && together}
+                  <Kbd size="xs">{keysText(key)}</Kbd>
+                </Fragment>
+              ))}
+            </dd>
+          </div>
+        ))}
+      </dl>
+    </section>
+  );
+}

@@ -1,0 +1,26 @@
+// What becomes of unsaved edits, before something else is opened.
+
+import { Button, Group, Text } from "@mantine/core";
+
+import type { Asking } from "./dialogs";
+
+export function UnsavedDialog({ question, answer }: Asking<"unsaved">) {
+  return (
+    <>
+      <Text size="sm" style={{ overflowWrap: "anywhere" }}>
+        <b>{question.title === "" ? "The document" : question.title}</b> was edited since it was saved.
+      </Text>
+      <Group gap="xs" mt="lg" justify="flex-end">
+        <Button variant="subtle" color="gray" onClick={() => answer("cancel")}>
+          Cancel
+        </Button>
+        <Button variant="default" onClick={() => answer("discard")}>
+          Discard edits
+        </Button>
+        <Button onClick={() => answer("save")} data-autofocus autoFocus>
+          Save
+        </Button>
+      </Group>
+    </>
+  );
+}

@@ -1,0 +1,204 @@
+import { beforeEach, describe, expect, it, vi } from "vitest";
+
+import type { Answer, DocumentView, Kind, ToServer } from "../protocol";
+import { socket } from "../socket";
+import { useStudio } from "../store";
+import { type Asked, useDialogs } from "./dialogs";
+import { choosePicture, leave, open, save, saveAs, takeFile } from "./flows";
+
+const document: DocumentView = {
+  file: "", title: "selection", time_unit: "ms", dt: null, notes: "", axes: [], elements: [], connections: [], groups: [], knobs: [],
+  layout: {}, problems: [], unsaved: true, undo: 1, redo: 0,
+};
+const picture: Kind = {
+  name: "Picture", room: "worlds", title: "Picture", equation: [], reference: "", parameters: [], ports: {}, levels: {}, example: null,
+};
+
+let sent: ToServer[];
+let leaves = () => {};
+
+// A server that gives these answers in turn, and then says that all is done.
+function server(...answers: Partial<Answer>[]): void {
+  vi.spyOn(socket, "ask").mockImplementation(async (message) => {
+    sent.push(message);
+    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null };
+  });
+}
+
+// A person who gives these answers in turn. Answers with the questions that stood there.
+function person(...answers: unknown[]): Asked[] {
+  const questions: Asked[] = [];
+  leaves = useDialogs.subscribe(({ asked }) => {
+    if (asked !== null) {
+      questions.push(asked);
+      queueMicrotask(() => (asked.answer as (answer: unknown) => void)(answers.shift()));
+    }
+  });
+  return questions;
+}
+
+function given(state: Partial<DocumentView>): void {
+  useStudio.setState({ document: { ...document, ...state } });
+}
+
+const notices = () => useStudio.getState().notices.map((n) => `${n.level}: ${n.problem.what}`);
+
+beforeEach(() => {
+  sent = [];
+  useStudio.setState(useStudio.getInitialState(), true);
+  leaves();
+  useDialogs.setState(useDialogs.getInitialState(), true);
+  vi.restoreAllMocks();
+});
+
+describe("leaving a document", () => {
+  it("asks nothing where all is saved", async () => {
+    server({});
+    const questions = person();
+    expect(await leave({ type: "open_example", name: "selection" })).toBe(true);
+    expect(questions).toEqual([]);
+    expect(sent).toEqual([{ type: "open_example", name: "selection" }]);
+  });
+
+  it("goes on without the unsaved edits", async () => {
+    given({});
+    server({ ask: "unsaved" }, {});
+    const questions = person("discard");
+    expect(await leave({ type: "close" })).toBe(true);
+    expect(questions[0]?.question).toEqual({ title: "selection" });
+    expect(sent).toEqual([{ type: "close" }, { type: "close", discard: true }]);
+  });
+
+  it("stays", async () => {
+    given({});
+    server({ ask: "unsaved" });
+    person("cancel");
+    expect(await leave({ type: "close" })).toBe(false);
+    expect(sent).toHaveLength(1);
+  });
+
+  it("saves first, where it has to ask for a name", async () => {
+    given({});
+    server({ ask: "unsaved" }, {}, {});
+    const questions = person("save", "models/mine.json");
+    expect(await leave({ type: "close" })).toBe(true);
+    expect(questions.map((q) => q.name)).toEqual(["unsaved", "save_as"]);
+    expect(sent.map((m) => m.type)).toEqual(["close", "save", "close"]);
+  });
+
+  it("stays where saving was given up", async () => {
+    given({});
+    server({ ask: "unsaved" });
+    person("save", null);
+    expect(await leave({ type: "close" })).toBe(false);
+    expect(sent).toHaveLength(1);
+  });
+
+  it("shows what the server refuses", async () => {
+    server({ problems: [{ what: "lies outside" }] });
+    expect(await leave({ type: "open_file", path: "../a.json" })).toBe(false);
+    expect(notices()).toEqual(["error: lies outside"]);
+  });
+});
+
+describe("opening", () => {
+  it("takes a file below the root by its path", async () => {
+    server({});
+    person("models/a.json");
+    expect(await open()).toBe(true);
+    expect(sent).toEqual([{ type: "open_file", path: "models/a.json" }]);
+  });
+
+  it("takes a file of the person's own as text", async () => {
+    server({});
+    person(new File(['{"deodar": 1}'], "a.json"));
+    expect(await open()).toBe(true);
+    expect(sent).toEqual([{ type: "open_text", name: "a.json", text: '{"deodar": 1}' }]);
+  });
+
+  it("may be given up", async () => {
+    server();
+    person(null);
+    expect(await open()).toBe(false);
+    expect(sent).toEqual([]);
+  });
+});
+
+describe("saving", () => {
+  it("writes to its own file and says so", async () => {
+    given({ file: "a.json" });
+    server({});
+    expect(await save()).toBe(true);
+    expect(sent).toEqual([{ type: "save", path: "", replace: false }]);
+    expect(notices()).toEqual(["info: Saved as a.json"]);
+  });
+
+  it("asks before it writes over another file", async () => {
+    given({ file: "a.json" });
+    server({ ask: "replace" }, {}, { ask: "replace" }, { file: "models/b.json" });
+    const questions = person("replace", "replace");
+    expect(await save()).toBe(true);
+    expect(await save("models/b.json")).toBe(true);
+    expect(questions.map((q) => q.question)).toEqual([
+      { path: "a.json", own: true },
+      { path: "models/b.json", own: false },
+    ]);
+    expect(sent[1]).toEqual({ type: "save", path: "", replace: true });
+    expect(sent[3]).toEqual({ type: "save", path: "models/b.json", replace: true });
+    expect(notices()).toEqual(["info: Saved as a.json", "info: Saved as models/b.json"]);
+  });
+
+  it("goes elsewhere instead", async () => {
+    given({ file: "a.json" });
+    server({ ask: "replace" }, {});
+    const questions = person("elsewhere", "b.json");
+    expect(await save()).toBe(true);
+    expect(questions[1]?.question).toEqual({ path: "a.json" });
+    expect(sent[1]).toEqual({ type: "save", path: "b.json", replace: false });
+  });
+
+  it("proposes the title where there is no file", async () => {
+    given({});
+    server({});
+    const questions = person("selection.json");
+    expect(await saveAs()).toBe(true);
+    expect(questions[0]?.question).toEqual({ path: "selection" });
+  });
+
+  it("that fails is a notice", async () => {
+    given({ file: "a.json" });
+    server({ problems: [{ what: "The disk is full" }] });
+    expect(await save()).toBe(false);
+    expect(notices()).toEqual(["error: The disk is full"]);
+  });
+});
+
+describe("a file that was dropped", () => {
+  const senses = { type: "clock", senses: true } as never;
+
+  it("is a picture for what senses", async () => {
+    useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
+    server({});
+    expect(await takeFile(new File([new Uint8Array([0, 255, 7])], "a.png", { type: "image/png" }))).toBe(true);
+    expect(sent).toEqual([{ type: "use_world_content", kind: "Picture", name: "a.png", content: "AP8H" }]);
+  });
+
+  it("is refused where nothing senses, and where it is neither", async () => {
+    server();
+    expect(await takeFile(new File([], "a.png", { type: "image/png" }))).toBe(false);
+    expect(await takeFile(new File([], "a.txt", { type: "text/plain" }))).toBe(false);
+    const large = new File([], "a.json");
+    Object.defineProperty(large, "size", { value: 2 ** 30 });
+    expect(await takeFile(large)).toBe(false);
+    expect(sent).toEqual([]);
+    expect(notices()).toHaveLength(3);
+  });
+
+  it("may lie below the root instead", async () => {
+    useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
+    server({});
+    person("pictures/a.png");
+    expect(await choosePicture()).toBe(true);
+    expect(sent).toEqual([{ type: "use_world", kind: "Picture", path: "pictures/a.png" }]);
+  });
+});

@@ -1,0 +1,125 @@
+// Conversations with the person and the server that take several steps: opening, saving, reading a file of the person's own.
+
+import type { Answer, Close, OpenExample, OpenFile, OpenText, Problem, Recover } from "../protocol";
+import { request, socket } from "../socket";
+import { useStudio } from "../store";
+import { ask } from "./dialogs";
+import { sortOf } from "./paths";
+
+// What the server takes in one message, base64 included.
+const MOST_BYTES = 40 * 2 ** 20;
+
+type Leaving = OpenFile | OpenExample | OpenText | Recover | Close;
+
+// Go to another document, or to none. Unsaved edits are asked about. True where it was done.
+export async function leave(message: Leaving): Promise<boolean> {
+  const { answer } = await socket.ask(message);
+  if (answer.ask !== "unsaved") {
+    return done(answer);
+  }
+  const choice = await ask("unsaved", { title: useStudio.getState().document?.title ?? "" });
+  switch (choice) {
+    case "save":
+      return (await save()) && leave(message);
+    case "discard":
+      return leave({ ...message, discard: true });
+    case "cancel":
+      return false;
+  }
+}
+
+export async function open(): Promise<boolean> {
+  const chosen = await ask("choose", { wants: "files" });
+  if (chosen === null) {
+    return false;
+  }
+  return typeof chosen === "string" ? leave({ type: "open_file", path: chosen }) : takeFile(chosen);
+}
+
+// Write the document, to its own file where the path is empty. True where it was written.
+export async function save(path = "", replace = false): Promise<boolean> {
+  const own = useStudio.getState().document?.file ?? "";
+  if (path === "" && own === "") {
+    return saveAs();
+  }
+  const { answer } = await socket.ask({ type: "save", path, replace });
+  if (answer.ask !== "replace") {
+    if (done(answer)) {
+      useStudio.getState().notify({ what: `Saved as ${answer.file || path || own}` }, "info");
+      return true;
+    }
+    return false;
+  }
+  const choice = await ask("replace", { path: path || own, own: path === "" || path === own });
+  switch (choice) {
+    case "replace":
+      return save(path, true);
+    case "elsewhere":
+      return saveAs();
+    case "cancel":
+      return false;
+  }
+}
+
+export async function saveAs(): Promise<boolean> {
+  const document = useStudio.getState().document;
+  const path = await ask("save_as", { path: document?.file || document?.title || "" });
+  return path === null ? false : save(path);
+}
+
+// A file that was dropped or chosen: a document is opened, a picture is what the sensors read from now on.
+export async function takeFile(file: File): Promise<boolean> {
+  if (file.size > MOST_BYTES) {
+    return refuse({ what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`, fix: "Put it below the studio's folder and open it there." });
+  }
+  switch (sortOf(file)) {
+    case "document":
+      return leave({ type: "open_text", name: file.name, text: await file.text() });
+    case "picture":
+      return showPicture(file);
+    case "other":
+      return refuse({ what: `${file.name} is neither a document (.json) nor a picture.` });
+  }
+}
+
+export async function choosePicture(): Promise<boolean> {
+  const chosen = await ask("choose", { wants: "pictures" });
+  return chosen !== null && showPicture(chosen);
+}
+
+// Let the sensors read a picture: below the root by its path, otherwise its content.
+async function showPicture(picture: string | File): Promise<boolean> {
+  const { kinds, clock } = useStudio.getState();
+  const world = [...kinds.values()].find((kind) => kind.room === "worlds");
+  if (clock?.senses !== true || world === undefined) {
+    return refuse({ what: "Nothing here reads a picture.", fix: "Open a document with a sensor first, for example one from the gallery." });
+  }
+  const answer =
+    typeof picture === "string"
+      ? await request({ type: "use_world", kind: world.name, path: picture })
+      : await request({ type: "use_world_content", kind: world.name, name: picture.name, content: await base64(picture) });
+  return (answer.problems ?? []).length === 0;
+}
+
+// Problems become notices.
+function done(answer: Answer): boolean {
+  const problems = answer.problems ?? [];
+  for (const problem of problems) {
+    useStudio.getState().notify(problem);
+  }
+  return problems.length === 0;
+}
+
+function refuse(problem: Problem): boolean {
+  useStudio.getState().notify(problem);
+  return false;
+}
+
+async function base64(file: File): Promise<string> {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const parts: string[] = [];
+  for (let i = 0; i < bytes.length; i += 0x8000) {
+    parts.push(String.fromCharCode(...bytes.subarray(i, i + 0x8000)));
+  }
+  return btoa(parts.join(""));
+}

@@ -1,0 +1,74 @@
+// The panels of the page, which can be moved, stacked, closed and resized. Their arrangement is kept with the document.
+
+import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
+import "dockview-react/dist/styles/dockview.css";
+import { useEffect, useRef, useState } from "react";
+import { Graph } from "../graph/Graph";
+import { Inspector } from "../inspector/Inspector";
+import { Pins } from "../pins/Pins";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import { restore, signature } from "./arrangement";
+import { Empty } from "./Empty";
+import { setDock } from "./openPlot";
+import { PlotPanel } from "./PlotPanel";
+import "./dock.css";
+
+const COMPONENTS = {
+  graph: () => <Graph />,
+  inspector: () => <Inspector />,
+  pins: () => <Pins />,
+  plot: PlotPanel,
+};
+
+// Panels are parted by a gap through which the ground shows: lines above them would be drawn over every plot again and again.
+const THEME: DockviewTheme = { name: "deodar", className: "dock-theme", dndPanelOverlay: "group", gap: 1 };
+const SAVE_AFTER_MS = 600;
+
+export function Dock() {
+  const [api, setApi] = useState<DockviewApi | null>(null);
+  const session = useStudio((state) => state.session);
+  const saved = useRef("");
+
+  const ready = ({ api: made }: DockviewReadyEvent) => {
+    setDock(made);
+    setApi(made);
+  };
+  useEffect(() => () => setDock(null), []);
+
+  useEffect(() => {
+    if (api === null) {
+      return;
+    }
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    restore(api, useStudio.getState().document?.layout["panels"]);
+    saved.current = signature(api.toJSON());
+    const save = () => {
+      const arrangement = api.toJSON();
+      const now = signature(arrangement);
+      if (now !== saved.current) {
+        saved.current = now;
+        void request({ type: "arrange", layout: { panels: arrangement }, undoable: false });
+      }
+    };
+    const later = () => {
+      clearTimeout(timer);
+      timer = setTimeout(save, SAVE_AFTER_MS);
+    };
+    const watch = api.panels.map((panel) => panel.api.onDidParametersChange(later));
+    const ends = [
+      api.onDidLayoutChange(later),
+      api.onDidAddPanel((panel) => watch.push(panel.api.onDidParametersChange(later))),
+    ];
+    return () => {
+      clearTimeout(timer);
+      [...watch, ...ends].forEach((end) => end.dispose());
+    };
+  }, [api, session]);
+
+  return (
+    <div className="dock">
+      <DockviewReact components={COMPONENTS} watermarkComponent={Empty} theme={THEME} onReady={ready} />
+    </div>
+  );
+}

@@ -1,0 +1,12 @@
+// What stands where all panels were closed.
+
+import { PanelMenu } from "./PanelMenu";
+
+export function Empty() {
+  return (
+    <div className="dock-empty">
+      <p>No panel is open.</p>
+      <PanelMenu />
+    </div>
+  );
+}

@@ -1,0 +1,51 @@
+// The menu that brings panels back and adds plots.
+
+import { Button, Menu, ScrollArea } from "@mantine/core";
+import { IconChartLine, IconLayoutGridAdd } from "@tabler/icons-react";
+import { useState } from "react";
+import { useStudio } from "../store";
+import { openPlot, openTool } from "./openPlot";
+import { TOOL_NAMES, TOOLS } from "./tools";
+
+const MOST = 60;
+
+export function PanelMenu() {
+  const [search, setSearch] = useState("");
+  const elements = useStudio((state) => state.document?.elements);
+  const wanted = search.trim().toLowerCase();
+  const found = (elements ?? []).filter((element) => element.path.toLowerCase().includes(wanted));
+  return (
+    <Menu position="bottom-end" width={280} shadow="md" onClose={() => setSearch("")}>
+      <Menu.Target>
+        <Button size="compact-sm" variant="default" leftSection={<IconLayoutGridAdd size={15} />} aria-label="Open panels and plots">
+          Panels
+        </Button>
+      </Menu.Target>
+      <Menu.Dropdown>
+        {TOOL_NAMES.map((tool) => (
+          <Menu.Item key={tool} onClick={() => openTool(tool)}>
+            {TOOLS[tool].title}
+          </Menu.Item>
+        ))}
+        <Menu.Divider />
+        <Menu.Label>Plot</Menu.Label>
+        <Menu.Search
+          size="xs"
+          placeholder="Find an element"
+          aria-label="Find an element to plot"
+          value={search}
+          onChange={(event) => setSearch(event.currentTarget.value)}
+        />
+        <ScrollArea.Autosize mah={260} type="auto">
+          {found.slice(0, MOST).map((element) => (
+            <Menu.Item key={element.id} leftSection={<IconChartLine size={15} />} title={element.path} onClick={() => openPlot({ element: element.id })}>
+              <span className="dock-item one-line">{element.path}</span>
+            </Menu.Item>
+          ))}
+          {found.length > MOST && <Menu.Label>{found.length - MOST} more: type to find them</Menu.Label>}
+          {found.length === 0 && <Menu.Label>No element has this name.</Menu.Label>}
+        </ScrollArea.Autosize>
+      </Menu.Dropdown>
+    </Menu>
+  );
+}

@@ -1,0 +1,72 @@
+// A panel with a plot: finds its element and the component for the kind of plot.
+
+import type { IDockviewPanelProps } from "dockview-react";
+import { type ComponentType, useEffect, useState } from "react";
+import { FieldCurve } from "../plots/FieldCurve";
+import { HeatMap } from "../plots/HeatMap";
+import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import { Picture } from "../plots/Picture";
+import type { PlotProps } from "../plots/PlotFrame";
+import { type PlotParams, readParams, readSettings } from "../plots/settings";
+import { TimeCourse } from "../plots/TimeCourse";
+import { useStudio } from "../store";
+import { plotTitle } from "./openPlot";
+
+const PLOTS: Record<PlotKind, ComponentType<PlotProps>> = {
+  course: TimeCourse,
+  curve: FieldCurve,
+  heat: HeatMap,
+  picture: Picture,
+};
+
+export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
+  const plot = readParams(params);
+  const element = useStudio((state) => state.elements.get(plot.element));
+  const port = useStudio(() => (element === undefined || portsOf(element).includes(plot.port) ? plot.port : mainPort(element, useStudio.getState().kinds.get(element.kind))));
+  const offered = useStudio((state) => (element === undefined || state.document === null ? "course" : plotKinds(portAxes(state.document, element, port)).join()));
+  const visible = useVisible(api);
+  const kinds = offered.split(",") as PlotKind[];
+  const kind = plot.kind !== null && kinds.includes(plot.kind) ? plot.kind : (kinds[0] ?? "course");
+
+  const title = element === undefined ? null : plotTitle({ element: plot.element, kind });
+  useEffect(() => {
+    if (title !== null) {
+      api.setTitle(title);
+    }
+  }, [api, title]);
+
+  if (element === undefined) {
+    return (
+      <div className="dock-gone" role="status">
+        <p>The element of this plot is not in the document any more.</p>
+        <button type="button" className="dock-button" onClick={() => api.close()}>
+          Close this plot
+        </button>
+      </div>
+    );
+  }
+  const change = (next: Partial<PlotParams>) => api.updateParameters({ ...plot, kind, port, ...next });
+  const Plot = PLOTS[kind];
+  return (
+    <Plot
+      key={kind}
+      element={element}
+      port={port}
+      kinds={kinds}
+      settings={readSettings(plot.settings)}
+      visible={visible}
+      change={change}
+      set={(settings) => change({ settings: { ...plot.settings, ...settings } })}
+    />
+  );
+}
+
+function useVisible(api: IDockviewPanelProps["api"]): boolean {
+  const [visible, setVisible] = useState(api.isVisible);
+  useEffect(() => {
+    setVisible(api.isVisible);
+    const end = api.onDidVisibilityChange((event) => setVisible(event.isVisible));
+    return () => end.dispose();
+  }, [api]);
+  return visible;
+}

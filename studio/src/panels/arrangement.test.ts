@@ -1,0 +1,40 @@
+import type { SerializedDockview } from "dockview-react";
+import { expect, it } from "vitest";
+import { isArrangement, signature } from "./arrangement";
+
+const arrangement = (width: number, left: number, active = "a", title = "A") =>
+  ({
+    grid: {
+      root: {
+        type: "branch",
+        data: [
+          { type: "leaf", size: left, data: { id: "1", views: ["a"], activeView: "a" } },
+          { type: "leaf", size: width - left, data: { id: "2", views: ["b"], activeView: "b" } },
+        ],
+      },
+      width,
+      height: 500,
+      orientation: "HORIZONTAL",
+    },
+    panels: { a: { id: "a", contentComponent: "graph", title }, b: { id: "b", contentComponent: "plot", params: { element: "u" } } },
+    activeGroup: active,
+  }) as unknown as SerializedDockview;
+
+it("only arrangements of panels that there are can be used", () => {
+  expect(isArrangement(arrangement(1000, 600))).toBe(true);
+  expect(isArrangement(undefined)).toBe(false);
+  expect(isArrangement({ grid: 1, panels: {} })).toBe(false);
+  expect(isArrangement({ grid: {}, panels: { a: { id: "a", contentComponent: "no such thing" } } })).toBe(false);
+  expect(isArrangement({ grid: {}, panels: { a: { id: "b", contentComponent: "graph" } } })).toBe(false);
+});
+
+it("the size of the window, the focus and titles are no change", () => {
+  expect(signature(arrangement(1000, 600))).toBe(signature(arrangement(800, 480, "b", "B")));
+});
+
+it("a border that was moved is a change, and so is a setting", () => {
+  expect(signature(arrangement(1000, 600))).not.toBe(signature(arrangement(1000, 500)));
+  const other = arrangement(1000, 600);
+  (other.panels["b"]!.params as Record<string, unknown>)["port"] = "output";
+  expect(signature(other)).not.toBe(signature(arrangement(1000, 600)));
+});

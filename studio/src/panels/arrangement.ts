@@ -1,0 +1,84 @@
+// Arrangements of panels: the first one, whether a stored one can be used, and what counts as a change.
+
+import type { DockviewApi, SerializedDockview } from "dockview-react";
+import { firstToPlot, mainPort, plotKinds, portAxes } from "../plots/kinds";
+import { useStudio } from "../store";
+import { plotTitle } from "./openPlot";
+import { TOOL_NAMES, TOOLS } from "./tools";
+
+const COMPONENTS: string[] = [...TOOL_NAMES, "plot"];
+const SIDE_BELOW = 260;
+const PLOT = 0.4;
+
+// The architecture at the left with a plot of the first field below it; inspector and sliders at the right.
+export function arrangeFirst(api: DockviewApi): void {
+  api.clear();
+  api.addPanel({ id: "graph", component: "graph", title: TOOLS.graph.title });
+  api.addPanel({ id: "inspector", component: "inspector", title: TOOLS.inspector.title, position: { direction: "right" }, initialWidth: TOOLS.inspector.width });
+  api.addPanel({
+    id: "pins",
+    component: "pins",
+    title: TOOLS.pins.title,
+    position: { referencePanel: "inspector", direction: "below" },
+    initialHeight: SIDE_BELOW,
+  });
+  const { document, kinds } = useStudio.getState();
+  const element = document === null ? null : firstToPlot(document, kinds);
+  if (document !== null && element !== null) {
+    const port = mainPort(element, kinds.get(element.kind));
+    const kind = plotKinds(portAxes(document, element, port))[0] ?? "course";
+    api.addPanel({
+      id: "plot-1",
+      component: "plot",
+      title: plotTitle({ element: element.id, kind }),
+      params: { element: element.id, kind, port, settings: {} },
+      position: { referencePanel: "graph", direction: "below" },
+      initialHeight: Math.round(PLOT * api.height),
+    });
+  }
+  api.getPanel("graph")?.api.setActive();
+}
+
+// The arrangement kept with the document; the first one where there is none or it cannot be used.
+export function restore(api: DockviewApi, stored: unknown): void {
+  if (isArrangement(stored)) {
+    try {
+      api.fromJSON(stored);
+      if (api.totalPanels > 0) {
+        return;
+      }
+    } catch {
+      // What a document holds may be of any make; the first arrangement stands for it.
+    }
+  }
+  arrangeFirst(api);
+}
+
+export function isArrangement(stored: unknown): stored is SerializedDockview {
+  if (!isRecord(stored) || !isRecord(stored["grid"]) || !isRecord(stored["panels"])) {
+    return false;
+  }
+  return Object.entries(stored["panels"]).every(([id, panel]) => isRecord(panel) && panel["id"] === id && COMPONENTS.includes(panel["contentComponent"] as string));
+}
+
+// What an arrangement is, apart from the size of the window, where the focus is, and titles, which follow from the document.
+export function signature(arrangement: SerializedDockview): string {
+  const panels = Object.entries(arrangement.panels).map(([id, { contentComponent, params }]) => [id, contentComponent, params]);
+  return JSON.stringify({ ...arrangement, panels, grid: shares(arrangement.grid.root), activeGroup: null });
+}
+
+type Branch = { type: string; data: unknown; size?: number };
+
+// Sizes as hundredths of what they are a part of.
+function shares(node: Branch): unknown {
+  if (!Array.isArray(node.data)) {
+    return node.data;
+  }
+  const children = node.data as Branch[];
+  const all = children.reduce((sum, child) => sum + (child.size ?? 0), 0) || 1;
+  return children.map((child) => [Math.round((50 * (child.size ?? 0)) / all), shares(child)]);
+}
+
+function isRecord(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}

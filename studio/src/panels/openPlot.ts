@@ -1,0 +1,77 @@
+// Adding panels to the dock from anywhere: the dock tells its interface when it stands.
+
+import type { DockviewApi, IDockviewPanel } from "dockview-react";
+import { mainPort, type PlotKind, plotKinds, portAxes } from "../plots/kinds";
+import { readParams } from "../plots/settings";
+import { useStudio } from "../store";
+import { placeFor } from "./placement";
+import { TOOLS, type Tool } from "./tools";
+
+export type PlotWish = { element: string; kind?: PlotKind; port?: string };
+
+let dock: DockviewApi | null = null;
+
+export function setDock(api: DockviewApi | null): void {
+  dock = api;
+}
+
+// Show a plot: the one that is there, or else a new one.
+export function openPlot(wish: PlotWish): void {
+  if (dock === null) {
+    return;
+  }
+  const plot = plotFor(wish);
+  const there = dock.panels.find((panel) => isPlot(panel) && isSame(panel, plot));
+  if (there !== undefined) {
+    there.api.setActive();
+    return;
+  }
+  const position = placeFor(dock);
+  dock.addPanel({ id: freeId(dock), component: "plot", title: plotTitle(plot), params: { ...plot, settings: {} }, ...(position === null ? {} : { position }) });
+}
+
+// Show one of the panels that exist once.
+export function openTool(tool: Tool): void {
+  if (dock === null) {
+    return;
+  }
+  const there = dock.getPanel(tool);
+  if (there !== undefined) {
+    there.api.setActive();
+    return;
+  }
+  const { title, direction, width } = TOOLS[tool];
+  dock.addPanel({ id: tool, component: tool, title, position: { direction }, initialWidth: width });
+}
+
+export function plotTitle({ element, kind }: { element: string; kind: PlotKind | null }): string {
+  const found = useStudio.getState().elements.get(element);
+  return found === undefined ? "Plot" : kind === "course" ? `${found.name} over time` : found.name;
+}
+
+type Plot = { element: string; kind: PlotKind; port: string };
+
+function plotFor({ element, kind, port }: PlotWish): Plot {
+  const { document, elements, kinds } = useStudio.getState();
+  const found = elements.get(element);
+  const shown = port ?? (found === undefined ? "" : mainPort(found, kinds.get(found.kind)));
+  const axes = document === null || found === undefined ? null : portAxes(document, found, shown);
+  return { element, kind: kind ?? plotKinds(axes)[0] ?? "course", port: shown };
+}
+
+function isPlot(panel: IDockviewPanel): boolean {
+  return panel.api.component === "plot";
+}
+
+function isSame(panel: IDockviewPanel, plot: Plot): boolean {
+  const params = readParams(panel.params ?? {});
+  return params.element === plot.element && params.kind === plot.kind && (params.port === plot.port || plot.kind === "curve");
+}
+
+function freeId(api: DockviewApi): string {
+  for (let n = 1; ; n++) {
+    if (api.getPanel(`plot-${n}`) === undefined) {
+      return `plot-${n}`;
+    }
+  }
+}

@@ -1,0 +1,27 @@
+// Where a new plot goes: beside the other plots while there is room, or else onto them as a tab.
+
+import type { AddPanelPositionOptions, DockviewApi, DockviewGroupPanel } from "dockview-react";
+
+export type Box = { width: number; height: number };
+
+const WIDE = 640;
+const HIGH = 460;
+
+// How a box is shared between what is in it and something new.
+export function share({ width, height }: Box): "right" | "below" | "within" {
+  return width >= WIDE ? "right" : height >= HIGH ? "below" : "within";
+}
+
+export function placeFor(api: DockviewApi): AddPanelPositionOptions | null {
+  const plots = api.groups.filter((group) => group.panels.some((panel) => panel.api.component === "plot"));
+  const largest = plots.reduce<DockviewGroupPanel | null>((best, group) => (best === null || area(group) > area(best) ? group : best), null);
+  if (largest !== null) {
+    return { referenceGroup: largest, direction: share(largest) };
+  }
+  const graph = api.getPanel("graph");
+  return graph === undefined ? null : { referencePanel: graph, direction: "below" };
+}
+
+function area({ width, height }: Box): number {
+  return width * height;
+}

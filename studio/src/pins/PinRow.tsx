@@ -1,0 +1,156 @@
+// One pinned parameter: what it is, its slider with the ends of its range, its number.
+
+import { Tooltip, UnstyledButton } from "@mantine/core";
+import { IconGripVertical, IconLink } from "@tabler/icons-react";
+import { useState, type DragEvent, type KeyboardEvent } from "react";
+
+import { CostMark } from "../inspector/CostMark";
+import { driver } from "../inspector/leaf";
+import { useKnobLook, useLook } from "../inspector/look";
+import { NumberControl } from "../inspector/NumberControl";
+import { Prose } from "../inspector/Prose";
+import { chosen } from "../inspector/range";
+import { useSetting } from "../inspector/setting";
+import { Tex } from "../inspector/Tex";
+import type { LinkView } from "../protocol";
+import { useStudio } from "../store";
+import { valueAt } from "../values";
+import { PinEditing } from "./PinEditing";
+import { PinMenu } from "./PinMenu";
+import { changedPin, keepPins, withoutPin, type Pin } from "./pins";
+
+type PinRowProps = {
+  pin: Pin;
+  place: { index: number; count: number };
+  mark: "" | "before" | "after";
+  onDrag: () => void;
+  onOver: () => void;
+  onDrop: () => void;
+  onMove: (to: number) => void;
+};
+
+export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: PinRowProps) {
+  const { element: id, parameter } = pin;
+  const element = useStudio((state) => state.elements.get(id));
+  const select = useStudio((state) => state.select);
+  const knob = useStudio((state) =>
+    id === "" ? state.document?.knobs.find((k) => k.name === parameter) : driver(state.document, id, parameter),
+  );
+  const [editing, setEditing] = useState<"" | "range" | "label">("");
+  const stored = knob === undefined ? valueAt(element?.values, parameter) : knob.value;
+  const ownLook = useLook(id, parameter, stored);
+  const knobLook = useKnobLook(knob);
+  const look = id === "" ? knobLook : ownLook;
+  const value = typeof stored === "number" ? stored : null;
+  const setting = useSetting<number | null>(knob === undefined ? id : "", knob?.name ?? parameter, value, look?.cost ?? "live");
+  const unpin = () => keepPins((pins) => withoutPin(pins, id, parameter));
+  const gone = look === undefined || (id === "" && knob === undefined) || (value === null && !look.optional);
+  const path = id === "" ? parameter : `${element?.path ?? id}.${parameter}`;
+
+  const onGripKey = (event: KeyboardEvent) => {
+    const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
+    if (step !== 0) {
+      event.preventDefault();
+      onMove(place.index + step);
+    }
+  };
+  const takeDrag = (event: DragEvent) => {
+    event.preventDefault();
+    onOver();
+  };
+
+  return (
+    <li className={`pin ${mark === "" ? "" : `pin-${mark}`}`} data-pin={path} onDragOver={takeDrag} onDrop={onDrop}>
+      <div className="pin-line">
+        <UnstyledButton
+          className="pin-grip"
+          draggable
+          aria-label={`Move ${path}; arrow keys move it up and down`}
+          onDragStart={(event) => {
+            event.dataTransfer.effectAllowed = "move";
+            event.dataTransfer.setData("text/plain", path);
+            onDrag();
+          }}
+          onDragEnd={onDrop}
+          onKeyDown={onGripKey}
+        >
+          <IconGripVertical size={13} />
+        </UnstyledButton>
+        <Tooltip label={<Explanation path={path} meaning={look?.meaning ?? ""} links={knob?.links ?? []} />} position="top-start">
+          <UnstyledButton className="pin-name" onClick={() => select(id === "" ? [] : [id])} onDoubleClick={() => setEditing("label")}>
+            {look !== undefined && look.symbol !== "" && id !== "" && <Tex source={look.symbol} />}
+            <PinName pin={pin} path={element?.path ?? ""} />
+          </UnstyledButton>
+        </Tooltip>
+        {knob !== undefined && (
+          <span className="row-knob">
+            <IconLink size={11} />
+            <span className="one-line">{id === "" ? `drives ${knob.links.length}` : knob.name}</span>
+          </span>
+        )}
+        <span className="row-tools">
+          <CostMark element={knob === undefined ? id : ""} path={knob?.name ?? parameter} cost={look?.cost ?? "live"} />
+          <PinMenu
+            path={path}
+            place={place}
+            ranged={pin.lower !== undefined || pin.upper !== undefined}
+            onEdit={setEditing}
+            onAutomatic={() => keepPins((pins) => changedPin(pins, pin, { lower: undefined, upper: undefined }))}
+            onMove={onMove}
+            onUnpin={unpin}
+          />
+        </span>
+      </div>
+      {gone || look === undefined ? (
+        <p className="pin-gone">There is no such number in the document any more.</p>
+      ) : (
+        <NumberControl
+          label={pin.label ?? path}
+          setting={setting}
+          range={chosen(look.range, pin.lower, pin.upper)}
+          rangeKey={`${id} ${parameter} ${pin.lower ?? ""} ${pin.upper ?? ""}`}
+          unit={look.unit}
+          optional={look.optional}
+          onRange={() => setEditing("range")}
+        />
+      )}
+      {editing !== "" && look !== undefined && (
+        <PinEditing key={editing} what={editing} pin={pin} range={chosen(look.range, pin.lower, pin.upper)} onDone={() => setEditing("")} />
+      )}
+    </li>
+  );
+}
+
+// The end of a path says most: what is before it gives way.
+function PinName({ pin, path }: { pin: Pin; path: string }) {
+  if (pin.label !== undefined) {
+    return <span className="one-line pin-label">{pin.label}</span>;
+  }
+  return (
+    <span className="pin-path">
+      {path !== "" && <span className="one-line pin-element">{path}</span>}
+      <span className="one-line pin-label">{path === "" ? pin.parameter : `.${pin.parameter}`}</span>
+    </span>
+  );
+}
+
+function Explanation({ path, meaning, links }: { path: string; meaning: string; links: LinkView[] }) {
+  const elements = useStudio((state) => state.elements);
+  const drives = links.map((link) => `${elements.get(link.element)?.path ?? link.element}.${link.parameter}`);
+  return (
+    <>
+      <Prose text={meaning} />
+      <div className="meaning-path">{path}</div>
+      {drives.length > 0 && (
+        <>
+          Drives
+          {drives.map((driven) => (
+            <div className="meaning-path" key={driven}>
+              {driven}
+            </div>
+          ))}
+        </>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,83 @@
+// The panel of sliders: parameters of any element and document parameters, side by side, kept with the document.
+
+import "../inspector/inspector.css";
+import "./pins.css";
+
+import { Menu } from "@mantine/core";
+import { useState } from "react";
+
+import { AddButton } from "../inspector/AddButton";
+import { moved } from "../inspector/part";
+import { useStudio } from "../store";
+import { PinRow } from "./PinRow";
+import { isAt, keepPins, pinsOf, withPin } from "./pins";
+
+export function Pins() {
+  const pins = useStudio((state) => pinsOf(state.document?.layout));
+  const open = useStudio((state) => state.document !== null);
+  // The row that is dragged, and the one before which it would stand.
+  const [dragged, setDragged] = useState<number | null>(null);
+  const [over, setOver] = useState<number | null>(null);
+
+  if (!open) {
+    return <div className="pins inspector-empty">No document is open.</div>;
+  }
+  const drop = () => {
+    if (dragged !== null && over !== null) {
+      keepPins((all) => moved(all, dragged, over));
+    }
+    setDragged(null);
+    setOver(null);
+  };
+  return (
+    <div className="pins">
+      {pins.length === 0 && (
+        <div className="pins-empty">
+          <p>
+            <b>No sliders yet.</b>
+          </p>
+          <p>Select an element and choose “Pin to Sliders” in the menu of a parameter. The sliders are kept with the document.</p>
+        </div>
+      )}
+      <ul className="pin-list" aria-label="Pinned parameters">
+        {pins.map((pin, i) => (
+          <PinRow
+            key={`${pin.element} ${pin.parameter}`}
+            pin={pin}
+            place={{ index: i, count: pins.length }}
+            mark={over === i && dragged !== null && dragged !== i ? (dragged > i ? "before" : "after") : ""}
+            onDrag={() => setDragged(i)}
+            onOver={() => setOver(i)}
+            onDrop={drop}
+            onMove={(to) => keepPins((all) => moved(all, i, to))}
+          />
+        ))}
+      </ul>
+      <KnobMenu />
+    </div>
+  );
+}
+
+// Document parameters that have no slider yet.
+function KnobMenu() {
+  const document = useStudio((state) => state.document);
+  const pins = pinsOf(document?.layout);
+  const rest = (document?.knobs ?? []).filter((knob) => !pins.some((pin) => isAt(pin, "", knob.name)));
+  if (rest.length === 0) {
+    return null;
+  }
+  return (
+    <Menu position="bottom-start" shadow="md" classNames={{ dropdown: "compact-menu" }}>
+      <Menu.Target>
+        <AddButton>Document parameter</AddButton>
+      </Menu.Target>
+      <Menu.Dropdown>
+        {rest.map(({ name }) => (
+          <Menu.Item key={name} onClick={() => keepPins((all) => withPin(all, "", name))}>
+            {name}
+          </Menu.Item>
+        ))}
+      </Menu.Dropdown>
+    </Menu>
+  );
+}

@@ -1,0 +1,39 @@
+import { describe, expect, test } from "vitest";
+
+import { changedPin, pinsOf, withoutPin, withPin, type Pin } from "./pins";
+
+const tau: Pin = { element: "1", parameter: "tau" };
+const tempo: Pin = { element: "", parameter: "tempo", lower: 0, upper: 5, label: "pace" };
+
+describe("pins as they are kept", () => {
+  test("none", () => {
+    expect(pinsOf(undefined)).toEqual([]);
+    expect(pinsOf({})).toEqual([]);
+    expect(pinsOf({ pins: "nonsense" })).toEqual([]);
+  });
+
+  test("what cannot be read is left out", () => {
+    expect(pinsOf({ pins: [tau, null, 3, { element: 1, parameter: "tau" }, { element: "1" }, tempo] })).toEqual([tau, tempo]);
+    expect(pinsOf({ pins: [{ ...tau, lower: "low", upper: null, label: "", color: "red" }] })).toEqual([tau]);
+  });
+
+  test("of equal ones the first", () => expect(pinsOf({ pins: [tempo, { ...tempo, label: "other" }] })).toEqual([tempo]));
+
+  test("the same list for the same layout, so that nothing is drawn in vain", () => {
+    const layout = { pins: [tau] };
+    expect(pinsOf(layout)).toBe(pinsOf({ ...layout }));
+  });
+});
+
+test("a parameter is pinned once", () => {
+  const pins = withPin([], "1", "tau");
+  expect(pins).toEqual([tau]);
+  expect(withPin(pins, "1", "tau")).toBe(pins);
+  expect(withoutPin([tau, tempo], "1", "tau")).toEqual([tempo]);
+});
+
+test("range and label of one pin", () => {
+  expect(changedPin([tau, tempo], tau, { lower: 1, upper: 9 })).toEqual([{ ...tau, lower: 1, upper: 9 }, tempo]);
+  expect(changedPin([tempo], tempo, { lower: undefined, upper: undefined })).toEqual([{ element: "", parameter: "tempo", label: "pace" }]);
+  expect(changedPin([tempo], tempo, { label: "" })).toEqual([{ element: "", parameter: "tempo", lower: 0, upper: 5 }]);
+});

@@ -1,0 +1,80 @@
+// Pinned parameters: the rows of the panel of sliders, as they are kept in the document's layout.
+
+import type { DocumentView } from "../protocol";
+import { request } from "../socket";
+import { useStudio } from "../store";
+
+// `element` is empty for a document parameter. `lower` and `upper` are a range that was chosen, `label` a name of one's own.
+export type Pin = {
+  element: string;
+  parameter: string;
+  lower?: number;
+  upper?: number;
+  label?: string;
+};
+
+type Layout = DocumentView["layout"];
+
+const NONE: Pin[] = [];
+const read = new WeakMap<object, Pin[]>();
+
+// What can be read of what is kept; anything else is left out, and of equal pins the first one counts.
+export function pinsOf(layout: Layout | undefined): Pin[] {
+  const kept = layout?.["pins"];
+  if (!Array.isArray(kept)) {
+    return NONE;
+  }
+  let pins = read.get(kept);
+  if (pins === undefined) {
+    pins = (kept as unknown[]).flatMap(pinOf).filter((pin, i, all) => all.findIndex((p) => isAt(p, pin.element, pin.parameter)) === i);
+    read.set(kept, pins);
+  }
+  return pins;
+}
+
+function pinOf(kept: unknown): Pin[] {
+  if (typeof kept !== "object" || kept === null) {
+    return [];
+  }
+  const { element, parameter, lower, upper, label } = kept as Record<string, unknown>;
+  if (typeof element !== "string" || typeof parameter !== "string") {
+    return [];
+  }
+  const pin: Pin = { element, parameter };
+  if (typeof lower === "number") {
+    pin.lower = lower;
+  }
+  if (typeof upper === "number") {
+    pin.upper = upper;
+  }
+  if (typeof label === "string" && label !== "") {
+    pin.label = label;
+  }
+  return [pin];
+}
+
+export function isAt(pin: Pin, element: string, parameter: string): boolean {
+  return pin.element === element && pin.parameter === parameter;
+}
+
+export function withPin(pins: Pin[], element: string, parameter: string): Pin[] {
+  return pins.some((pin) => isAt(pin, element, parameter)) ? pins : [...pins, { element, parameter }];
+}
+
+export function withoutPin(pins: Pin[], element: string, parameter: string): Pin[] {
+  return pins.filter((pin) => !isAt(pin, element, parameter));
+}
+
+// Another range or label for one pin; undefined takes it away.
+export function changedPin(pins: Pin[], pin: Pin, change: Partial<Pick<Pin, "lower" | "upper" | "label">>): Pin[] {
+  return pins.map((p) => (isAt(p, pin.element, pin.parameter) ? (pinOf({ ...p, ...change })[0] ?? p) : p));
+}
+
+// Keep them in the document, as one step of undo.
+export function keepPins(change: (pins: Pin[]) => Pin[]): void {
+  const pins = pinsOf(useStudio.getState().document?.layout);
+  const next = change(pins);
+  if (next !== pins) {
+    void request({ type: "arrange", layout: { pins: next.length > 0 ? next : null }, undoable: true });
+  }
+}

@@ -1,0 +1,161 @@
+// An array over two axes as colours; what has more axes comes as the maximum over the others.
+
+import { NativeSelect } from "@mantine/core";
+import { useMemo, useRef } from "react";
+import type uPlot from "uplot";
+import type { AxisView } from "../protocol";
+import { useStudio } from "../store";
+import type { Live, Wish } from "../streams";
+import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { centred, type Scale, scale, type ScaleName, SCALES } from "./colors";
+import { exportPng } from "./exportPng";
+import { attachInjection } from "./injection";
+import { axisLabel, hasLevels, runsDown, stepOf } from "./kinds";
+import { pushAmplitude, thresholdOf } from "./levels";
+import { axis, frame, type Look } from "./look";
+import { extent, paintHeat, type Range } from "./paint";
+import { PlotFrame, type PlotProps } from "./PlotFrame";
+import { PushControl } from "./PushControl";
+import { CalmRange, reading } from "./range";
+import { RangeControl } from "./RangeControl";
+import type { Injection } from "./spot";
+import { type ChartOptions, useChart } from "./useChart";
+import { useLatest } from "./useLatest";
+import { useLevels } from "./useLevels";
+import { usePorts } from "./usePorts";
+import { useStreams } from "./useStreams";
+
+const MOST = 256;
+const UNKNOWN: AxisView = { key: "", name: "", lower: 0, upper: 1, samples: 2, periodic: false, unit: "" };
+
+export function HeatMap(props: PlotProps) {
+  const { element, port, settings, visible, set } = props;
+  const kind = useStudio((state) => state.kinds.get(element.kind));
+  const ports = usePorts(element, port, (axes) => axes.length > 1);
+  const twoSided = settings.scale === "diverging" || (settings.scale === "auto" && hasLevels(kind, port));
+  const name: ScaleName = settings.scale !== "auto" ? settings.scale : twoSided ? "diverging" : "cividis";
+
+  const heat = useRef<HTMLCanvasElement | null>(null);
+  const newest = useRef<Live | null>(null);
+  const calm = useRef(new CalmRange());
+  const colors = useRef<{ range: Range; middle: number | null; name: ScaleName; table: Scale }>({ range: [0, 1], middle: null, name, table: scale(name) });
+  const levels = useLevels(element.id, port, () => paint());
+  const wishes = useMemo<Wish[]>(() => [{ type: "watch", element: element.id, port, most: MOST }], [element.id, port]);
+  const streaming = useStreams(wishes, visible, ([live]) => {
+    newest.current = live ?? null;
+    paint();
+  });
+  const form = streaming.forms[0] ?? null;
+  const [x = UNKNOWN, y = UNKNOWN] = form?.axes ?? [];
+  const down = useStudio((state) => state.document !== null && runsDown(state.document, y));
+
+  // The colours change only with the range: then the bar is drawn anew.
+  const follow = (values: Float32Array) => {
+    const middle = twoSided ? (thresholdOf(levels.current) ?? 0) : null;
+    const range = settings.range ?? calm.current.next(extent(values), middle === null ? [] : [middle], performance.now());
+    const now = colors.current;
+    if (now.range[0] !== range[0] || now.range[1] !== range[1] || now.middle !== middle || now.name !== name) {
+      const table = middle === null ? scale(name) : centred(scale(name), range[0], range[1], middle);
+      colors.current = { range, middle, name, table };
+      chart.current?.redraw(false, false);
+    }
+  };
+  const paint = () => {
+    const live = newest.current;
+    const [nx, ny] = live?.form?.shape ?? [];
+    if (heat.current !== null && live?.frame != null && nx !== undefined && ny !== undefined) {
+      follow(live.frame.values);
+      paintHeat(heat.current, live.frame.values, nx, ny, colors.current.range, colors.current.table, down);
+      reread();
+    }
+  };
+  const options = (look: Look): ChartOptions => {
+    const base = frame(look);
+    return {
+      ...base,
+      cursor: { ...base.cursor, y: true, points: { show: false } },
+      padding: [10 * look.unit, BAR_ROOM * look.unit, 0, 4 * look.unit],
+      scales: { x: { time: false, range: () => edges(x) }, y: { range: () => edges(y), dir: down ? -1 : 1 } },
+      axes: [
+        axis(look, { scale: "x", side: 2, label: axisLabel(x), grid: false }),
+        axis(look, { scale: "y", side: 3, label: axisLabel(y), grid: false }),
+      ],
+      series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
+      hooks: { draw: [(self) => drawColorBar(self, look, colors.current.table, colors.current.range, colors.current.middle)] },
+    };
+  };
+  const data = (): uPlot.AlignedData => [edges(x), edges(y)];
+  const injection = useLatest((): Injection | null => {
+    const { document } = useStudio.getState();
+    return element.pushable && document !== null && form !== null
+      ? { element, document, shown: [x, y], amplitude: settings.amplitude ?? pushAmplitude(levels.current), width: settings.width }
+      : null;
+  });
+  const repaint = useLatest(paint);
+  const { host, chart, reread } = useChart(
+    {
+      options,
+      data,
+      label: `${port} of ${element.path} as colours over ${x.name} and ${y.name}`,
+      read: (self) => readAt(self, newest.current, x, y),
+      attach: (self) => {
+        const canvas = document.createElement("canvas");
+        canvas.className = "plot-heat";
+        self.under.append(canvas);
+        heat.current = canvas;
+        repaint.current();
+        return attachInjection(self, self.root.parentElement ?? self.root, () => injection.current(), "#ffffff");
+      },
+    },
+    JSON.stringify([element.id, port, x, y, down, settings.range, name]),
+  );
+
+  return (
+    <PlotFrame
+      {...props}
+      kind="heat"
+      ports={ports}
+      streaming={streaming}
+      note={form !== null && form.folded.length > 0 ? `max over ${form.folded.join(", ")}` : ""}
+      controls={
+        <>
+          <NativeSelect
+            size="xs"
+            label="Colours"
+            data={[{ value: "auto", label: "Fitting the port" }, ...SCALES.map((other) => ({ value: other.name, label: other.label }))]}
+            value={settings.scale}
+            onChange={(event) => set({ scale: event.currentTarget.value as ScaleName | "auto" })}
+          />
+          <RangeControl range={settings.range} shown={() => colors.current.range} set={(range) => set({ range })} />
+          {element.pushable && <PushControl amplitude={settings.amplitude ?? pushAmplitude(levels.current)} width={settings.width} set={set} />}
+        </>
+      }
+      exportAs={() => {
+        if (chart.current !== null && heat.current !== null) {
+          const { width, height } = chart.current;
+          void exportPng({ title: `${element.path} ${port}`, width, height, options, data: data(), image: heat.current });
+        }
+      }}
+    >
+      <div ref={host} className="plot-host" tabIndex={0} role="group" aria-label={`Drawing of ${element.path}${element.pushable ? "; hold I to inject" : ""}`} />
+    </PlotFrame>
+  );
+}
+
+// From the outer edge of the first cell to that of the last.
+function edges(axis: AxisView): [number, number] {
+  const step = stepOf(axis);
+  const last = axis.lower + (axis.samples - 1) * step;
+  return [axis.lower - step / 2, last + step / 2];
+}
+
+function readAt(chart: uPlot, live: Live | null, x: AxisView, y: AxisView): string {
+  const at = [chart.posToVal(chart.cursor.left ?? 0, "x"), chart.posToVal(chart.cursor.top ?? 0, "y")] as const;
+  const [ix, iy] = [nearest(x, at[0]), nearest(y, at[1])];
+  const value = live?.frame?.values[ix * y.samples + iy];
+  return value === undefined ? "" : `${x.name} ${reading(at[0])}   ${y.name} ${reading(at[1])}   ${reading(value)}`;
+}
+
+function nearest(axis: AxisView, value: number): number {
+  return Math.min(axis.samples - 1, Math.max(0, Math.round((value - axis.lower) / stepOf(axis))));
+}

@@ -1,0 +1,117 @@
+// What all plots have in common: a line with the element, the choices and the menu, and below it the drawing or a word why there is none.
+
+import { ActionIcon, Menu, NativeSelect, Popover, Tooltip } from "@mantine/core";
+import { IconAdjustmentsHorizontal, IconDots, IconPhotoDown } from "@tabler/icons-react";
+import type { ReactNode } from "react";
+import type { ElementView } from "../protocol";
+import { useStudio } from "../store";
+import { PLOT_TITLES, type PlotKind } from "./kinds";
+import type { PlotParams, PlotSettings } from "./settings";
+import type { Streaming } from "./useStreams";
+import "./plots.css";
+
+// What every kind of plot is given.
+export type PlotProps = {
+  element: ElementView;
+  port: string;
+  // The other ways this element can be shown.
+  kinds: PlotKind[];
+  settings: PlotSettings;
+  visible: boolean;
+  change: (params: Partial<PlotParams>) => void;
+  set: (settings: Partial<PlotSettings>) => void;
+};
+
+type Frame = PlotProps & {
+  kind: PlotKind;
+  // Ports to choose from, if the kind shows one at a time.
+  ports?: string[];
+  legend?: ReactNode;
+  note?: string;
+  controls?: ReactNode;
+  streaming: Streaming;
+  exportAs: () => void;
+  children: ReactNode;
+};
+
+export function PlotFrame(props: Frame) {
+  const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } = props;
+  const running = useStudio((state) => state.clock?.running ?? false);
+  const { lost, seen } = streaming;
+  return (
+    <section className="plot" aria-label={`${PLOT_TITLES[kind]} of ${element.path}`}>
+      <header className="plot-head">
+        <div className="plot-what">
+          <span className="plot-path one-line" title={element.path}>
+            {element.path}
+          </span>
+          {ports !== undefined && (
+            <NativeSelect
+              size="xs"
+              variant="unstyled"
+              className="plot-port"
+              aria-label={`Port of ${element.path}`}
+              data={ports}
+              value={port}
+              onChange={(event) => change({ port: event.currentTarget.value })}
+            />
+          )}
+          {note !== undefined && note !== "" && <span className="plot-note">{note}</span>}
+          <div className="plot-legend">{legend}</div>
+        </div>
+        {controls !== undefined && (
+          <Popover position="bottom-end" width={260} shadow="md" trapFocus>
+            <Popover.Target>
+              <Tooltip label="Settings of this plot">
+                <ActionIcon size="sm" aria-label="Settings of this plot">
+                  <IconAdjustmentsHorizontal size={15} />
+                </ActionIcon>
+              </Tooltip>
+            </Popover.Target>
+            <Popover.Dropdown className="plot-controls">{controls}</Popover.Dropdown>
+          </Popover>
+        )}
+        <Menu position="bottom-end" shadow="md" withinPortal>
+          <Menu.Target>
+            <ActionIcon size="sm" aria-label="Menu of this plot">
+              <IconDots size={15} />
+            </ActionIcon>
+          </Menu.Target>
+          <Menu.Dropdown>
+            {kinds.length > 1 && <Menu.Label>Show as</Menu.Label>}
+            {kinds.length > 1 &&
+              kinds.map((other) => (
+                <Menu.Item key={other} disabled={other === kind} onClick={() => change({ kind: other })}>
+                  {PLOT_TITLES[other]}
+                </Menu.Item>
+              ))}
+            {kinds.length > 1 && <Menu.Divider />}
+            <Menu.Item leftSection={<IconPhotoDown size={15} />} disabled={!seen} onClick={exportAs}>
+              Export PNG
+            </Menu.Item>
+          </Menu.Dropdown>
+        </Menu>
+      </header>
+      <div className="plot-body">
+        {children}
+        {!seen && (
+          <div className="plot-message" role="status">
+            {lost === null ? (
+              <span>{running ? "Waiting for the first values" : "Press play to see values"}</span>
+            ) : (
+              <>
+                <strong>{lost.what}</strong>
+                {lost.fix !== undefined && lost.fix !== "" && <span>{lost.fix}</span>}
+              </>
+            )}
+          </div>
+        )}
+        {seen && lost !== null && (
+          <div className="plot-lost" role="status">
+            {lost.what}
+          </div>
+        )}
+      </div>
+    </section>
+  );
+}

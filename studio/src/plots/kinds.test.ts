@@ -1,0 +1,97 @@
+import { describe, expect, it } from "vitest";
+import type { AxisView, DocumentView, ElementView, Kind } from "../protocol";
+import { axisLabel, firstToPlot, isPicture, mainPort, plotKinds, points, portAxes, portsAlike, runsDown, stepOf } from "./kinds";
+
+const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView => ({
+  key,
+  name: key,
+  lower: 0,
+  upper: 10,
+  samples,
+  periodic: false,
+  unit: "",
+  ...more,
+});
+
+const AXES = [axis("x"), axis("y"), axis("hue", 12, { periodic: true, upper: 360, unit: "deg" }), axis("channel", 3)];
+
+const element = (id: string, kind: string, axes: Record<string, string[]>, inputs: string[] = []): ElementView => ({
+  id,
+  path: id,
+  name: id,
+  group: [],
+  kind,
+  every: 1,
+  values: {},
+  inputs,
+  outputs: Object.keys(axes).filter((port) => !inputs.includes(port)),
+  axes,
+  pushable: false,
+});
+
+const documentOf = (...elements: ElementView[]) => ({ axes: AXES, elements }) as unknown as DocumentView;
+
+const LEVELLED = { levels: { charge: { threshold: "theta" } } } as unknown as Kind;
+
+describe("kinds of plots", () => {
+  it("follow from the axes", () => {
+    const [x, y, hue, channel] = AXES as [AxisView, AxisView, AxisView, AxisView];
+    expect(plotKinds(null)).toEqual(["course"]);
+    expect(plotKinds([])).toEqual(["course"]);
+    expect(plotKinds([x])).toEqual(["curve", "course"]);
+    expect(plotKinds([x, y])).toEqual(["heat", "course"]);
+    expect(plotKinds([x, y, hue])).toEqual(["heat", "course"]);
+    expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
+    expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
+  });
+
+  it("know no axes where the document does not", () => {
+    const one = element("a", "k", { output: ["x", "lost"] });
+    expect(portAxes(documentOf(one), one, "output")).toBeNull();
+    expect(portAxes(documentOf(one), one, "other")).toBeNull();
+  });
+
+  it("put ports over the same axes into one plot", () => {
+    const one = element("a", "k", { output: ["x"], state: ["x"], total: [], input: ["x"] }, ["input"]);
+    expect(portsAlike(one, "output")).toEqual(["output", "state", "input"]);
+    expect(portsAlike(one, "total")).toEqual(["total"]);
+  });
+});
+
+describe("what is plotted first", () => {
+  it("is the port with levels", () => {
+    expect(mainPort(element("a", "k", { output: [], charge: [] }), LEVELLED)).toBe("charge");
+    expect(mainPort(element("a", "k", { output: [], other: [] }), undefined)).toBe("output");
+    expect(mainPort(element("a", "k", {}), undefined)).toBe("");
+  });
+
+  it("is the element with levels and the most axes up to two", () => {
+    const kinds = new Map([["cell", LEVELLED]]);
+    const plain = element("plain", "source", { output: ["x", "y"] });
+    const node = element("node", "cell", { output: [], charge: [] });
+    const line = element("line", "cell", { output: ["x"], charge: ["x"] });
+    const deep = element("deep", "cell", { charge: ["x", "y", "hue"] });
+    expect(firstToPlot(documentOf(plain, node, line, deep), kinds)?.id).toBe("line");
+    expect(firstToPlot(documentOf(plain), kinds)).toBeNull();
+  });
+});
+
+describe("axes", () => {
+  it("have their samples where the server has them", () => {
+    expect([...points(axis("x", 3))]).toEqual([0, 5, 10]);
+    expect([...points(axis("x", 4, { periodic: true, upper: 8 }))]).toEqual([0, 2, 4, 6]);
+    expect(stepOf(axis("x", 1, { periodic: true }))).toBe(10);
+  });
+
+  it("are named with their unit", () => {
+    expect(axisLabel(axis("x"))).toBe("x");
+    expect(axisLabel(axis("x", 3, { unit: "deg" }))).toBe("x (deg)");
+  });
+
+  it("run down where they are rows of a picture", () => {
+    const eye = element("eye", "k", { output: ["x", "y", "channel"] });
+    expect(runsDown(documentOf(eye), axis("y", 5))).toBe(true);
+    expect(runsDown(documentOf(eye), axis("x"))).toBe(false);
+    expect(runsDown(documentOf(), axis("y"))).toBe(false);
+  });
+});

@@ -1,0 +1,103 @@
+// How a port can be shown. It follows from its axes alone.
+
+import type { AxisView, DocumentView, ElementView, Kind } from "../protocol";
+
+export type PlotKind = "course" | "curve" | "heat" | "picture";
+
+export const PLOT_TITLES: Record<PlotKind, string> = {
+  course: "Time course",
+  curve: "Curves",
+  heat: "Heat map",
+  picture: "Picture",
+};
+
+const CHANNELS = 3;
+
+// The axes at a port; null where they are not known.
+export function portAxes(document: DocumentView, element: ElementView, port: string): AxisView[] | null {
+  const keys = element.axes[port];
+  const found = keys?.map((key) => document.axes.find((axis) => axis.key === key));
+  return found === undefined || found.includes(undefined) ? null : (found as AxisView[]);
+}
+
+// The kinds of plot for an array over these axes, the best one first.
+export function plotKinds(axes: AxisView[] | null): PlotKind[] {
+  if (axes === null || axes.length === 0) {
+    return ["course"];
+  }
+  return [axes.length === 1 ? "curve" : isPicture(axes) ? "picture" : "heat", "course"];
+}
+
+export function isPicture(axes: AxisView[]): boolean {
+  const last = axes[2];
+  return axes.length === 3 && last?.name === "channel" && last.samples === CHANNELS;
+}
+
+// Every port of an element, what it gives before what it gets.
+export function portsOf(element: ElementView): string[] {
+  return [...new Set([...element.outputs, ...element.inputs])];
+}
+
+// The ports that can be drawn into one plot with a port: those over the same axes.
+export function portsAlike(element: ElementView, port: string): string[] {
+  const keys = JSON.stringify(element.axes[port]);
+  return portsOf(element).filter((other) => other === port || (keys !== undefined && JSON.stringify(element.axes[other]) === keys));
+}
+
+// The port that says most about an element: one with levels, or else its first.
+export function mainPort(element: ElementView, kind: Kind | undefined): string {
+  const ports = portsOf(element);
+  return ports.find((port) => hasLevels(kind, port)) ?? ports.find((port) => port === "activation") ?? ports[0] ?? "";
+}
+
+export function hasLevels(kind: Kind | undefined, port: string): boolean {
+  return Object.keys(kind?.levels[port] ?? {}).length > 0;
+}
+
+// The element to plot first: one whose main port has levels, with the most axes up to two; the first of its like. Null if there is none.
+export function firstToPlot(document: DocumentView, kinds: Map<string, Kind>): ElementView | null {
+  let best: ElementView | null = null;
+  let most = -1;
+  for (const element of document.elements) {
+    const kind = kinds.get(element.kind);
+    const port = mainPort(element, kind);
+    const axes = portAxes(document, element, port)?.length ?? 0;
+    if ((hasLevels(kind, port) || port === "activation") && axes <= 2 && axes > most) {
+      best = element;
+      most = axes;
+    }
+  }
+  return best;
+}
+
+// Whether an axis runs downwards on the screen: it is the second one of a picture somewhere in the document, whose rows count from the top.
+export function runsDown(document: DocumentView, axis: AxisView): boolean {
+  return document.elements.some((element) =>
+    portsOf(element).some((port) => {
+      const axes = portAxes(document, element, port);
+      const rows = axes?.[1];
+      return axes !== null && isPicture(axes) && rows !== undefined && sameDimension(rows, axis);
+    }),
+  );
+}
+
+// Places of the samples.
+export function points(axis: AxisView): Float64Array {
+  const step = stepOf(axis);
+  return Float64Array.from({ length: axis.samples }, (_, i) => axis.lower + i * step);
+}
+
+export function stepOf(axis: AxisView): number {
+  const steps = axis.periodic ? axis.samples : axis.samples - 1;
+  return steps > 0 ? (axis.upper - axis.lower) / steps : axis.upper - axis.lower;
+}
+
+export function axisLabel(axis: AxisView): string {
+  return axis.unit === "" ? axis.name : `${axis.name} (${axis.unit})`;
+}
+
+// Axes that were thinned end a little earlier.
+function sameDimension(one: AxisView, other: AxisView): boolean {
+  const near = 0.1 * (one.upper - one.lower);
+  return one.name === other.name && one.unit === other.unit && Math.abs(one.lower - other.lower) < near && Math.abs(one.upper - other.upper) < near;
+}

@@ -1,0 +1,35 @@
+// What is injected where.
+
+import type { AxisView, DocumentView, ElementView } from "../protocol";
+import { portAxes } from "./kinds";
+import type { Spot } from "./pusher";
+
+export type Injection = {
+  element: ElementView;
+  document: DocumentView;
+  // The axes that are drawn, as they were announced: to the right, and upwards if there are two.
+  shown: AxisView[];
+  amplitude: number;
+  // sigma as a share of each axis.
+  width: number;
+};
+
+// So wide that it is the same everywhere: for axes that are not drawn.
+const FLAT = 100;
+
+// The place on all axes of the element, in its order; axes that are not drawn get everything.
+export function spot({ element, document, shown, amplitude, width }: Injection, place: number[] | null): Spot {
+  if (place === null) {
+    return { center: null, sigma: null, amplitude };
+  }
+  const axes = element.inputs.map((port) => portAxes(document, element, port)).find((found) => found !== null && found.length > 0) ?? shown;
+  const center: number[] = [];
+  const sigma: number[] = [];
+  for (const axis of axes) {
+    const at = shown.findIndex((other) => other.name === axis.name);
+    const range = axis.upper - axis.lower;
+    center.push(at < 0 ? (axis.lower + axis.upper) / 2 : Math.min(axis.upper, Math.max(axis.lower, place[at] ?? axis.lower)));
+    sigma.push(range * (at < 0 ? FLAT : width));
+  }
+  return { center, sigma, amplitude };
+}

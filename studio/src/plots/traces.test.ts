@@ -1,0 +1,37 @@
+import { describe, expect, it } from "vitest";
+import { History } from "../history";
+import { firstAt, sideBySide, timeRange } from "./traces";
+
+function history(...pairs: [number, number][]): History {
+  const made = new History();
+  made.times = pairs.map(([time]) => time);
+  made.values = pairs.map(([, value]) => value);
+  return made;
+}
+
+describe("time courses side by side", () => {
+  it("share their times where they are the same", () => {
+    expect(sideBySide([history([0, 1], [1, 2], [2, 3]), history([0, 4], [1, 5], [2, 6])], 2)).toEqual([[1, 2], [2, 3], [5, 6]]);
+  });
+
+  it("have gaps where they are not", () => {
+    expect(sideBySide([history([0, 1], [2, 2]), history([1, 5], [2, 6])], 0)).toEqual([[0, 1, 2], [1, null, 2], [null, 5, 6]]);
+    expect(sideBySide([history([0, 1]), history()], 0)).toEqual([[0], [1], [null]]);
+    expect(sideBySide([], 0)).toEqual([[]]);
+  });
+
+  it("begin one sample before the edge", () => {
+    expect(firstAt([0, 1, 2, 3], 2)).toBe(1);
+    expect(firstAt([0, 1, 2, 3], 9)).toBe(3);
+    expect(firstAt([], 1)).toBe(0);
+  });
+});
+
+describe("the time that is shown", () => {
+  it("stands until the window is full, and scrolls then", () => {
+    expect(timeRange(0, 100, 500)).toEqual([0, 500]);
+    expect(timeRange(0, 800, 500)).toEqual([300, 800]);
+    expect(timeRange(20, 800, null)).toEqual([20, 800]);
+    expect(timeRange(5, 5, null)).toEqual([5, 6]);
+  });
+});

@@ -1,0 +1,77 @@
+// Live arrays for a component: drawing happens once for each picture of the browser and past React; the component renders again only when
+// what the streams hold changes.
+
+import { useEffect, useState } from "react";
+import type { Announced, Problem } from "../protocol";
+import { socket } from "../socket";
+import type { Live, Wish } from "../streams";
+import { useLatest } from "./useLatest";
+
+export type Streaming = {
+  // What each stream holds; null as long as it is not known.
+  forms: (Announced | null)[];
+  // Why a stream gives nothing, if one does not.
+  lost: Problem | null;
+  // Whether anything came yet.
+  seen: boolean;
+};
+
+const NOTHING: Streaming = { forms: [], lost: null, seen: false };
+
+export function useStreams(wishes: Wish[], on: boolean, draw: (lives: Live[]) => void): Streaming {
+  const [streaming, setStreaming] = useState(NOTHING);
+  const drawing = useLatest(draw);
+  const key = JSON.stringify(wishes);
+
+  useEffect(() => {
+    if (!on) {
+      return;
+    }
+    const asked = JSON.parse(key) as Wish[];
+    const lives: (Live | null)[] = asked.map(() => null);
+    let known = NOTHING;
+    let due = false;
+    let ended = false;
+    const take = () => {
+      due = false;
+      if (ended) {
+        return;
+      }
+      const next = summary(lives);
+      if (next.seen !== known.seen || next.lost !== known.lost || next.forms.some((form, i) => form !== known.forms[i])) {
+        known = next;
+        setStreaming(next);
+      }
+      if (lives.every((live) => live !== null)) {
+        drawing.current(lives as Live[]);
+      }
+    };
+    // Streams are told one after another within one task: a microtask comes after all of them.
+    const later = () => {
+      if (!due) {
+        due = true;
+        queueMicrotask(take);
+      }
+    };
+    const ends = asked.map((wish, i) =>
+      socket.streams.subscribe(wish, (live) => {
+        lives[i] = live;
+        later();
+      }),
+    );
+    return () => {
+      ended = true;
+      ends.forEach((end) => end());
+    };
+  }, [key, on, drawing]);
+
+  return streaming;
+}
+
+function summary(lives: (Live | null)[]): Streaming {
+  return {
+    forms: lives.map((live) => live?.form ?? null),
+    lost: lives.find((live) => live?.lost != null)?.lost?.problem ?? null,
+    seen: lives.some((live) => live?.frame != null),
+  };
+}

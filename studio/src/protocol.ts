@@ -1,0 +1,514 @@
+// Generated from src/deodar/server/to_server.py and to_page.py by `python -m deodar.server.protocol`; change those, not this one.
+// A new document parameter, at the value of the first parameter that it drives.
+export type AddKnob = {
+  type: "add_knob";
+  request?: number;
+  name: string;
+  element: string;
+  parameter: string;
+};
+
+// What a stream holds from now on: its shape, and the axes as they are thinned. `folded` names axes over which the maximum is taken, because
+// an array has more than two dimensions; `channels`: a picture. A time course has the shape [2]: pairs of time and value.
+export type Announced = {
+  type: "announced";
+  stream: number;
+  shape: number[];
+  axes: AxisView[];
+  folded: string[];
+  channels: boolean;
+};
+
+// The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
+// with discard) or `replace` (send it again with replace). `cost` is what a change cost.
+export type Answer = {
+  type: "answer";
+  request: number;
+  problems?: Problem[];
+  ask?: "" | "replace" | "unsaved";
+  cost?: "" | "live" | "rebuild" | "recompile";
+  file?: string;
+};
+
+// Change parts of the layout: each key given replaces that key of the document's layout, None takes it away.
+export type Arrange = {
+  type: "arrange";
+  request?: number;
+  layout: Record<string, unknown>;
+  undoable?: boolean;
+};
+
+// A metric dimension, under its key in the document.
+export type AxisView = {
+  key: string;
+  name: string;
+  lower: number;
+  upper: number;
+  samples: number;
+  periodic: boolean;
+  unit: string;
+};
+
+// One parameter has another value; nothing else differs from the document of the version before.
+export type Changed = {
+  type: "changed";
+  version: number;
+  element: string;
+  parameter: string;
+  value: unknown;
+  cost: "live" | "rebuild" | "recompile";
+  unsaved: boolean;
+  undo: number;
+  redo: number;
+};
+
+// Where the run is. Sent after the frames of the same number, and whenever something changes.
+//
+// `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as possible); `abstract` time
+// counts 1 unit as 1 ms. `busy` says in words what is being made; `failure` why the run stopped; `world` what the sensors read.
+export type Clock = {
+  type: "clock";
+  frame: number;
+  running: boolean;
+  time: number;
+  tick: number;
+  dt: number;
+  seed: number;
+  speed: number | null;
+  factor: number;
+  steps: number;
+  busy: string;
+  failure: Problem[];
+  world: string;
+  senses: boolean;
+  pushing: string;
+};
+
+// Close the document and go to the gallery.
+export type Close = {
+  type: "close";
+  request?: number;
+  discard?: boolean;
+};
+
+// From an output port to an input port.
+export type ConnectionView = {
+  source: string;
+  source_port: string;
+  target: string;
+  target_port: string;
+  reads: string;
+};
+
+// Change general properties of the document; what is None stays.
+export type Describe = {
+  type: "describe";
+  request?: number;
+  name?: string | null;
+  notes?: string | null;
+  dt?: number | null;
+};
+
+// The document as it is edited. `file` is relative to the root, empty without one; `unsaved`: edited since it was written.
+export type DocumentView = {
+  file: string;
+  title: string;
+  time_unit: string;
+  dt: number | null;
+  notes: string;
+  axes: AxisView[];
+  elements: ElementView[];
+  connections: ConnectionView[];
+  groups: string[][];
+  knobs: KnobView[];
+  layout: Record<string, unknown>;
+  problems: Problem[];
+  unsaved: boolean;
+  undo: number;
+  redo: number;
+};
+
+// The page has taken in the frames up to the clock of this number; only then the next ones are sent.
+export type Drawn = {
+  type: "drawn";
+  request?: number;
+  frame: number;
+};
+
+// An element of the document. `axes` gives for each port the keys of its axes, as far as they are known.
+export type ElementView = {
+  id: string;
+  path: string;
+  name: string;
+  group: string[];
+  kind: string;
+  every: number;
+  values: Record<string, unknown>;
+  inputs: string[];
+  outputs: string[];
+  axes: Record<string, string[]>;
+  pushable: boolean;
+};
+
+// An entry of the gallery; `picture` is an address on the server, empty without one.
+export type ExampleView = {
+  name: string;
+  title: string;
+  sentence: string;
+  picture: string;
+};
+
+// What lies in a folder below the root.
+export type Folder = {
+  type: "folder";
+  request: number;
+  path: string;
+  folders: string[];
+  files: string[];
+  pictures: string[];
+};
+
+// Throw unsaved edits away that were kept.
+export type Forget = {
+  type: "forget";
+  request?: number;
+  name: string;
+};
+
+// What can be gone on with: documents opened before (below the root), unsaved edits.
+export type Gallery = {
+  type: "gallery";
+  recent: string[];
+  recoveries: Recovery[];
+};
+
+// A registered kind, as the page knows it: what is said of it, its equation (lines of TeX), its parameters and ports.
+//
+// `room` is where it stands: elements, couplings, kernels, sigmoids, windows, worlds, or own. `levels` names for a port the
+// parameters that are levels on its scale (threshold, resting level). `example` is a value to start from, where it stands inside a part.
+export type Kind = {
+  name: string;
+  room: string;
+  title: string;
+  equation: string[];
+  reference: string;
+  parameters: ParameterForm[];
+  ports: Record<string, string>;
+  levels: Record<string, Record<string, string>>;
+  example: unknown;
+};
+
+// A document parameter and what it drives.
+export type KnobView = {
+  name: string;
+  value: number;
+  links: LinkView[];
+};
+
+// Let a document parameter drive a parameter of an element.
+export type Link = {
+  type: "link";
+  request?: number;
+  name: string;
+  element: string;
+  parameter: string;
+};
+
+// A parameter that a document parameter drives.
+export type LinkView = {
+  element: string;
+  parameter: string;
+};
+
+// Ask for the documents and folders in a folder below the root; a `folder` follows.
+export type ListFolder = {
+  type: "list_folder";
+  request?: number;
+  path?: string;
+};
+
+// A stream that gives nothing, and why: the element is gone, or the port cannot be read.
+export type Lost = {
+  type: "lost";
+  stream: number;
+  problem: Problem;
+};
+
+// Open one of the examples, as a document without a file.
+export type OpenExample = {
+  type: "open_example";
+  request?: number;
+  name: string;
+  discard?: boolean;
+};
+
+// Open a document below the root. `discard` allows to throw unsaved edits away.
+export type OpenFile = {
+  type: "open_file";
+  request?: number;
+  path: string;
+  discard?: boolean;
+};
+
+// Open the content of a file that was dropped on the page, as a document without a file.
+export type OpenText = {
+  type: "open_text";
+  request?: number;
+  name: string;
+  text: string;
+  discard?: boolean;
+};
+
+// The whole document; None: none is open. `session` changes with each document that is opened.
+export type Opened = {
+  type: "opened";
+  session: number;
+  version: number;
+  document: DocumentView | null;
+};
+
+// How a parameter is shown and changed.
+//
+// `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is TeX.
+export type ParameterForm = {
+  name: string;
+  form: "array" | "axes" | "axis" | "flag" | "integer" | "number" | "numbers" | "pairs" | "part" | "parts" | "per_axis" | "text" | "texts";
+  cost: "live" | "rebuild" | "recompile";
+  meaning: string;
+  description: string;
+  symbol: string;
+  unit: string;
+  lower: number | null;
+  upper: number | null;
+  default: unknown;
+  optional: boolean;
+  choices: string[];
+  of: string[];
+};
+
+// Stand still.
+export type Pause = {
+  type: "pause";
+  request?: number;
+};
+
+// Run on.
+export type Play = {
+  type: "play";
+  request?: number;
+};
+
+// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+export type Problem = {
+  what: string;
+  where?: string;
+  fix?: string;
+  element?: string;
+};
+
+// Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same where it is None.
+export type Push = {
+  type: "push";
+  request?: number;
+  element: string;
+  amplitude: number;
+  center?: number[] | null;
+  sigma?: number[] | null;
+};
+
+// Open unsaved edits that were kept.
+export type Recover = {
+  type: "recover";
+  request?: number;
+  name: string;
+  discard?: boolean;
+};
+
+// Unsaved edits that were kept: name, title, the file they belong to, and when (ISO).
+export type Recovery = {
+  name: string;
+  title: string;
+  file: string;
+  when: string;
+};
+
+// Make the change again that was taken back.
+export type Redo = {
+  type: "redo";
+  request?: number;
+};
+
+// End of `push`.
+export type Release = {
+  type: "release";
+  request?: number;
+};
+
+// Take a document parameter away; what it drove keeps its value.
+export type RemoveKnob = {
+  type: "remove_knob";
+  request?: number;
+  name: string;
+};
+
+// State, time and noise back to the start; with a seed, another one from then on. Parameters stay.
+export type Reset = {
+  type: "reset";
+  request?: number;
+  seed?: number | null;
+};
+
+// Write the document, to its own file where `path` is empty. `replace` allows to write over a file that is not the one it came from,
+// or that changed on disk since.
+export type Save = {
+  type: "save";
+  request?: number;
+  path?: string;
+  replace?: boolean;
+};
+
+// Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of that name.
+//
+// `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that share a `gesture` (not 0) are
+// one step of undo: a slider that is dragged.
+export type Set = {
+  type: "set";
+  request?: number;
+  element: string;
+  parameter: string;
+  value: unknown;
+  gesture?: number;
+};
+
+// Document time in relation to the clock on the wall: 1 is real time, None as fast as possible.
+export type Speed = {
+  type: "speed";
+  request?: number;
+  factor: number | null;
+};
+
+// So many Euler steps, then stand still.
+export type Step = {
+  type: "step";
+  request?: number;
+  n?: number;
+};
+
+export type ToPage =
+  | Welcome
+  | Gallery
+  | Opened
+  | Trouble
+  | Changed
+  | Clock
+  | Announced
+  | Lost
+  | Folder
+  | Answer;
+
+export type ToServer =
+  | OpenFile
+  | OpenExample
+  | OpenText
+  | Recover
+  | Forget
+  | Close
+  | Save
+  | ListFolder
+  | Set
+  | Describe
+  | AddKnob
+  | Link
+  | Unlink
+  | RemoveKnob
+  | Arrange
+  | Undo
+  | Redo
+  | Play
+  | Pause
+  | Step
+  | Reset
+  | Speed
+  | Push
+  | Release
+  | UseWorld
+  | UseWorldContent
+  | Watch
+  | Trace
+  | Unwatch
+  | Drawn;
+
+// Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its mean.
+export type Trace = {
+  type: "trace";
+  request?: number;
+  stream: number;
+  element: string;
+  port: string;
+  reduce?: "at" | "max" | "mean";
+  at?: number[];
+};
+
+// The file that could not be opened, with every problem in it; an empty list: no trouble any more.
+export type Trouble = {
+  type: "trouble";
+  file: string;
+  problems: Problem[];
+};
+
+// Take the last change back.
+export type Undo = {
+  type: "undo";
+  request?: number;
+};
+
+// Let a parameter stand for itself again.
+export type Unlink = {
+  type: "unlink";
+  request?: number;
+  element: string;
+  parameter: string;
+};
+
+// End a stream.
+export type Unwatch = {
+  type: "unwatch";
+  request?: number;
+  stream: number;
+};
+
+// Let the sensors read a world of that kind, opened with a file below the root.
+export type UseWorld = {
+  type: "use_world";
+  request?: number;
+  kind: string;
+  path: string;
+};
+
+// Let the sensors read a world made of the content (base64) of a file that was dropped on the page.
+export type UseWorldContent = {
+  type: "use_world_content";
+  request?: number;
+  kind: string;
+  name: string;
+  content: string;
+};
+
+// Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples along each axis (0: all).
+export type Watch = {
+  type: "watch";
+  request?: number;
+  stream: number;
+  element: string;
+  port: string;
+  most?: number;
+};
+
+// First message on a connection: what there is, whatever is open.
+export type Welcome = {
+  type: "welcome";
+  version: string;
+  root: string;
+  kinds: Kind[];
+  examples: ExampleView[];
+};

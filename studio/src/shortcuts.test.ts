@@ -1,0 +1,39 @@
+import { describe, expect, it } from "vitest";
+
+import { isPressed, keysText, SHORTCUTS } from "./shortcuts";
+
+const press = (key: string, held: string = "") => ({
+  key, ctrlKey: held.includes("c"), metaKey: held.includes("m"), shiftKey: held.includes("s"), altKey: held.includes("a"),
+});
+
+describe("a key press", () => {
+  it("is told from others", () => {
+    expect(isPressed("Ctrl+Z", press("z", "c"))).toBe(true);
+    expect(isPressed("Ctrl+Z", press("z", "m"))).toBe(true);
+    expect(isPressed("Ctrl+Z", press("Z", "cs"))).toBe(false);
+    expect(isPressed("Ctrl+Z", press("z"))).toBe(false);
+    expect(isPressed("Ctrl+Z", press("z", "ca"))).toBe(false);
+    expect(isPressed("Ctrl+Shift+Z", press("Z", "cs"))).toBe(true);
+    expect(isPressed("Space", press(" "))).toBe(true);
+    expect(isPressed("Space", press(" ", "s"))).toBe(false);
+    expect(isPressed("Shift+R", press("R", "s"))).toBe(true);
+    expect(isPressed("Shift+R", press("r"))).toBe(false);
+  });
+
+  it("of a sign may need Shift", () => {
+    expect(isPressed("?", press("?", "s"))).toBe(true);
+    expect(isPressed(".", press("."))).toBe(true);
+    expect(isPressed(".", press(".", "s"))).toBe(true);
+    expect(isPressed(".", press(".", "c"))).toBe(false);
+  });
+
+  it("is at most one shortcut", () => {
+    const all = SHORTCUTS.flatMap((s) => s.keys);
+    expect(new Set(all).size).toBe(all.length);
+  });
+});
+
+it("keys are called as on the computer", () => {
+  expect(keysText("Ctrl+Shift+Z", false)).toBe("Ctrl+Shift+Z");
+  expect(keysText("Ctrl+Shift+Z", true)).toBe("⌘⇧Z");
+});

@@ -1,0 +1,109 @@
+// The keys of the page: what they do is listed once, here; the help shows the same list.
+
+import { useEffect } from "react";
+
+import { ask, useDialogs } from "./pages/dialogs";
+import { open, save, saveAs } from "./pages/flows";
+import { useView } from "./pages/view";
+import { request } from "./socket";
+import { useStudio } from "./store";
+import { play, reset, step } from "./transport/run";
+
+export type Shortcut = {
+  keys: readonly string[];
+  does: string;
+  run: () => unknown;
+  // Also while nothing is open.
+  always?: boolean;
+  // Again and again while the key is held.
+  repeats?: boolean;
+  // Also while one is typing; what was typed is taken first.
+  typing?: boolean;
+};
+
+export const SHORTCUTS: readonly Shortcut[] = [
+  { keys: ["Space"], does: "Play or pause", run: play },
+  { keys: ["."], does: "Step", run: step, repeats: true },
+  { keys: ["Shift+R"], does: "Reset", run: reset },
+  { keys: ["Ctrl+Z"], does: "Undo", run: () => request({ type: "undo" }), repeats: true },
+  { keys: ["Ctrl+Shift+Z", "Ctrl+Y"], does: "Redo", run: () => request({ type: "redo" }), repeats: true },
+  { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
+  { keys: ["Ctrl+S"], does: "Save", run: () => save(), typing: true },
+  { keys: ["Ctrl+Shift+S"], does: "Save as", run: saveAs, typing: true },
+  { keys: ["?"], does: "Show this list", run: () => ask("shortcuts", null), always: true },
+];
+
+type Press = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
+
+// Whether a key press is the one that is written, such as "Ctrl+Shift+Z". Ctrl is Command on a Mac. Of signs such as "?" it does not
+// matter whether a keyboard needs Shift for them.
+export function isPressed(keys: string, press: Press): boolean {
+  const parts = keys.split("+");
+  const key = parts.at(-1) ?? "";
+  const shift = parts.includes("Shift");
+  const same = key === "Space" ? press.key === " " : press.key.toLowerCase() === key.toLowerCase();
+  const shiftMatters = key === "Space" || /^[a-z]$/i.test(key);
+  return same && !press.altKey && (press.ctrlKey || press.metaKey) === parts.includes("Ctrl") && (!shiftMatters || press.shiftKey === shift);
+}
+
+// Keys as this computer calls them.
+export function keysText(keys: string, mac = isMac()): string {
+  return mac ? keys.replace("Ctrl+", "⌘").replace("Shift+", "⇧") : keys;
+}
+
+function isMac(): boolean {
+  return typeof navigator !== "undefined" && /Mac|iP(ad|hone|od)/.test(navigator.userAgent);
+}
+
+// Whether the keys go into a text, or a choice that is searched by letters.
+export function isTyping(target: Element | null): boolean {
+  if (target === null) {
+    return false;
+  }
+  const field = target.closest("input, textarea, select, [contenteditable]:not([contenteditable=false])");
+  return field !== null && !field.matches("input:is([type=checkbox], [type=radio], [type=range], [type=button], [type=submit])");
+}
+
+// What Space presses where it has the focus.
+const PRESSED = "button, a, summary, input:not([type=range]), [role=menuitem], [role=option], [role=switch], [role=checkbox], [role=tab]";
+
+export function useShortcuts(): void {
+  useEffect(() => {
+    // A button that was clicked keeps the focus, but nobody sees it there: then Space plays. Asked when the focus comes, because the
+    // first key makes it visible.
+    let focusSeen = false;
+    const onFocus = (event: FocusEvent) => {
+      focusSeen = event.target instanceof Element && event.target.matches(":focus-visible");
+    };
+    const onPress = (event: KeyboardEvent) => onKey(event, focusSeen);
+    addEventListener("focusin", onFocus);
+    addEventListener("keydown", onPress);
+    return () => {
+      removeEventListener("focusin", onFocus);
+      removeEventListener("keydown", onPress);
+    };
+  }, []);
+}
+
+function onKey(event: KeyboardEvent, focusSeen: boolean): void {
+  const shortcut = SHORTCUTS.find(({ keys }) => keys.some((k) => isPressed(k, event)));
+  if (shortcut === undefined || event.defaultPrevented) {
+    return;
+  }
+  const target = event.target instanceof Element ? event.target : null;
+  const typing = isTyping(target);
+  if ((typing && shortcut.typing !== true) || (event.key === " " && focusSeen && target?.closest(PRESSED) != null)) {
+    return;
+  }
+  event.preventDefault();
+  const { document, trouble } = useStudio.getState();
+  const shown = document !== null && trouble === null && !useView.getState().gallery;
+  const ready = shown || shortcut.always === true;
+  if (!ready || useDialogs.getState().asked !== null || (event.repeat && shortcut.repeats !== true)) {
+    return;
+  }
+  if (typing && target instanceof HTMLElement) {
+    target.blur();
+  }
+  shortcut.run();
+}

@@ -1,0 +1,111 @@
+// The one connection to the server: it comes back when it is lost, and then asks for everything again.
+
+import { decode } from "./frames";
+import type { Answer, Folder, ToPage, ToServer } from "./protocol";
+import { useStudio } from "./store";
+import { Streams } from "./streams";
+
+type Reply = { answer: Answer; folder: Folder | null };
+
+const AGAIN_MS = [200, 500, 1000, 2000];
+
+class Socket {
+  readonly streams = new Streams((message) => this.post(message));
+  private socket: WebSocket | null = null;
+  private lastRequest = 0;
+  private waiting = new Map<number, (reply: Reply) => void>();
+  private folders = new Map<number, Folder>();
+  private failed = 0;
+
+  open(): void {
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    const socket = new WebSocket(`${scheme}://${location.host}/ws${location.search}`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.failed = 0;
+      this.socket = socket;
+      useStudio.getState().connect("open");
+      this.streams.renew(false);
+    };
+    socket.onmessage = ({ data }) => {
+      if (data instanceof ArrayBuffer) {
+        this.streams.take(decode(data));
+      } else {
+        this.take(JSON.parse(data as string) as ToPage);
+      }
+    };
+    socket.onclose = () => {
+      this.socket = null;
+      useStudio.getState().connect("lost");
+      for (const [request, reply] of this.waiting) {
+        reply({ answer: { type: "answer", request, problems: [{ what: "The connection to the studio was lost." }] }, folder: null });
+      }
+      this.waiting.clear();
+      setTimeout(() => this.open(), AGAIN_MS[Math.min(this.failed++, AGAIN_MS.length - 1)]);
+    };
+  }
+
+  // Say something without waiting for an answer; dropped while there is no connection.
+  post(message: ToServer): void {
+    if (this.socket?.readyState === WebSocket.OPEN) {
+      this.socket.send(JSON.stringify(message));
+    }
+  }
+
+  // Ask, and wait for the answer.
+  async ask(message: ToServer): Promise<Reply> {
+    const request = ++this.lastRequest;
+    if (this.socket?.readyState !== WebSocket.OPEN) {
+      return { answer: { type: "answer", request, problems: [{ what: "There is no connection to the studio." }] }, folder: null };
+    }
+    return new Promise((resolve) => {
+      this.waiting.set(request, resolve);
+      this.post({ ...message, request } as ToServer);
+    });
+  }
+
+  private take(message: ToPage): void {
+    const store = useStudio.getState();
+    switch (message.type) {
+      case "answer":
+        this.waiting.get(message.request)?.({ answer: message, folder: this.folders.get(message.request) ?? null });
+        this.waiting.delete(message.request);
+        this.folders.delete(message.request);
+        break;
+      case "folder":
+        this.folders.set(message.request, message);
+        break;
+      case "announced":
+        this.streams.announce(message);
+        break;
+      case "lost":
+        this.streams.lose(message);
+        break;
+      case "clock":
+        store.take(message);
+        this.post({ type: "drawn", frame: message.frame });
+        break;
+      case "opened":
+        if (message.session !== store.session) {
+          store.take(message);
+          this.streams.renew(true);
+        } else {
+          store.take(message);
+        }
+        break;
+      default:
+        store.take(message);
+    }
+  }
+}
+
+export const socket = new Socket();
+
+// Ask; problems become notices. True where it was done.
+export async function request(message: ToServer): Promise<Answer> {
+  const { answer } = await socket.ask(message);
+  for (const problem of answer.problems ?? []) {
+    useStudio.getState().notify(problem);
+  }
+  return answer;
+}

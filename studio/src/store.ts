@@ -1,0 +1,97 @@
+// What the server last said, and what the person looks at. Live arrays do not pass through here: see streams.ts.
+
+import { create } from "zustand";
+import type { Changed, Clock, DocumentView, ElementView, Gallery, Kind, Problem, ToPage, Trouble, Welcome } from "./protocol";
+import { replaced } from "./values";
+
+export type Connection = "connecting" | "open" | "lost";
+
+export type Notice = { id: number; problem: Problem; level: "error" | "info" };
+
+export type Studio = {
+  connection: Connection;
+  welcome: Welcome | null;
+  kinds: Map<string, Kind>;
+  gallery: Gallery | null;
+  // session changes with each document that is opened, version with each change of it
+  session: number;
+  version: number;
+  document: DocumentView | null;
+  elements: Map<string, ElementView>;
+  trouble: Trouble | null;
+  clock: Clock | null;
+  selected: string[];
+  notices: Notice[];
+  take: (message: ToPage) => void;
+  connect: (connection: Connection) => void;
+  select: (ids: string[]) => void;
+  notify: (problem: Problem, level?: Notice["level"]) => void;
+  dismiss: (id: number) => void;
+};
+
+const MOST_NOTICES = 5;
+let lastNotice = 0;
+
+export const useStudio = create<Studio>((set) => ({
+  connection: "connecting",
+  welcome: null,
+  kinds: new Map(),
+  gallery: null,
+  session: 0,
+  version: 0,
+  document: null,
+  elements: new Map(),
+  trouble: null,
+  clock: null,
+  selected: [],
+  notices: [],
+  take: (message) => set((state) => taken(state, message)),
+  connect: (connection) => set({ connection }),
+  select: (selected) => set({ selected }),
+  notify: (problem, level = "error") =>
+    set((state) => ({ notices: [...state.notices, { id: ++lastNotice, problem, level }].slice(-MOST_NOTICES) })),
+  dismiss: (id) => set((state) => ({ notices: state.notices.filter((n) => n.id !== id) })),
+}));
+
+function taken(state: Studio, message: ToPage): Partial<Studio> {
+  switch (message.type) {
+    case "welcome":
+      return { welcome: message, kinds: new Map(message.kinds.map((k) => [k.name, k])) };
+    case "gallery":
+      return { gallery: message };
+    case "opened": {
+      const elements = byId(message.document);
+      const fresh = message.session !== state.session;
+      return {
+        session: message.session,
+        version: message.version,
+        document: message.document,
+        elements,
+        selected: fresh ? [] : state.selected.filter((id) => elements.has(id)),
+      };
+    }
+    case "changed":
+      return state.document === null ? {} : changed(state.document, message);
+    case "trouble":
+      return { trouble: message.problems.length > 0 ? message : null };
+    case "clock":
+      return { clock: message };
+    default:
+      return {};
+  }
+}
+
+function changed(document: DocumentView, message: Changed): Partial<Studio> {
+  const { version, unsaved, undo, redo, element, parameter, value } = message;
+  const general = { ...document, unsaved, undo, redo };
+  if (element === "") {
+    return { version, document: { ...general, knobs: document.knobs.map((k) => (k.name === parameter ? { ...k, value: value as number } : k)) } };
+  }
+  const elements = document.elements.map((e) => (e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e));
+  const next = { ...general, elements };
+  return { version, document: next, elements: byId(next) };
+}
+
+function byId(document: DocumentView | null): Map<string, ElementView> {
+  return new Map((document?.elements ?? []).map((e) => [e.id, e]));
+}

@@ -1,0 +1,32 @@
+// Why the run stopped, below the header, until it is reset or the cause is gone.
+
+import { Button } from "@mantine/core";
+import { IconAlertTriangle } from "@tabler/icons-react";
+
+import { ProblemText } from "../pages/ProblemText";
+import { useStudio } from "../store";
+import { reset } from "./run";
+import classes from "./FailureBar.module.css";
+
+const NONE: [] = [];
+
+export function FailureBar() {
+  const failure = useStudio((state) => state.clock?.failure ?? NONE);
+  if (failure.length === 0) {
+    return null;
+  }
+  return (
+    <div className={classes.bar} role="alert">
+      <IconAlertTriangle size={18} className={classes.icon} aria-hidden="true" />
+      <div className={classes.problems}>
+        <div className={classes.title}>The run stopped</div>
+        {failure.map((problem, i) => (
+          <ProblemText key={i} problem={problem} />
+        ))}
+      </div>
+      <Button size="compact-sm" color="red" variant="light" onClick={() => void reset()}>
+        Reset
+      </Button>
+    </div>
+  );
+}

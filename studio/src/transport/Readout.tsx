@@ -1,0 +1,37 @@
+// Simulated time and the ratio to real time, always in sight: numbers that count without moving.
+
+import { Tooltip } from "@mantine/core";
+
+import { type Studio, useStudio } from "../store";
+import { countText, factorText, timeText, unitText } from "./format";
+import { useThrottled } from "./throttled";
+import classes from "./Readout.module.css";
+
+const clockOf = (state: Studio) => state.clock;
+
+export function Readout() {
+  const clock = useThrottled(clockOf);
+  const unit = useStudio((state) => state.document?.time_unit ?? "");
+  const running = useStudio((state) => state.clock?.running ?? false);
+  const time = clock === null ? "–" : timeText(clock.time, unit, clock.dt);
+  const tick = clock === null ? "" : `step ${countText(clock.tick)}`;
+  const factor = clock === null || !running ? "×–" : factorText(clock.factor);
+  const dt = clock === null ? "" : `Simulated time, in steps of ${Number(clock.dt.toPrecision(6))} ${unitText(unit)}`.trimEnd();
+  const pace = unit === "abstract" ? "Simulated time over real time, 1 unit taken as 1 ms" : "Simulated time over real time, measured";
+  return (
+    <div className={`${classes.readout} numbers`}>
+      <Tooltip label={dt}>
+        <div className={classes.time} role="timer" aria-label="Simulated time">
+          <div className={classes.number}>{time}</div>
+          <div className={classes.under}>{tick}</div>
+        </div>
+      </Tooltip>
+      <Tooltip label={running && clock !== null ? `${pace}: ${countText(clock.steps)} steps in a second` : pace}>
+        <div className={classes.factor} data-still={!running || undefined} aria-label="Speed measured">
+          <div className={classes.number}>{factor}</div>
+          <div className={classes.under}>real time</div>
+        </div>
+      </Tooltip>
+    </div>
+  );
+}

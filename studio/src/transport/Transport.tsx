@@ -1,0 +1,49 @@
+// The controls of the run: play, step, reset, speed, and where it is.
+
+import { ActionIcon, Tooltip } from "@mantine/core";
+import { IconPlayerPauseFilled, IconPlayerPlayFilled, IconPlayerSkipBackFilled, IconPlayerTrackNextFilled } from "@tabler/icons-react";
+
+import { useStudio } from "../store";
+import { Busy } from "./Busy";
+import { Readout } from "./Readout";
+import { RunMenu } from "./RunMenu";
+import { SpeedMenu } from "./SpeedMenu";
+import { WorldButton } from "./WorldButton";
+import { countText } from "./format";
+import { play, reset, step, useNext } from "./run";
+import classes from "./Transport.module.css";
+
+export function Transport() {
+  const running = useStudio((state) => state.clock?.running ?? false);
+  const steps = useNext((state) => state.steps);
+  const seed = useNext((state) => state.seed);
+  const stepLabel = steps === 1 ? "Step" : `${countText(steps)} steps`;
+  return (
+    <div className={classes.transport} role="toolbar" aria-label="Run">
+      <div className={classes.buttons}>
+        <Tooltip label={`Reset: state, time and noise back to the start${seed === null ? "" : `, with seed ${seed}`}. Parameters stay. (Shift+R)`}>
+          <ActionIcon aria-label="Reset" size={28} onClick={() => void reset()}>
+            <IconPlayerSkipBackFilled size={16} />
+          </ActionIcon>
+        </Tooltip>
+        <Tooltip label={running ? "Pause (Space)" : "Play (Space)"}>
+          <ActionIcon aria-label={running ? "Pause" : "Play"} variant="filled" color="deodar" size={32} onClick={() => void play()}>
+            {running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />}
+          </ActionIcon>
+        </Tooltip>
+        <Tooltip label={`${stepLabel} (.)`}>
+          <ActionIcon aria-label={stepLabel} size={28} onClick={() => void step()}>
+            <IconPlayerTrackNextFilled size={16} />
+          </ActionIcon>
+        </Tooltip>
+      </div>
+      <Readout />
+      <div className={classes.buttons}>
+        <SpeedMenu />
+        <RunMenu />
+        <WorldButton />
+      </div>
+      <Busy />
+    </div>
+  );
+}

@@ -1,0 +1,58 @@
+// How times and speeds are written. All of one length as far as possible, so that read-outs keep still while they count.
+
+// What the unit of time is in seconds, for units with a name; a unit of its own ("abstract", "1 = 64 ms") is counted as it is.
+const SECONDS: Record<string, number> = { us: 1e-6, ms: 1e-3, s: 1, min: 60 };
+
+const SYMBOLS: Record<string, string> = { us: "µs" };
+
+const MINUS = "\u2212";
+
+// A simulated time: below a second in its own unit, above it in seconds.
+export function timeText(time: number, unit: string, dt: number): string {
+  const seconds = SECONDS[unit];
+  if (seconds === undefined) {
+    return grouped(time, decimals(dt));
+  }
+  if (unit === "s" || (seconds < 1 && Math.abs(time) * seconds >= 1)) {
+    return `${grouped(time * seconds, 3)} s`;
+  }
+  return `${grouped(time, decimals(dt))} ${unitText(unit)}`;
+}
+
+// A unit of time beside a number; nothing for units of the model's own.
+export function unitText(unit: string): string {
+  return unit in SECONDS ? (SYMBOLS[unit] ?? unit) : "";
+}
+
+// The measured ratio to real time, three digits that matter: ×0.02, ×1.00, ×12.5, ×340.
+export function factorText(factor: number): string {
+  if (!Number.isFinite(factor)) {
+    return "×–";
+  }
+  return factor < 10_000 ? `×${grouped(factor, factor < 9.995 ? 2 : factor < 99.95 ? 1 : 0)}` : `×${Math.round(factor / 1000)}k`;
+}
+
+export function speedText(speed: number | null): string {
+  return speed === null ? "max" : `${Number(speed.toPrecision(3))}×`;
+}
+
+export function countText(count: number): string {
+  return grouped(count, 0);
+}
+
+// A number with thin spaces between thousands.
+function grouped(value: number, digits: number): string {
+  const [whole = "", fraction] = Math.abs(value).toFixed(digits).split(".");
+  const parted = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u2009") : whole;
+  return `${value < 0 ? MINUS : ""}${parted}${fraction === undefined ? "" : `.${fraction}`}`;
+}
+
+// As many decimals as the time step has, at most 3.
+function decimals(dt: number): number {
+  for (let digits = 0; digits < 3; digits++) {
+    if (Math.abs(dt * 10 ** digits - Math.round(dt * 10 ** digits)) < 1e-9) {
+      return digits;
+    }
+  }
+  return 3;
+}

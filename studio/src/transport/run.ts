@@ -1,0 +1,34 @@
+// What the buttons and the keys do with the run.
+
+import { create } from "zustand";
+
+import type { Answer } from "../protocol";
+import { request } from "../socket";
+import { useStudio } from "../store";
+
+// What the page keeps for the next press: how many steps, and a seed that waits for the next reset (null: the one in use stays).
+type Next = { steps: number; seed: number | null };
+
+export const useNext = create<Next>(() => ({ steps: 1, seed: null }));
+
+export const MOST_SEED = 2 ** 32 - 1;
+
+export function play(): Promise<Answer> {
+  return request({ type: useStudio.getState().clock?.running === true ? "pause" : "play" });
+}
+
+export function step(): Promise<Answer> {
+  return request({ type: "step", n: useNext.getState().steps });
+}
+
+export async function reset(): Promise<void> {
+  const { seed } = useNext.getState();
+  const answer = await request({ type: "reset", seed });
+  if ((answer.problems ?? []).length === 0) {
+    useNext.setState({ seed: null });
+  }
+}
+
+export function rollSeed(): void {
+  useNext.setState({ seed: Math.floor(Math.random() * 10_000) });
+}

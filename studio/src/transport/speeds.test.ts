@@ -1,0 +1,14 @@
+import { expect, it } from "vitest";
+
+import { SPEEDS, stopOf } from "./speeds";
+
+it("every stop is its own nearest", () => {
+  SPEEDS.forEach((speed, i) => expect(stopOf(speed)).toBe(i));
+});
+
+it("other speeds go to the nearest ratio", () => {
+  expect(SPEEDS[stopOf(1.3)]).toBe(1);
+  expect(SPEEDS[stopOf(1.5)]).toBe(2);
+  expect(SPEEDS[stopOf(0.001)]).toBe(0.01);
+  expect(SPEEDS[stopOf(500)]).toBe(10);
+});

@@ -1,0 +1,28 @@
+// Values of parameters as the document writes them, addressed by paths such as kernel.0.sigma.
+
+export type Values = Record<string, unknown>;
+
+export function valueAt(values: unknown, path: string): unknown {
+  return path.split(".").reduce<unknown>((inner, step) => (isHolder(inner) ? inner[step] : undefined), values);
+}
+
+// A copy with one value replaced; everything beside the path is shared.
+export function replaced(values: Values, path: string, value: unknown): Values {
+  return put(values, path.split("."), value) as Values;
+}
+
+function put(holder: unknown, [head, ...rest]: string[], value: unknown): unknown {
+  if (head === undefined) {
+    return value;
+  }
+  const inner = isHolder(holder) ? holder[head] : undefined;
+  const next = put(inner, rest, value);
+  if (Array.isArray(holder)) {
+    return holder.map((item, i) => (String(i) === head ? next : item));
+  }
+  return { ...(holder as Values), [head]: next };
+}
+
+function isHolder(value: unknown): value is Values {
+  return typeof value === "object" && value !== null;
+}

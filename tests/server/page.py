@@ -1,0 +1,166 @@
+"""A page without a browser: it speaks the studio's protocol over a real socket."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import threading
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import websockets
+
+from deodar.server import frames
+from deodar.server.serve import prepare
+
+WAIT = 60.0
+"""Longest time anything may take here; a failure, not a measure."""
+
+
+@contextlib.contextmanager
+def studio(root: Path, file: Path | None = None, host: str = "127.0.0.1", trust: bool = False, world: Any = None) -> Iterator[str]:
+    """A studio in a thread of its own; gives its address."""
+    up: list[str] = []
+    ready = threading.Event()
+
+    def say(address: str) -> None:
+        up.append(address)
+        ready.set()
+
+    server, bound = prepare(file, root, host, 0, trust, world, say)
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [bound]})
+    thread.start()
+    try:
+        assert ready.wait(WAIT), "the studio did not start"
+        yield up[0]
+    finally:
+        server.should_exit = True
+        thread.join(WAIT)
+        bound.close()
+        assert not thread.is_alive(), "the studio did not stop"
+
+
+class Page:
+    """What a page knows, kept up to date; `draws=False` plays a page that has stalled."""
+
+    def __init__(self, socket: Any, draws: bool = True) -> None:
+        self.socket, self.draws = socket, draws
+        self.said: dict[str, dict[str, Any]] = {}
+        self.all: list[dict[str, Any]] = []
+        self.frames: dict[int, tuple[float, np.ndarray]] = {}
+        self.samples: dict[int, list[tuple[float, float]]] = {}
+        self.forms: dict[int, dict[str, Any]] = {}
+        self.lost: dict[int, dict[str, Any]] = {}
+        self.clocks = 0
+        self._request = 0
+        self._answers: dict[int, dict[str, Any]] = {}
+        self._news = asyncio.Event()
+
+    async def listen(self) -> None:
+        """Take in what comes."""
+        async for message in self.socket:
+            if isinstance(message, bytes):
+                stream, _, time, values = frames.unpack(message)
+                if self.forms[stream]["shape"] == [2] and not self.forms[stream]["axes"]:
+                    self.samples.setdefault(stream, []).extend((time + a, b) for a, b in values.reshape(-1, 2).tolist())
+                else:
+                    self.frames[stream] = (time, values.reshape(self.forms[stream]["shape"]))
+            else:
+                await self._take(json.loads(message))
+            self._news.set()
+
+    async def _take(self, m: dict[str, Any]) -> None:
+        self.all.append(m)
+        self.said[m["type"]] = m
+        if m["type"] == "answer":
+            self._answers[m["request"]] = m
+        elif m["type"] == "announced":
+            self.forms[m["stream"]] = m
+            self.frames.pop(m["stream"], None)
+        elif m["type"] == "lost":
+            self.lost[m["stream"]] = m
+        elif m["type"] == "clock":
+            self.clocks += 1
+            if self.draws:
+                await self.tell(type="drawn", frame=m["frame"])
+
+    async def tell(self, **message: Any) -> None:
+        """Say something."""
+        await self.socket.send(json.dumps(message))
+
+    async def ask(self, type: str, **message: Any) -> dict[str, Any]:
+        """Say something and wait for the answer."""
+        self._request += 1
+        number = self._request
+        await self.tell(type=type, request=number, **message)
+        await self.until(lambda: number in self._answers)
+        return self._answers.pop(number)
+
+    async def do(self, type: str, **message: Any) -> dict[str, Any]:
+        """The same, and it must be done."""
+        answer = await self.ask(type, **message)
+        assert not answer["problems"] and not answer["ask"], answer
+        return answer
+
+    async def until(self, condition: Callable[[], Any]) -> Any:
+        """Wait until something holds."""
+
+        async def wait() -> Any:
+            while not (found := condition()):
+                self._news.clear()
+                await self._news.wait()
+            return found
+
+        return await asyncio.wait_for(wait(), WAIT)
+
+    # what it knows
+
+    @property
+    def document(self) -> dict[str, Any]:
+        return self.said["opened"]["document"]
+
+    @property
+    def clock(self) -> dict[str, Any]:
+        return self.said["clock"]
+
+    def element(self, path: str) -> str:
+        """Id of an element."""
+        return next(e["id"] for e in self.document["elements"] if e["path"] == path)
+
+    async def open(self, type: str, **message: Any) -> None:
+        """Open a document and wait until it can run."""
+        await self.do(type, **message)
+        await self.runs()
+
+    async def runs(self) -> None:
+        """Wait until the document that is open is compiled."""
+        await self.until(lambda: self.said.get("opened", {}).get("document") and not self.clock["busy"])
+
+
+@contextlib.asynccontextmanager
+async def page(address: str, draws: bool = True, **how: Any) -> AsyncIterator[Page]:
+    """Connect to a studio."""
+    host = address.split("//")[1].split("/")[0]
+    async with websockets.connect(f"ws://{host}/ws", max_size=None, **how) as socket:
+        one = Page(socket, draws)
+        listening = asyncio.create_task(one.listen())
+        try:
+            await one.until(lambda: "clock" in one.said)
+            yield one
+        finally:
+            listening.cancel()
+            with contextlib.suppress(asyncio.CancelledError, websockets.ConnectionClosed):
+                await listening
+
+
+def play(address: str, scene: Callable[[Page], Coroutine[Any, Any, None]], **how: Any) -> None:
+    """Let one page play a scene."""
+
+    async def main() -> None:
+        async with page(address, **how) as one:
+            await scene(one)
+
+    asyncio.run(main())

@@ -1,0 +1,59 @@
+"""The gallery: every example has a title, a sentence and a small picture, and names from outside lead nowhere."""
+
+from __future__ import annotations
+
+import pytest
+from PIL import Image
+
+import deodar as dd
+from deodar.errors import UnknownName
+from deodar.server.gallery import LONGEST, example_file, examples, picture_file, sentence
+from tests.docs.source import EXAMPLES
+
+NAMES = [e.name for e in examples()]
+
+
+def test_every_document_of_the_folder_is_an_example() -> None:
+    assert sorted(NAMES) == sorted(p.stem for p in EXAMPLES.glob("*.json"))
+
+
+def test_the_order_names_examples_that_exist() -> None:
+    order = (EXAMPLES / "order.txt").read_text(encoding="utf-8").split()
+    assert NAMES[: len(order)] == order
+
+
+@pytest.mark.parametrize("example", examples(), ids=lambda e: e.name)
+def test_an_example_has_a_title_a_sentence_and_a_picture(example) -> None:
+    assert example.title[0].isupper()
+    assert 20 < len(example.sentence) <= LONGEST and example.sentence.endswith(".")
+    assert not example.sentence.startswith(f"{example.title}.")
+    assert example.picture == f"examples/{example.name}.png"
+    path = picture_file(example.name)
+    assert path is not None and path.stat().st_size < 15_000
+    with Image.open(path) as picture:
+        assert picture.size == (320, 200)
+    assert dd.load(example_file(example.name)).document.name
+
+
+@pytest.mark.parametrize("name", ["", "nothing", "../README", "make", "order", "/etc/passwd"])
+def test_other_names_are_refused(name: str) -> None:
+    assert picture_file(name) is None
+    with pytest.raises(UnknownName):
+        example_file(name)
+
+
+def test_an_unknown_example_suggests_the_nearest() -> None:
+    with pytest.raises(UnknownName, match="selection"):
+        example_file("selektion")
+
+
+def test_the_sentence_is_the_first_of_the_notes() -> None:
+    assert sentence("Switch. On and off. And more.", "switch") == "On and off."
+    assert sentence("On at 0.5 ms, in u. More.", "switch") == "On at 0.5 ms, in u."
+    assert sentence("", "switch") == ""
+
+
+def test_a_long_sentence_is_cut_where_it_pauses() -> None:
+    long = "A peak that stands here for a while, " + "and stands " * 20 + "still."
+    assert sentence(long, "x") == "A peak that stands here for a while."
+    assert len(sentence("and " * 100, "x")) <= LONGEST and sentence("and " * 100, "x").endswith("…")

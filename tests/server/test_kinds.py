@@ -1,0 +1,151 @@
+"""What the page is told of every kind: enough for a form, an equation and a plot, also of kinds from outside."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import msgspec
+import pytest
+
+from deodar import registry
+from deodar.element import Element
+from deodar.model.parts import value_from_json
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.kernels._base import Kernel
+from deodar.parameters import Live, Part, Recompile
+from deodar.server.kinds import kinds, title
+from deodar.server.to_page import Kind, ParameterForm
+
+KINDS = {kind.name: kind for kind in kinds() if registry.kind(kind.name).__module__.startswith("deodar.")}
+INSIDE = [name for name in KINDS if issubclass(registry.kind(name), Part) and not issubclass(registry.kind(name), Element)]
+
+
+@pytest.fixture
+def outside() -> Iterator[None]:
+    """The registry as it is, and as it was afterwards."""
+    before = dict(registry._kinds)
+    yield
+    registry._kinds.clear()
+    registry._kinds.update(before)
+
+
+def form(kind: Kind, name: str) -> ParameterForm:
+    return next(p for p in kind.parameters if p.name == name)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_kind_says_what_it_is(name: str) -> None:
+    kind = KINDS[name]
+    assert kind.title and kind.title.split()[0][0].isupper()
+    assert kind.room in {"elements", "couplings", "kernels", "sigmoids", "windows", "worlds"}
+    assert kind.equation and all(kind.equation)
+    assert kind.reference != "no reference"
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_parameter_has_a_meaning_and_a_default_that_fits(name: str) -> None:
+    assert "name" not in [p.name for p in KINDS[name].parameters]
+    for p in KINDS[name].parameters:
+        assert p.meaning and p.description, p.name
+        assert bool(p.of) == (p.form in ("part", "parts"))
+        if p.form not in ("axes", "axis", "array"):
+            example = registry.kind(name).example()
+            dc.replace(example, **{p.name: value_from_json(example, p.name, p.default, name, {}, {})})
+    assert all(says for port, says in KINDS[name].ports.items() if registry.kind(name) is not registry.kind("Function") or port == "output")
+
+
+@pytest.mark.parametrize("name", INSIDE)
+def test_what_stands_inside_parts_has_a_value_to_start_from(name: str) -> None:
+    holder, p = next((kind, p) for kind in KINDS.values() for p in kind.parameters if name in p.of)
+    start = KINDS[name].example
+    example = registry.kind(holder.name).example()
+    made = value_from_json(example, p.name, [start] if p.form == "parts" else start, "here", {}, {})
+    assert type(made[0] if p.form == "parts" else made) is registry.kind(name)
+    dc.replace(example, **{p.name: made})
+
+
+def test_elements_and_worlds_have_no_value_to_start_from() -> None:
+    assert all(kind.example is None for name, kind in KINDS.items() if name not in INSIDE)
+
+
+def test_all_of_it_can_be_sent() -> None:
+    sent = msgspec.json.decode(msgspec.json.encode(list(KINDS.values())), type=list[Kind])
+    assert sent == list(KINDS.values())
+
+
+def test_the_field() -> None:
+    field = KINDS["Field"]
+    assert (field.title, field.room) == ("Field", "elements")
+    assert field.equation[0].startswith(r"\tau\, \frac{du}{dt} = -u + h")
+    assert "Amari (1977)" in field.reference
+    assert list(field.ports) == ["input", "output", "activation", "interaction"]
+    assert field.levels == {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+    symbols = {p.name: p.symbol for p in field.parameters}
+    assert symbols == {
+        "axes": "", "tau": r"\tau", "resting_level": "h", "sigmoid": "g", "kernel": "k", "global_inhibition": "c", "noise": "q", "noise_length": "",
+    }  # fmt: skip
+    tau = form(field, "tau")
+    assert (tau.form, tau.cost, tau.unit, tau.lower, tau.upper, tau.default) == ("number", "live", "time", 1e-6, None, 20.0)
+    assert form(field, "sigmoid").default == {"kind": "Logistic", "beta": 4.0, "threshold": 0.0}
+    assert "Gaussian" in form(field, "kernel").of and "Logistic" not in form(field, "kernel").of
+    assert form(field, "axes").default == [] and form(field, "kernel").default == []
+
+
+def test_parameters_stand_in_the_order_in_which_they_are_written_down() -> None:
+    assert [p.name for p in KINDS["GaussianStimulus"].parameters] == ["axes", "center", "sigma", "amplitude", "windows"]
+    assert [p.name for p in KINDS["Gaussian"].parameters] == ["amplitude", "sigma", "normalized", "boundary"]
+
+
+def test_symbols_are_those_of_the_equation() -> None:
+    assert form(KINDS["Step"], "threshold").symbol == r"\theta"
+    assert form(KINDS["MexicanHat"], "sigma_excitation").symbol == r"\sigma_{\mathrm{excitation}}"
+    assert form(KINDS["Gain"], "factor").symbol == r"\mathrm{factor}"
+    assert form(KINDS["Weights"], "weights").symbol == "W"
+    assert form(KINDS["Attractor"], "initial").symbol == ""
+
+
+def test_choices_optional_values_and_arrays() -> None:
+    boundary = form(KINDS["Gaussian"], "boundary")
+    assert boundary.optional and boundary.default is None and boundary.choices == ["periodic", "zero", "reflect"]
+    assert form(KINDS["Project"], "rename").default == {}
+    assert form(KINDS["Custom"], "weights").default is None and "weights" not in KINDS["Custom"].example
+
+
+def test_a_world_names_its_sensors() -> None:
+    picture = KINDS["Picture"]
+    assert picture.room == "worlds" and list(picture.ports) == ["picture"] and not picture.parameters
+
+
+@pytest.mark.parametrize(
+    ("name", "words"), [("GaussianStimulus", "Gaussian stimulus"), ("DNFNode", "DNF node"), ("Field", "Field"), ("my_part", "My part"), ("K", "K")]
+)
+def test_titles(name: str, words: str) -> None:
+    assert title(name) == words
+
+
+def test_kinds_from_outside_need_not_say_anything(outside: None) -> None:
+    @registry.register
+    @dataclass(frozen=True)
+    class Silent(Element):
+        need: Annotated[float, Live()] = 1.0
+        where: Annotated[Axis, Recompile()] = ...  # type: ignore[assignment]
+
+        def outputs(self, ins: Any) -> dict[str, Axes]:
+            raise RuntimeError("not now")
+
+    @registry.register
+    @dataclass(frozen=True)
+    class Hollow(Kernel):
+        depth: float
+
+    found = {kind.name: kind for kind in kinds()}
+    silent, hollow = found["Silent"], found["Hollow"]
+    assert (silent.room, hollow.room) == ("own", "own")
+    assert silent.equation == [] and silent.reference == "" and silent.levels == {}
+    assert silent.ports == {"input": ""}
+    assert [p.name for p in silent.parameters] == ["need", "where"]
+    assert hollow.example is None
+    assert "Hollow" in form(found["Field"], "kernel").of

@@ -1,0 +1,50 @@
+"""The messages: what is generated is fresh, arrays survive the wire."""
+
+from __future__ import annotations
+
+import json
+
+import jsonschema
+import numpy as np
+import pytest
+
+from deodar.server import frames, protocol
+from deodar.server.to_page import ToPage
+from deodar.server.to_server import ToServer
+
+SAY = "write them anew: python -m deodar.server.protocol"
+
+
+def test_the_schema_is_fresh() -> None:
+    assert protocol.SCHEMA.read_text(encoding="utf-8") == protocol.schema_text(), SAY
+
+
+def test_the_typescript_is_fresh() -> None:
+    assert protocol.TYPESCRIPT.read_text(encoding="utf-8") == protocol.typescript(), SAY
+
+
+def test_the_schema_is_a_schema_and_refuses_strangers() -> None:
+    schema = protocol.schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema | {"$ref": "#/$defs/ToServer"})
+    validator.validate({"type": "step", "n": 5})
+    for bad in ({"type": "step", "n": 0}, {"type": "stop"}, {"type": "set", "element": "u", "parameter": "tau"}):
+        with pytest.raises(jsonschema.ValidationError):
+            validator.validate(bad)
+
+
+def test_tags_are_unique_and_typescript_names_them_all() -> None:
+    text = protocol.typescript()
+    tags = [cls.__struct_config__.tag for union in (ToServer, ToPage) for cls in union.__args__]
+    assert len(set(tags)) == len(tags)
+    for tag in tags:
+        assert f"  type: {json.dumps(tag)};" in text
+
+
+def test_a_frame_comes_back_as_it_went() -> None:
+    values = np.arange(12, dtype=np.float32).reshape(3, 4)
+    data = frames.pack(7, 2**32 + 5, 123.5, values)
+    stream, frame, time, back = frames.unpack(data)
+    assert (stream, frame, time) == (7, 5, 123.5) and len(data) == 16 + 4 * 12
+    np.testing.assert_array_equal(back, values.ravel())
+    assert frames.unpack(frames.pack(0, 0, 0, np.asarray(2.5)))[3].tolist() == [2.5]

@@ -1,0 +1,471 @@
+"""The studio over a real socket: opening, running, tuning, watching, saving."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import websockets
+
+import deodar as dd
+from deodar.numerics.sigmoids.linear import Linear
+from tests.server.page import Page, page, play, studio
+
+
+def test_a_newcomers_path_from_file_to_peak_to_decay_and_back(root: Path) -> None:
+    """Open, run, see a peak, turn the resting level until it is gone, take it back, save, and open what was saved."""
+
+    async def scene(p: Page) -> None:
+        await p.open("open_file", path="selection.json")
+        u = p.element("u")
+        await p.do("watch", stream=1, element=u, port="activation")
+        await p.do("trace", stream=2, element=u, port="activation", reduce="max")
+        await p.do("speed", factor=None)
+        await p.do("step", n=500)
+        await p.until(lambda: p.clock["tick"] == 500 and 1 in p.frames and p.frames[1][0] == 500)
+        assert p.frames[1][1].shape == (101,) and p.frames[1][1].max() > 3, "one of the two inputs has made a peak"
+        assert p.samples[2][-1] == (500.0, pytest.approx(float(p.frames[1][1].max())))
+        cost = await p.do("set", element=u, parameter="resting_level", value=-12, gesture=1)
+        assert cost["cost"] == "live"
+        await p.do("step", n=90)
+        await p.until(lambda: p.clock["tick"] == 590 and p.frames[1][0] == 590)
+        assert p.frames[1][1].max() < 0, "the peak has decayed while its input is still there"
+        assert p.said["changed"]["value"] == -12 and p.said["changed"]["unsaved"]
+        await p.do("undo")
+        await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == -5 and not p.document["unsaved"])
+        await p.do("redo")
+        done = await p.do("save", path="mine")
+        assert done["file"] == "mine.json"
+
+    with studio(root) as address:
+        play(address, scene)
+    assert dd.load(root / "mine.json").get("u.resting_level") == -12
+
+
+def test_what_it_runs_is_what_a_script_runs(root: Path) -> None:
+    """The same steps with the same seed give the same activation as a session of a script."""
+    seen: list[np.ndarray] = []
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("reset", seed=7)
+        await p.do("step", n=400)
+        await p.until(lambda: 1 in p.frames and p.frames[1][0] == 400)
+        assert p.clock["seed"] == 7
+        seen.append(p.frames[1][1])
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+    session = dd.Session(dd.load(root / "selection.json"), seed=7)
+    session.step(400)
+    np.testing.assert_allclose(seen[0], session.read("u.activation"), atol=1e-4)
+
+
+def test_a_dragged_slider_is_one_step_of_undo(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        for gesture, values in ((1, (-4, -3, -2)), (2, (-1, 0))):
+            for value in values:
+                await p.do("set", element=u, parameter="resting_level", value=value, gesture=gesture)
+        await p.until(lambda: p.said["changed"]["value"] == 0 and p.said["changed"]["undo"] == 2)
+        await p.do("undo")
+        await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == -2)
+        await p.do("undo")
+        await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == -5)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_a_structural_change_compiles_beside_the_run_and_keeps_the_state(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        await p.do("watch", stream=1, element=u, port="activation")
+        await p.do("step", n=500)
+        await p.until(lambda: 1 in p.frames and p.frames[1][0] == 500)
+        before = p.frames[1][1]
+        kernel = [{"kind": "Gaussian", "amplitude": 12, "sigma": 5, "normalized": True}, {"kind": "Gaussian", "amplitude": -0.1, "sigma": 20}]
+        done = await p.do("set", element=u, parameter="kernel", value=kernel)
+        assert done["cost"] == "recompile"
+        await p.until(lambda: len(p.document["elements"][0]["values"]["kernel"]) == 2 and not p.clock["busy"] and 1 in p.frames)
+        np.testing.assert_array_equal(p.frames[1][1], before)
+        assert p.clock["tick"] == 500
+        done = await p.do("set", element=u, parameter="kernel.1.amplitude", value=-0.2)
+        assert done["cost"] == "live", "the new program runs"
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_refused_values_change_nothing_and_say_where(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        refused = await p.ask("set", element=u, parameter="tau", value=-1)
+        assert refused["problems"][0]["element"] == u and "below" in refused["problems"][0]["what"]
+        refused = await p.ask("set", element=u, parameter="tau", value=0.5)
+        assert "longer than the time constant" in refused["problems"][0]["what"]
+        refused = await p.ask("describe", dt=50)
+        assert "longer than the time constant" in refused["problems"][0]["what"]
+        refused = await p.ask("set", element=u, parameter="kernel", value=[{"kind": "Gausian"}])
+        assert "Gaussian" in refused["problems"][0]["fix"]
+        refused = await p.ask("set", element=u, parameter="axes", value=["z"])
+        assert "There are: x" in refused["problems"][0]["fix"]
+        assert p.document["elements"][0]["values"]["tau"] == 20 and p.document["undo"] == 0
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_dt_belongs_to_the_document(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("describe", dt=0.5)
+        await p.until(lambda: p.clock["dt"] == 0.5 and p.document["dt"] == 0.5)
+        await p.do("undo")
+        await p.until(lambda: p.clock["dt"] == 1 and p.document["dt"] is None)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_one_document_parameter_drives_several(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        left, right = p.element("left"), p.element("right")
+        await p.do("add_knob", name="input strength", element=left, parameter="amplitude")
+        await p.do("link", name="input strength", element=right, parameter="amplitude")
+        await p.do("set", element="", parameter="input strength", value=3, gesture=5)
+        await p.until(lambda: [e["values"]["amplitude"] for e in p.document["elements"][1:]] == [3, 3])
+        refused = await p.ask("set", element=left, parameter="amplitude", value=1)
+        assert "driven by" in refused["problems"][0]["what"]
+        await p.do("unlink", element=left, parameter="amplitude")
+        await p.do("set", element=left, parameter="amplitude", value=1)
+        await p.do("remove_knob", name="input strength")
+        await p.until(lambda: p.document["knobs"] == [])
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_the_layout_is_kept_with_the_document(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("arrange", layout={"panels": {"a": 1}}, undoable=False)
+        await p.until(lambda: p.document["layout"] == {"panels": {"a": 1}})
+        assert not p.document["unsaved"] and p.document["undo"] == 0, "how panels stand is nothing to ask about"
+        await p.do("arrange", layout={"pins": [{"element": "e", "parameter": "tau"}]})
+        await p.until(lambda: p.document["unsaved"] and p.document["undo"] == 1)
+        await p.do("save")
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+    layout = json.loads((root / "selection.json").read_text())["layout"]
+    assert layout == {"panels": {"a": 1}, "pins": [{"element": "e", "parameter": "tau"}]}
+
+
+def test_a_hand_makes_a_peak_while_it_is_held(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        await p.do("watch", stream=1, element=u, port="activation")
+        await p.do("push", element=u, amplitude=9, center=[50], sigma=[5])
+        await p.until(lambda: p.clock["pushing"] == u)
+        await p.do("step", n=80)
+        await p.until(lambda: 1 in p.frames and p.frames[1][0] == 80)
+        assert p.frames[1][1].argmax() == 50 and p.frames[1][1].max() > 3
+        await p.do("release")
+        await p.until(lambda: p.clock["pushing"] == "")
+        refused = await p.ask("push", element=p.element("left"), amplitude=1)
+        assert refused["problems"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_two_pages_are_in_step_and_the_run_outlives_both(root: Path) -> None:
+    async def main(address: str) -> None:
+        async with page(address) as a, page(address) as b:
+            await a.runs()
+            await b.runs()
+            await a.do("set", element=a.element("u"), parameter="tau", value=33)
+            await b.until(lambda: b.said.get("changed", {}).get("value") == 33)
+            await b.do("play")
+            await a.until(lambda: a.clock["running"] and a.clock["tick"] > 5)
+        tick = a.clock["tick"]
+        async with page(address) as c:
+            await c.until(lambda: c.clock["tick"] > tick and c.clock["running"])
+            assert c.document["elements"][0]["values"]["tau"] == 33 and c.document["unsaved"]
+
+    with studio(root, root / "selection.json") as address:
+        asyncio.run(main(address))
+
+
+def test_a_stalled_page_is_sent_nothing_more_and_holds_nobody_up(root: Path) -> None:
+    async def main(address: str) -> None:
+        async with page(address, draws=False) as stalled, page(address) as other:
+            await other.runs()
+            u = other.element("u")
+            await other.do("watch", stream=1, element=u, port="activation")
+            await stalled.tell(type="watch", stream=1, element=u, port="activation")
+            await other.do("play")
+            for k in range(100):
+                await other.do("set", element=u, parameter="tau", value=20 + k)
+            await other.until(lambda: other.clocks > 60)
+            assert stalled.clocks == 1, "it has not said that it took the first one in"
+            await stalled.tell(type="drawn", frame=stalled.clock["frame"])
+            await stalled.until(lambda: stalled.clocks == 2)
+            await stalled.until(lambda: stalled.said["changed"]["value"] == 119)
+
+    with studio(root, root / "selection.json") as address:
+        asyncio.run(main(address))
+
+
+def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
+    model = dd.Model("runaway")
+    model.add(dd.Field("u", [], tau=10, resting_level=0.5))
+    grow = model.add(dd.Field("grow", [], tau=1, resting_level=1, sigmoid=Linear()))
+    grow >> dd.Gain(1e6) >> grow
+    dd.save(model, root / "runaway.json")
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("speed", factor=None)
+        await p.do("play")
+        await p.until(lambda: p.clock["failure"])
+        failure = p.clock["failure"][0]
+        assert failure["element"] in (p.element("grow"), p.element("grow>Gain")) and "infinite" in failure["what"]
+        assert not p.clock["running"]
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.until(lambda: 1 in p.frames)
+        assert np.isfinite(p.frames[1][1])
+        await p.do("set", element=next(e["id"] for e in p.document["elements"] if e["kind"] == "Gain"), parameter="factor", value=0)
+        await p.do("reset")
+        await p.do("step", n=50)
+        await p.until(lambda: p.clock["tick"] == 50 and not p.clock["failure"])
+
+    with studio(root, root / "runaway.json") as address:
+        play(address, scene)
+
+
+def test_malformed_messages_are_answered_and_too_many_end_the_connection(root: Path) -> None:
+    async def main(address: str) -> None:
+        async with page(address) as p:
+            for text in (
+                "",
+                "{",
+                "[]",
+                '{"type": "nonsense", "request": 3}',
+                '{"type": "set", "request": 4}',
+                '{"type": "step", "n": -1, "request": 5}',
+            ):
+                await p.socket.send(text)
+            await p.until(lambda: {3, 4, 5} <= set(p._answers))
+            assert "not understood" in p._answers[5]["problems"][0]["what"]
+            await p.do("open_file", path="selection.json")
+            for _ in range(30):
+                await p.socket.send(b"\x00\x01")
+            await asyncio.wait_for(p.socket.wait_closed(), 30)
+            assert p.socket.close_code == 1008
+        async with page(address) as p:
+            assert p.document["title"] == "selection"
+
+    with studio(root) as address:
+        asyncio.run(main(address))
+
+
+def test_an_oversized_message_ends_only_that_connection(root: Path) -> None:
+    async def main(address: str) -> None:
+        async with page(address) as p:
+            with contextlib.suppress(websockets.ConnectionClosed):
+                await p.socket.send(json.dumps({"type": "open_text", "name": "x", "text": "x" * (65 * 2**20)}))
+            await asyncio.wait_for(p.socket.wait_closed(), 30)
+        async with page(address) as p:
+            assert p.document is None
+
+    with studio(root) as address:
+        asyncio.run(main(address))
+
+
+def test_trouble_lists_every_problem_and_a_good_file_ends_it(root: Path) -> None:
+    data = json.loads((root / "selection.json").read_text())
+    data["elements"]["u"]["tau"] = -1
+    data["elements"]["left"]["kind"] = "GausStimulus"
+    (root / "bad.json").write_text(json.dumps(data))
+
+    async def scene(p: Page) -> None:
+        await p.until(lambda: "trouble" in p.said and p.said["trouble"]["problems"])
+        problems = p.said["trouble"]["problems"]
+        assert len(problems) == 2 and any("u.tau" in q["where"] for q in problems) and any("GaussianStimulus" in q["fix"] for q in problems)
+        assert p.document is None
+        await p.do("open_file", path="gone.json")
+        await p.until(lambda: "no such file" in p.said["trouble"]["problems"][0]["what"])
+        await p.open("open_file", path="selection.json")
+        assert p.said["trouble"]["problems"] == []
+
+    with studio(root, root / "bad.json") as address:
+        play(address, scene)
+
+
+def test_leaving_unsaved_edits_asks(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("set", element=p.element("u"), parameter="tau", value=30)
+        for wish in ({"type": "open_file", "path": "node.json"}, {"type": "close"}, {"type": "open_example", "name": "detection"}):
+            assert (await p.ask(**wish))["ask"] == "unsaved"
+        await p.do("close", discard=True)
+        await p.until(lambda: p.said["opened"]["document"] is None)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_saving_over_what_changed_on_disk_asks(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("set", element=p.element("u"), parameter="tau", value=30)
+        await p.do("save")
+        shutil.copy(root / "node.json", root / "selection.json")
+        await p.do("set", element=p.element("u"), parameter="tau", value=31)
+        assert (await p.ask("save"))["ask"] == "replace"
+        assert (await p.ask("save", path="working_memory.json"))["ask"] == "replace"
+        await p.do("save", replace=True)
+        (root / "selection.json").unlink()
+        await p.do("save")
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+    assert dd.load(root / "selection.json").get("u.tau") == 31
+
+
+def test_nothing_outside_the_root_is_read_or_written(root: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    outside = tmp_path_factory.mktemp("outside")
+    shutil.copy(root / "node.json", outside / "secret.json")
+    (root / "link.json").symlink_to(outside / "secret.json")
+    (root / "folder").symlink_to(outside)
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        for path in (str(outside / "secret.json"), "../x.json", "link.json", "folder/secret.json", "/etc/passwd"):
+            refused = await p.ask("open_file", path=path)
+            assert "outside the folder" in refused["problems"][0]["what"], path
+            refused = await p.ask("save", path=path)
+            assert refused["problems"], path
+        refused = await p.ask("list_folder", path="..")
+        assert "outside" in refused["problems"][0]["what"]
+        await p.do("list_folder")
+        assert "selection.json" in p.said["folder"]["files"] and "link.json" not in p.said["folder"]["files"]
+        assert "folder" not in p.said["folder"]["folders"]
+        refused = await p.ask("use_world", kind="Picture", path="../x.png")
+        assert "outside" in refused["problems"][0]["what"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+    assert sorted(p.name for p in outside.iterdir()) == ["secret.json"]
+
+
+def test_a_dropped_document_is_content_and_saved_only_under_a_name(root: Path) -> None:
+    text = (root / "selection.json").read_text()
+
+    async def scene(p: Page) -> None:
+        await p.open("open_text", name="dropped.json", text=text)
+        assert p.document["file"] == "" and p.document["title"] == "selection"
+        refused = await p.ask("save")
+        assert "no file yet" in refused["problems"][0]["what"]
+        await p.do("save", path="kept")
+        await p.do("open_text", name="broken.json", text='{"deodar": 1, "elements": {"u": {"kind": "Nothing"}}}')
+        assert p.said["trouble"]["file"] == "broken.json"
+
+    with studio(root) as address:
+        play(address, scene)
+    assert (root / "kept.json").is_file() and not (root / "dropped.json").exists()
+
+
+def test_a_document_with_a_function_is_shown_and_never_run_without_trust(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "strange_module.py").write_text("from pathlib import Path\nPath(__file__).with_name('ran').touch()\ndef f(u, i, t): return u\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    document = {"deodar": 1, "name": "m", "elements": {"f": {"kind": "Function", "id": "00000001", "function": "strange_module:f"}}}
+    (root / "stranger.json").write_text(json.dumps(document))
+
+    async def scene(p: Page) -> None:
+        await p.until(lambda: p.clock["failure"])
+        assert "--trust" in p.clock["failure"][0]["fix"]
+        await p.do("play")
+        assert not p.clock["running"]
+
+    with studio(root, root / "stranger.json") as address:
+        play(address, scene)
+    assert not (tmp_path / "ran").exists()
+
+
+def test_sensors_read_an_example_until_a_picture_is_dropped(root: Path) -> None:
+    import base64
+    import io
+
+    from PIL import Image
+
+    red = io.BytesIO()
+    Image.new("RGB", (8, 6), (255, 0, 0)).save(red, "PNG")
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.until(lambda: p.clock["senses"])
+        assert "example" in p.clock["world"]
+        sensor = next(e for e in p.document["elements"] if e["kind"] == "Sensor")
+        await p.do("watch", stream=1, element=sensor["id"], port="output", most=16)
+        await p.do("use_world_content", kind="Picture", name="red.png", content=base64.b64encode(red.getvalue()).decode())
+        await p.until(lambda: "red.png" in p.clock["world"])
+        await p.do("step")
+        await p.until(lambda: 1 in p.frames and p.frames[1][1][8, 8, 0] == 1)
+        assert p.forms[1]["channels"] and p.frames[1][1].shape[-1] == 3 and p.frames[1][1][..., 1:].max() == 0
+        refused = await p.ask("use_world_content", kind="Picture", name="no.png", content="%%")
+        assert refused["problems"][0]["where"] == "no.png"
+
+    with studio(root, root / "saliency.json") as address:
+        play(address, scene)
+
+
+def test_unsaved_edits_survive_a_crash(root: Path, own_state: Path) -> None:
+    async def first(p: Page) -> None:
+        await p.runs()
+        await p.do("set", element=p.element("u"), parameter="tau", value=44)
+        await asyncio.sleep(0)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, first)
+    note = next((own_state / "unsaved").glob("*.note"))
+    note.write_text(json.dumps(json.loads(note.read_text()) | {"process": [0, 0]}))  # the process that kept them is gone
+
+    async def second(p: Page) -> None:
+        kept = p.said["gallery"]["recoveries"]
+        assert [k["title"] for k in kept] == ["selection"]
+        await p.open("recover", name=kept[0]["name"])
+        assert p.document["elements"][0]["values"]["tau"] == 44 and p.document["unsaved"] and p.document["file"] == "selection.json"
+        await p.do("save", replace=True)
+
+    with studio(root) as address:
+        play(address, second)
+    assert dd.load(root / "selection.json").get("u.tau") == 44
+    assert list((own_state / "unsaved").iterdir()) == []
+
+
+def test_streams_of_nothing_say_so(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("watch", stream=1, element="feedbeef", port="activation")
+        await p.do("watch", stream=2, element=p.element("u"), port="nonsense")
+        await p.until(lambda: {1, 2} <= set(p.lost))
+        assert "no port" in p.lost[2]["problem"]["what"]
+        await p.do("unwatch", stream=1)
+        await p.do("unwatch", stream=1)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
