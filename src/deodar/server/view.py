@@ -13,6 +13,7 @@ from deodar.model.document import Document, Entry
 from deodar.model.parts import value_from_json
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axis
+from deodar.parameters import FrozenArray
 from deodar.server.to_page import AxisView, ConnectionView, DocumentView, ElementView, KnobView, LinkView, Problem
 
 BESIDE = ("kind", "id", "every")
@@ -21,7 +22,7 @@ BESIDE = ("kind", "id", "every")
 
 def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:
     """Everything about the document."""
-    data, _ = files.to_data(doc)
+    data, arrays = files.to_data(doc)
     nodes = {n.id: n for n in resolve(doc)[0] if n.declared}
     named = {_axis(data["axes"][key]): key for key in data["axes"]}
     return DocumentView(
@@ -31,7 +32,7 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
         dt=doc.dt,
         notes=doc.notes,
         axes=[axis(a, key) for a, key in named.items()],
-        elements=[_element(e, data["elements"][e.path], nodes.get(e.id), named) for e in doc.entries],
+        elements=[_element(e, _told(data["elements"][e.path], arrays), nodes.get(e.id), named) for e in doc.entries],
         connections=[
             ConnectionView(source=c.source, source_port=c.source_port, target=c.target, target_port=c.target_port, reads=c.reads)
             for c in doc.connections
@@ -83,6 +84,18 @@ def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mappin
     )
 
 
+def _told(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
+    """A value with the shape and the range of every array that it names."""
+    if isinstance(value, list):
+        return [_told(v, arrays) for v in value]
+    if not isinstance(value, dict):
+        return value
+    if set(value) == {"array"} and value["array"] in arrays:
+        content = arrays[value["array"]].data
+        return value | {"shape": list(content.shape), "min": float(content.min()), "max": float(content.max())}
+    return {key: _told(v, arrays) for key, v in value.items()}
+
+
 def _axis(data: Mapping[str, Any]) -> Axis:
     return Axis(**data)
 
@@ -96,8 +109,8 @@ def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:
     """A parameter as the page sees it."""
-    data, _ = files.to_data(doc)
-    value: Any = data["elements"][doc.by_id()[element].path]
+    data, arrays = files.to_data(doc)
+    value = _told(data["elements"][doc.by_id()[element].path], arrays)
     for step in parameter.split("."):
         value = value[int(step)] if isinstance(value, list) else value[step]
     return value

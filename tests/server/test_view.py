@@ -1,0 +1,110 @@
+"""The document as the page sees it, and values on their way back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.errors import Problem
+from deodar.model import edit
+from deodar.numerics.kernels.custom import Custom
+from deodar.server import view
+
+X = dd.Axis("x", 0, 100, samples=101, unit="deg")
+Y = dd.Axis("y", 0, 1, samples=11)
+
+
+def model() -> dd.Model:
+    made = dd.Model("m")
+    u = made.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5), Custom(np.ones(3))]), group="g")
+    made.add(dd.GaussianStimulus("s", [X], center=30)) >> dd.Gain(2.0) >> u
+    made.add(dd.Field("v", [Y]), every=2)
+    made.add(Boost("b", []))
+    made.parameter("gain", 3.0)
+    made.link("g.u.tau", "gain")
+    return made
+
+
+def shown(made: dd.Model) -> Any:
+    return view.document(made.document, "m.json", False, 0, 0)
+
+
+def test_elements_with_their_values_ports_and_axes() -> None:
+    seen = {e.path: e for e in shown(model()).elements}
+    u, s = seen["g.u"], seen["s"]
+    assert (u.name, u.group, u.kind, u.inputs, u.outputs) == ("u", ["g"], "Field", ["input"], ["output", "activation", "interaction"])
+    assert u.axes == {"input": ["x"], "output": ["x"], "activation": ["x"], "interaction": ["x"]}
+    assert u.values["tau"] == 3 and u.values["axes"] == ["x"] and u.values["kernel"][0]["sigma"] == 5
+    assert u.values["kernel"][1]["weights"] == {"array": "array", "shape": [3], "min": 1, "max": 1}
+    assert u.pushable and not s.pushable and not seen["v"].pushable and seen["v"].every == 2
+    assert {a.key: a.unit for a in shown(model()).axes} == {"x": "deg", "y": ""}
+
+
+def test_document_parameters_and_connections_by_id() -> None:
+    made = model()
+    seen = shown(made)
+    assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.knobs] == [("gain", 3, [(made["g.u"].id, "tau")])]
+    assert {(c.source, c.target) for c in seen.connections} == {(c.source, c.target) for c in made.document.connections}
+
+
+def test_problems_belong_to_elements() -> None:
+    doc = model().document
+    by_path = {e.path: e.id for e in doc.entries}
+    wrong = [Problem("g.u.tau", "one"), Problem("s (script.py:3)", "two"), Problem("nowhere", "three")]
+    found = view.problems(wrong, doc, paths=())
+    assert [p.element for p in found] == [by_path["g.u"], by_path["s"], ""]
+    found = view.problems([Problem("", "stopped")], doc, paths=("g.u.output", "v"))
+    assert [p.element for p in found] == [by_path["g.u"], by_path["v"]]
+
+
+def test_a_document_with_problems_is_shown_with_them() -> None:
+    made = model()
+    made.connect("g.u", "v")
+    seen = shown(made)
+    assert seen.problems and len(seen.elements) == 5
+
+
+@pytest.mark.parametrize(
+    ("parameter", "value"),
+    [
+        ("tau", 12.5), ("kernel.0.sigma", 7), ("kernel.0.sigma", [7]), ("kernel", []), ("axes", ["y"]), ("axes", []),
+        ("sigmoid", {"kind": "Step", "threshold": 1}), ("kernel.1", {"kind": "Gaussian", "amplitude": 2, "sigma": 3}),
+    ],
+)  # fmt: skip
+def test_values_come_back_as_they_were_said(parameter: str, value: Any) -> None:
+    made = model()
+    made.unlink("g.u.tau")
+    doc, entry = made.document, made.document.by_id()[made["g.u"].id]
+    new = edit.put(doc, entry.id, parameter, view.read_value(doc, entry, parameter, value))
+    seen = view.shown_value(new, entry.id, parameter)
+    if isinstance(value, dict):
+        assert {k: seen[k] for k in value} == value
+    else:
+        assert seen == value
+
+
+def test_a_list_of_kernels_keeps_its_arrays() -> None:
+    doc = model().document
+    entry = doc.by_id()[model()["g.u"].id]
+    kernels = view.shown_value(doc, entry.id, "kernel")
+    new = edit.put(doc, entry.id, "kernel", view.read_value(doc, entry, "kernel", [*reversed(kernels)]))
+    assert new.by_id()[entry.id].element.kernel[0].weights.data.tolist() == [1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("parameter", "value", "says"),
+    [
+        ("kernel", 3, "needs a list"), ("kernel", [{"kind": "Logistic"}], "cannot stand here"), ("kernel", [{"kind": "Gaussian", "sigma": -1}], "below"),
+        ("axes", "x", "not among"), ("axes", [1], "not among"), ("sigmoid", {"kind": 4}, "kind"), ("nonsense", 1, "no parameter"),
+        ("resting_level.x", 1, "inside"),
+    ],
+)  # fmt: skip
+def test_wrong_values_say_what_is_wrong(parameter: str, value: Any, says: str) -> None:
+    made = model()
+    doc, entry = made.document, made.document.by_id()[made["g.u"].id]
+    with pytest.raises(dd.errors.DeodarError, match=says):
+        edit.put(doc, entry.id, parameter, view.read_value(doc, entry, parameter, value))
