@@ -98,7 +98,8 @@ def test_a_list_of_kernels_keeps_its_arrays() -> None:
 @pytest.mark.parametrize(
     ("parameter", "value", "says"),
     [
-        ("kernel", 3, "needs a list"), ("kernel", [{"kind": "Logistic"}], "cannot stand here"), ("kernel", [{"kind": "Gaussian", "sigma": -1}], "below"),
+        ("kernel", 3, "needs a list"), ("kernel", [{"kind": "Logistic"}], "cannot stand here"),
+        ("kernel", [{"kind": "Gaussian", "sigma": -1}], "below"),
         ("axes", "x", "not among"), ("axes", [1], "not among"), ("sigmoid", {"kind": 4}, "kind"), ("nonsense", 1, "no parameter"),
         ("resting_level.x", 1, "inside"),
     ],
