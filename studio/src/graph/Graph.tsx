@@ -101,6 +101,7 @@ function Canvas({ structure }: { structure: Structure }) {
           onNodesChange={onNodesChange}
           onNodeDragStart={() => useHover.getState().close()}
           onNodeDragStop={settle}
+          onNodeClick={() => useHover.getState().close()}
           onNodeDoubleClick={(_, node) => node.type === "box" && openPlot({ element: node.id })}
           onPaneClick={() => useStudio.getState().select([])}
           onMoveStart={() => move(true)}
@@ -116,7 +117,7 @@ function Canvas({ structure }: { structure: Structure }) {
           minZoom={0.08}
           maxZoom={2.5}
           fitView
-          fitViewOptions={{ padding: FIT.padding, maxZoom: FIT.maxZoom }}
+          fitViewOptions={{ ...FIT, duration: 0 }}
         >
           {nodes.length <= MOST_DOTTED && <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />}
           <MiniMap style={MAP} pannable zoomable ariaLabel="Overview of the canvas" nodeStrokeWidth={0} nodeBorderRadius={4} nodeClassName={miniClass} />

@@ -2,6 +2,7 @@
 
 import { Graph, layout as arrange } from "@dagrejs/dagre";
 import type { Branch } from "./tree";
+import { wrapped } from "./wrap";
 
 export type Point = { x: number; y: number };
 export type Size = { width: number; height: number };
@@ -78,12 +79,13 @@ function byDagre(items: Item[], bonds: Bond[]): Map<string, Point> {
     }
   });
   arrange(graph);
-  return new Map(
+  const found = new Map(
     items.map(({ id, rect }) => {
       const { x = 0, y = 0 } = graph.node(id) as Partial<Point>;
       return [id, { x: Math.round(x - rect.width / 2), y: Math.round(y - rect.height / 2) }];
     }),
   );
+  return wrapped(found, new Map(items.map(({ id, rect }) => [id, rect])));
 }
 
 // Bonds between the items of this level: those of elements deeper inside count for the group around them.

@@ -1,0 +1,116 @@
+/** Every picture of the manual's chapter on the studio, in light and in dark, 1280 x 800, into the folder that DEODAR_SHOTS names. */
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import type { Page } from "playwright-core";
+import { expect, onTestFinished, test } from "vitest";
+
+import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
+
+const COLOURS = ["light", "dark"] as const;
+const PATIENCE = { timeout: 60_000 };
+
+async function open(colours: "light" | "dark", options: StudioOptions): Promise<Studio> {
+  const studio = await startStudio({ ...options, colours });
+  onTestFinished(studio.stop);
+  return studio;
+}
+
+/** Run until the clock shows this much document time, then stand still. */
+async function run(page: Page, milliseconds: number): Promise<void> {
+  await page.getByRole("button", { name: /^play/i }).click();
+  await expect
+    .poll(async () => tick(page), { ...PATIENCE, interval: 100 })
+    .toBeGreaterThan(milliseconds);
+  await page.getByRole("button", { name: /^pause/i }).click();
+  await page.mouse.move(300, 20);
+  await page.waitForTimeout(500); // the last frames are drawn
+}
+
+async function tick(page: Page): Promise<number> {
+  const said = await page.getByText(/^step \d+$/).first().textContent();
+  return Number(/\d+/.exec(said ?? "")?.[0] ?? 0);
+}
+
+async function select(page: Page, name: string): Promise<void> {
+  await page.locator(".react-flow__node", { hasText: name }).first().click();
+  await page.mouse.move(300, 20);
+  await page.waitForTimeout(500); // the hover card goes
+}
+
+for (const colours of COLOURS) {
+  const name = (what: string) => (colours === "dark" ? `studio-${what}-dark` : `studio-${what}`);
+
+  test(`gallery, ${colours}`, async () => {
+    const { page } = await open(colours, {});
+    await page.getByText("Selection", { exact: true }).first().waitFor(PATIENCE);
+    await page.waitForLoadState("networkidle");
+    await shot(page, name("gallery"));
+  });
+
+  test(`selection, ${colours}`, async () => {
+    const { page } = await open(colours, { file: "selection.json", copies: ["examples/selection.json"] });
+    await page.locator(".react-flow__node").first().waitFor(PATIENCE);
+    await select(page, "u");
+    await run(page, 700);
+    await shot(page, name("selection"));
+    for (const curve of ["input", "interaction"]) await page.getByRole("button", { name: new RegExp(`^${curve}`, "i") }).first().click();
+    await page.waitForTimeout(500);
+    await shot(page, name("curves"));
+  });
+
+  test(`saliency, ${colours}`, async () => {
+    const { page } = await open(colours, { file: "saliency.json", copies: ["examples/saliency.json"] });
+    await page.locator(".react-flow__node").first().waitFor(PATIENCE);
+    await run(page, 150);
+    await shot(page, name("saliency"));
+  });
+
+  test(`groups and sliders, ${colours}`, async () => {
+    const { page } = await startPinned(colours);
+    await page.locator(".react-flow__node").first().waitFor(PATIENCE);
+    await run(page, 900);
+    await shot(page, name("sliders"));
+  });
+
+  test(`problems, ${colours}`, async () => {
+    const { page, folder } = await open(colours, { copies: ["examples/selection.json"] });
+    const broken = JSON.stringify({
+      deodar: 1,
+      name: "broken",
+      axes: { x: { name: "x", lower: 0, upper: 100, samples: 101 } },
+      elements: { u: { kind: "Field", axes: ["x"], tau: -5 }, s: { kind: "GausianStimulus", axes: ["x"] } },
+      connections: [{ source: "s.output", target: "u.input" }],
+    });
+    writeFileSync(join(folder, "broken.json"), broken);
+    await page.getByRole("button", { name: /open a file/i }).click();
+    await page.getByText("broken.json").first().click();
+    const confirm = page.getByRole("dialog").getByRole("button", { name: /^open$/i });
+    if (await confirm.count()) await confirm.click();
+    await page.getByText("GausianStimulus").first().waitFor(PATIENCE);
+    await page.waitForTimeout(400); // the dialog goes
+    await shot(page, name("problems"));
+  });
+}
+
+/** The example with groups, one of them folded, with its document parameter and two parameters pinned. */
+async function startPinned(colours: "light" | "dark"): Promise<Studio> {
+  const { readFileSync } = await import("node:fs");
+  const example = JSON.parse(readFileSync(join(import.meta.dirname, "..", "..", "..", "examples", "groups.json"), "utf-8"));
+  const first = example.elements["search.intention"].id as string;
+  const layout = {
+    folded: ["lift"],
+    pins: [
+      { element: "", parameter: "tempo" },
+      { element: first, parameter: "resting_level" },
+      { element: first, parameter: "noise" },
+    ],
+  };
+  const studio = await open(colours, {});
+  writeFileSync(join(studio.folder, "pinned.json"), JSON.stringify({ ...example, layout }));
+  await studio.page.getByRole("button", { name: /open a file/i }).click();
+  await studio.page.getByText("pinned.json").first().click();
+  const confirm = studio.page.getByRole("dialog").getByRole("button", { name: /^open$/i });
+  if (await confirm.count()) await confirm.click();
+  return studio;
+}

@@ -1,0 +1,30 @@
+import { describe, expect, it } from "vitest";
+import type { Point, Size } from "./layout";
+import { wrapped } from "./wrap";
+
+function chain(n: number): [Map<string, Point>, Map<string, Size>] {
+  const ids = Array.from({ length: n }, (_, i) => `e${i}`);
+  return [new Map(ids.map((id, i) => [id, { x: 200 * i, y: 0 }])), new Map(ids.map((id) => [id, { width: 160, height: 100 }]))];
+}
+
+describe("lines", () => {
+  it("leave what is not wide as it is", () => {
+    const [places, sizes] = chain(3);
+    expect(wrapped(places, sizes)).toBe(places);
+  });
+
+  it("break a long chain, in order, without boxes that cover each other", () => {
+    const [places, sizes] = chain(24);
+    const out = [...wrapped(places, sizes)];
+    expect(out).toHaveLength(24);
+    const width = Math.max(...out.map(([, p]) => p.x)) + 160;
+    const height = Math.max(...out.map(([, p]) => p.y)) + 100;
+    expect(width / height).toBeLessThan(4.5);
+    for (const [i, [, a]] of out.entries()) {
+      for (const [, b] of out.slice(i + 1)) {
+        expect(Math.abs(a.x - b.x) >= 160 || Math.abs(a.y - b.y) >= 100).toBe(true);
+        expect(a.y < b.y || (a.y === b.y && a.x < b.x)).toBe(true);
+      }
+    }
+  });
+});

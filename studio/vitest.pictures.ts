@@ -1,0 +1,12 @@
+import { defineConfig } from "vitest/config";
+
+/** The pictures of the manual, taken of a running studio: `studio/build.py pictures` starts it. */
+export default defineConfig({
+  test: {
+    include: ["browser/pictures/*.shots.ts"],
+    globalSetup: "browser/ready.ts",
+    fileParallelism: false,
+    testTimeout: 180_000,
+    hookTimeout: 120_000,
+  },
+});
