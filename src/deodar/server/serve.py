@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import secrets
 import socket
@@ -35,7 +36,8 @@ def serve(
             webbrowser.open(address)
 
     server, bound = prepare(file, root, host, port, trust, world, ready)
-    server.run(sockets=[bound])
+    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends, once everything is put away
+        server.run(sockets=[bound])
 
 
 def prepare(
