@@ -7,7 +7,8 @@ The laws that an element may rely on:
 
 * a step reads every output at time t, then commits all new states together;
 * all connections into one port are summed, in the port's axes;
-* `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to `output` and `advance`.
+* `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to `settle`, which may use all and is computed
+  once a chunk; what that returns is handed to `output` and `advance`.
 """
 
 from __future__ import annotations
@@ -138,6 +139,13 @@ class Element(Part):
     def prepare(self, at: Setting) -> Any:
         """Constants that depend on axes and on parameters that rebuild."""
         return {}
+
+    def settle(self, at: Setting, constants: Any) -> Any:
+        """What stays the same from step to step although it depends on live parameters: computed once a chunk from what `prepare` gave.
+
+        `output` and `advance` get what it returns in place of the constants.
+        """
+        return constants
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         """Every output port at time t."""

@@ -61,7 +61,7 @@ def test_one_copy_gives_just_what_it_declares(kind, precision):
         noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
         time = Time(*(at.dtype.type(v) for v in (0, 0, 1)))
         state = element.init(at)
-        constants = element.prepare(at)
+        constants = element.settle(at, element.prepare(at))
         out = jax.eval_shape(lambda: element.output(at, state, zeros, constants, time, noise))
         assert {port: np.shape(v) for port, v in out.items()} == {port: shape(axes) for port, axes in here.outs.items()}
         assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(here.outs, at.dtype)

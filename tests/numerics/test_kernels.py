@@ -21,8 +21,8 @@ LINE = Axis("x", -20, 20, 161)
 
 def convolved(kernel, axes, y):
     with jax.enable_x64(True):
-        weights = interaction.prepare([kernel], axes, np.dtype("float64"))
-        return np.asarray(interaction.apply([kernel], axes, weights, jax.numpy.asarray(y, float)))
+        mixture = interaction.mix([kernel], axes, interaction.prepare([kernel], axes, np.dtype("float64")))
+        return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y, float)))
 
 
 def integral(kernel, axes, boundary=None):

@@ -197,7 +197,8 @@ def _excitation(field: Field, d: int) -> float | None:
     middle = tuple(a.samples // 2 for a in axes)
     single = np.zeros(shape(axes), np.float32)
     single[middle] = 1.0
-    response = np.asarray(interaction.apply(field.kernel, axes, interaction.prepare(field.kernel, axes, np.float32), jnp.asarray(single)))
+    mixture = interaction.mix(field.kernel, axes, interaction.prepare(field.kernel, axes, np.float32))
+    response = np.asarray(interaction.apply(mixture, axes, jnp.asarray(single)))
     line = response[tuple(slice(None) if k == d else i for k, i in enumerate(middle))]
     peak, right = float(line[middle[d]]), line[middle[d] :]
     if not peak > 0:

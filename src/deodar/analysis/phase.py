@@ -91,7 +91,7 @@ def _rate(node: Field, s: float) -> Callable[[Any], np.ndarray]:
         with jax.enable_x64(True):
             u = jax.numpy.asarray(u, np.float64)
             g = node.sigmoid(u)
-            change = -u + node.resting_level + s + interaction.apply(node.kernel, (), [], g) - node.global_inhibition * g
+            change = -u + node.resting_level + s + interaction.apply(interaction.mix(node.kernel, (), []), (), g) - node.global_inhibition * g
             return np.asarray(change / node.tau)
 
     return rate

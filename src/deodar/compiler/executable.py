@@ -192,6 +192,7 @@ class Executable:
     def _read(self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Any:
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+            constants = self.program.settle(values, constants)
             still = self.program.steady(values, constants, sensed)
             return self.program.observe(ports, values, constants, state, keys, sensed, still, clock, clock["tick"])
 
@@ -213,6 +214,7 @@ class Executable:
     ) -> Any:
         """`head` steps, a record, then `every` steps and a record until there are `records`; without ports `head` steps."""
         program = self.program
+        constants = program.settle(values, constants)
         still = program.steady(values, constants, sensed)
         head, every, records = counts["head"], counts["every"], counts["records"]
 

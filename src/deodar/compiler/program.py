@@ -97,6 +97,10 @@ class Program:
 
     # -------------------------------------------------------------------------------- steps
 
+    def settle(self, values: Tree, constants: Tree) -> list[Any]:
+        """What groups make of their constants and of live parameters once a chunk."""
+        return [self._each(g, lambda e, at, c: e.settle(at, c), values, constants[g]) for g in range(len(self.plan.groups))]
+
     def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
         buffers: Buffers = {}

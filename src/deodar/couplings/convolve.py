@@ -45,5 +45,8 @@ class Convolve(Coupling):
     def prepare(self, at: Setting) -> Any:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
 
+    def settle(self, at: Setting, constants: Any) -> Any:
+        return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
+
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        return {"output": interaction.apply(self.kernel, at.ins["input"], constants["kernel"], inputs["input"])}
+        return {"output": interaction.apply(constants["kernel"], at.ins["input"], inputs["input"])}

@@ -91,6 +91,9 @@ class Field(Element):
             constants["noise"] = noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)
         return constants
 
+    def settle(self, at: Setting, constants: Any) -> Any:
+        return constants | {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
+
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         u = state["activation"]
         g = self.sigmoid(u)
@@ -107,7 +110,7 @@ class Field(Element):
     def _interaction(self, g: Any, constants: Any) -> Any:
         axes = tuple(self.axes)
         inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
-        return interaction.apply(self.kernel, axes, constants["kernel"], g) - inhibition
+        return interaction.apply(constants["kernel"], axes, g) - inhibition
 
     def _noise(self, deviates: Any, constants: Any) -> Any:
         if deviates is None:
