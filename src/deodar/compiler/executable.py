@@ -248,7 +248,7 @@ class Executable:
         with precision_context(self.precision):
             # unused arguments stay: two programs that differ in which argument they use must not look alike to the cache
             lowered = jax.jit(function, keep_unused=True).lower(*args)
-            executable, fresh = cache.compile(lowered)
+            executable, fresh = cache.compile(lowered, cache.options())
         self.traced += 1
         self.compiled += fresh
         self.seconds += time.process_time() - began
