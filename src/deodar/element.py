@@ -50,11 +50,12 @@ class Time:
 
 @dc.dataclass(frozen=True)
 class Setting:
-    """Where an element stands: the axes at its ports, and the precision of the model."""
+    """Where an element stands: the axes at its ports, the precision of the model, and the element's bucket (None: results are to be exact)."""
 
     ins: Mapping[str, Axes]
     outs: Mapping[str, Axes]
     dtype: Any
+    bucket: Any = None
 
     def full(self, axes: Axes, value: Any) -> Any:
         """An array over the axes, filled with one value."""

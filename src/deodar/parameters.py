@@ -19,7 +19,7 @@ import math
 import numbers
 import types
 import typing
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -160,6 +160,10 @@ class Part:
         """What may stand for an instance, made into one: for parts with a short way of writing them."""
         return value
 
+    def bucket(self) -> Hashable:
+        """What a compiled program takes from the values of parameters that rebuild: as long as it stays equal, they may change."""
+        return None
+
     @classmethod
     def example(cls) -> Part:
         """An instance that works on its own: what the tests, the manual and a palette start from."""
@@ -240,11 +244,9 @@ def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
 
 def normal(p: Parameter, value: Any) -> Any:
     """The value in its stored form; a ValueError says what is wrong with it."""
-    if value is None:
-        if p.optional:
-            return None
+    if value is None and not p.optional:
         raise ValueError("needs a value")
-    return _NORMAL[p.form](p, value)
+    return None if value is None else _NORMAL[p.form](p, value)
 
 
 def real(value: Any) -> float | None:

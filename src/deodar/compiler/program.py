@@ -70,12 +70,12 @@ class Program:
         self.precision = precision
         self.dtype: Any = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
-        self.settings = [Setting(g.like.ins, g.like.outs, self.dtype) for g in plan.groups]
         self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
         self.slow = [g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful]
         self.still = [c for c in plan.calls if plan.groups[c.group].still]
         self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
+        self.settings = [self._setting(g, swept) for g, swept in zip(plan.groups, self.rebuilt, strict=True)]
 
     # -------------------------------------------------------------------------------- prepare and init
 
@@ -256,6 +256,11 @@ class Program:
         for path in group.arrays:
             out[path] = values["arrays"][array_key(g, path)]
         return out
+
+    def _setting(self, group: Group, swept: bool) -> Setting:
+        """Double precision is exact, and so is what a sweep carries out of its bucket."""
+        like, exact = group.like, swept or self.dtype == np.float64
+        return Setting(like.ins, like.outs, self.dtype, None if exact else like.element.bucket())
 
     def _swept_constants(self, group: Group) -> bool:
         for path, offset in group.offset.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
@@ -69,6 +69,9 @@ class Field(Element):
         axes = tuple(self.axes)
         return {"output": axes, "activation": axes, "interaction": axes}
 
+    def bucket(self) -> Hashable:
+        return interaction.buckets(self.kernel, tuple(self.axes))
+
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
@@ -86,7 +89,7 @@ class Field(Element):
 
     def prepare(self, at: Setting) -> Any:
         axes = tuple(self.axes)
-        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype)}
+        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype, at.bucket)}
         if not is_neutral(self.noise_length):
             constants["noise"] = noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)
         return constants
@@ -97,20 +100,21 @@ class Field(Element):
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         u = state["activation"]
         g = self.sigmoid(u)
-        return {"output": g, "activation": u, "interaction": self._interaction(g, constants)}
+        return {"output": g, "activation": u, "interaction": self._interaction(at, g, constants)}
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         u, h, s = state["activation"], self.resting_level, inputs["input"]
-        rate = -u + h + s + self._interaction(self.sigmoid(u), constants)
+        rate = -u + h + s + self._interaction(at, self.sigmoid(u), constants)
         return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
 
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
 
-    def _interaction(self, g: Any, constants: Any) -> Any:
+    def _interaction(self, at: Setting, g: Any, constants: Any) -> Any:
         axes = tuple(self.axes)
         inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
-        return interaction.apply(constants["kernel"], axes, g) - inhibition
+        chosen = interaction.choices(self.kernel, axes, at.bucket)
+        return interaction.apply(constants["kernel"], axes, g, chosen) - inhibition
 
     def _noise(self, deviates: Any, constants: Any) -> Any:
         if deviates is None:

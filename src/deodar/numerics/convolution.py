@@ -50,6 +50,10 @@ def matrix(axis: Axis, boundary: str, profile: Profile, dtype: Any) -> Array:
 
 def along(m: Array, y: Array, d: int) -> Array:
     """The matrix applied along axis d."""
+    if d == 0:
+        return jnp.tensordot(m, y, axes=(1, 0), precision="highest")
+    if d == y.ndim - 1:
+        return jnp.tensordot(y, m, axes=(d, 1), precision="highest")
     return jnp.moveaxis(jnp.tensordot(m, y, axes=(1, d), precision="highest"), 0, d)
 
 
@@ -80,10 +84,9 @@ def spectrum(samples: Any, axes: Axes, bounds: Sequence[str], dtype: Any) -> Arr
     return jnp.fft.rfftn(kernel * jnp.asarray(cell(axes), dtype))
 
 
-def spectral(kernel: Array, y: Array, axes: Axes, bounds: Sequence[str]) -> Array:
-    """Convolution of y with a kernel given by its spectrum on the extended grid."""
+def spectral(kernel: Array, y: Array, axes: Axes, bounds: Sequence[str], sizes: Sequence[int]) -> Array:
+    """Convolution of y with a kernel given by its spectrum on a ring of these sizes, round which it does not reach."""
     n = shape(axes)
-    sizes = extended(axes, bounds)
     for d, b in enumerate(bounds):
         if b == "reflect":
             y = jnp.concatenate([y, jnp.flip(y, d)], axis=d)

@@ -1,69 +1,143 @@
 """A sum of interaction kernels convolved with an output: the lateral interaction of a field, the kernel of a coupling.
 
 In three steps, each as seldom as it may be: `prepare` makes weights from widths, `mix` puts amplitudes to them and adds up what can be
-added, `apply` is all that is left for every step.
+added, `apply` is all that is left for every step. Kernels that are sums of Gaussians may share one transform (`choice`, `waves`); all
+others, and all where results are to be exact, are matrices or spectra of their own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from typing import Any
 
 import jax.numpy as jnp
 
+from deodar.leaves import per_axis
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.choice import Choice, bounds, bucket, choose
 from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.waves import Waves
 
 Weights = list[Any]
-"""For each kernel: its terms' matrices (one for each axis), or its spectrum."""
+"""For each kernel: `matrices` (for each term one an axis), `gains` (for each term one vector an axis) or `spectrum`."""
 
 Mixture = dict[str, Any]
-"""What is applied: `gain` on a node; else `terms` (for each its matrices, one an axis) and `spectra` (by boundaries)."""
+"""What is applied: `gain` on a node; else `terms` (for each its matrices, one an axis), `spectra` and `waves` (by boundaries)."""
+
+Bucket = tuple[tuple[tuple[int, ...], ...], ...]
+"""For each kernel, for each of its Gaussians, the bucket of its width on each axis."""
 
 
-def prepare(kernels: Sequence[Kernel], axes: Axes, dtype: Any) -> Weights:
-    """What convolution needs and what depends on widths only."""
-    return [_weights(kernel, axes, dtype) for kernel in kernels] if axes else []
+def buckets(kernels: Sequence[Kernel], axes: Axes) -> Hashable:
+    """What of the widths a program is built for; None where none matters."""
+    if not axes:
+        return None
+    found = tuple(tuple(tuple(bucket(float(w)) for w in per_axis(width, axes)) for width in k.widths()) for k in kernels)
+    return found if choices(kernels, axes, found) else None
+
+
+def choices(kernels: Sequence[Kernel], axes: Axes, found: Any) -> dict[str, Choice]:
+    """For each kind of boundaries, how its Gaussian kernels are applied together, where not by matrices."""
+    groups: dict[str, list[tuple[tuple[int, ...], ...]]] = {}
+    for kernel, widths in zip(kernels, found or [()] * len(kernels), strict=True):
+        if widths:
+            groups.setdefault(_key(kernel, axes), []).append(widths)
+    out: dict[str, Choice] = {}
+    for key, members in groups.items():
+        terms = [term for widths in members for term in widths]
+        spans = tuple((min(bounds(t[d])[0] for t in terms), max(bounds(t[d])[1] for t in terms)) for d in range(len(axes)))
+        choice = choose(axes, tuple(key.split()), spans, len(terms))
+        if choice.way != "matrices":
+            out[key] = choice
+    return out
+
+
+def prepare(kernels: Sequence[Kernel], axes: Axes, dtype: Any, found: Any = None) -> Weights:
+    """What convolution needs and what depends on widths only. `found` are the buckets of the widths; without them it is exact."""
+    if not axes:
+        return []
+    chosen = choices(kernels, axes, found)
+    return [_weights(kernel, axes, dtype, chosen.get(_key(kernel, axes)) if kernel.widths() else None) for kernel in kernels]
 
 
 def mix(kernels: Sequence[Kernel], axes: Axes, weights: Weights) -> Mixture:
     """The sum of the kernels, amplitudes included. Over one axis it is a single matrix, however many kernels there are."""
     if not axes:
         return {"gain": sum((t.amplitude for kernel in kernels for t in kernel.terms()), 0.0)}
-    terms: list[list[Any]] = []
-    spectra: dict[str, Any] = {}
+    out: Mixture = {"terms": [], "spectra": {}, "waves": {}}
     for kernel, w in zip(kernels, weights, strict=True):
-        if isinstance(w, list):
-            pairs: list[tuple[Term, list[Any]]] = list(zip(kernel.terms(), w, strict=True))
-            terms += [[term.amplitude * matrices[0], *matrices[1:]] for term, matrices in pairs]
-        else:
-            key = " ".join(convolution.boundaries(kernel.boundary, axes))
-            spectra[key] = spectra.get(key, 0.0) + kernel.amplitude * w  # type: ignore[attr-defined]
-    if len(axes) == 1 and terms:
-        terms = [[sum((t[0] for t in terms[1:]), terms[0][0])]]
-    return {"terms": terms, "spectra": spectra}
+        key = _key(kernel, axes)
+        if "spectrum" in w:
+            out["spectra"][key] = out["spectra"].get(key, 0.0) + kernel.amplitude * w["spectrum"]  # type: ignore[attr-defined]
+        for term, matrices in zip(kernel.terms(), w.get("matrices", ()), strict=False):
+            out["terms"].append([term.amplitude * matrices[0], *matrices[1:]])
+        for way in ("waves", "spectra"):
+            for term, gains in zip(kernel.terms(), w.get(way, ()), strict=False):
+                out[way][key] = out[way].get(key, 0.0) + term.amplitude * _product(gains)
+    if len(axes) == 1 and out["terms"]:
+        out["terms"] = [[sum((t[0] for t in out["terms"][1:]), out["terms"][0][0])]]
+    return out
 
 
-def apply(mixture: Mixture, axes: Axes, y: Any) -> Any:
-    """The integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y."""
+def apply(mixture: Mixture, axes: Axes, y: Any, chosen: dict[str, Choice] | None = None) -> Any:
+    """The integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y. `chosen`: the choices they were made for."""
     if not axes:
         return mixture["gain"] * y
-    total = jnp.zeros_like(y)
-    for matrices in mixture["terms"]:
-        total = total + convolution.separable(matrices, y)
-    for bounds, spectrum in mixture["spectra"].items():
-        total = total + convolution.spectral(spectrum, y, axes, bounds.split())
-    return total
+    parts = [convolution.separable(matrices, y) for matrices in mixture["terms"]]
+    for key, spectrum in mixture["spectra"].items():
+        sizes = [w.length for w in chosen[key].waves] if chosen and key in chosen else convolution.extended(axes, key.split())
+        parts.append(convolution.spectral(spectrum, y, axes, key.split(), sizes))
+    for key, gains in mixture["waves"].items():
+        assert chosen is not None
+        parts.append(_through(chosen[key].waves, gains, y))
+    return sum(parts[1:], parts[0]) if parts else jnp.zeros_like(y)
 
 
-def _weights(kernel: Kernel, axes: Axes, dtype: Any) -> Any:
-    bounds = convolution.boundaries(kernel.boundary, axes)
+def _through(waves: Sequence[Waves], gains: Any, y: Any) -> Any:
+    """Into the space of waves, times what becomes of each, and back."""
+    tables = [jnp.asarray(w.basis(), y.dtype) for w in waves]
+    return convolution.separable(tables, gains * convolution.separable([t.T for t in tables], y))
+
+
+def _key(kernel: Kernel, axes: Axes) -> str:
+    return " ".join(convolution.boundaries(kernel.boundary, axes))
+
+
+def _product(gains: Sequence[Any]) -> Any:
+    """The outer product of one vector an axis."""
+    out = gains[0]
+    for g in gains[1:]:
+        out = out[..., None] * g
+    return out
+
+
+def _weights(kernel: Kernel, axes: Axes, dtype: Any, choice: Choice | None) -> dict[str, Any]:
+    ends = convolution.boundaries(kernel.boundary, axes)
     samples = kernel.samples(axes, dtype)
     if samples is not None:
-        return convolution.spectrum(samples, axes, bounds, dtype)
-    return [[_matrix(t, d, a, b, dtype) for d, (a, b) in enumerate(zip(axes, bounds, strict=True))] for t in kernel.terms()]
+        return {"spectrum": convolution.spectrum(samples, axes, ends, dtype)}
+    if choice is None:
+        return {"matrices": [[_matrix(t, d, a, b, dtype) for d, (a, b) in enumerate(zip(axes, ends, strict=True))] for t in kernel.terms()]}
+    if choice.way == "waves":
+        return {
+            "waves": [[w.gains(a, _profile(t, d, a), dtype) for d, (a, w) in enumerate(zip(axes, choice.waves, strict=True))] for t in kernel.terms()]
+        }
+    return {
+        "spectra": [
+            _half([w.spectrum(a, _profile(t, d, a), dtype) for d, (a, w) in enumerate(zip(axes, choice.waves, strict=True))]) for t in kernel.terms()
+        ]
+    }
+
+
+def _half(gains: list[Any]) -> list[Any]:
+    """The last axis of a real Fourier transform holds the first half of the waves only."""
+    return [*gains[:-1], gains[-1][: gains[-1].shape[0] // 2 + 1]]
+
+
+def _profile(term: Term, d: int, axis: Axis) -> Any:
+    return lambda lag, period: term.along(d, lag, period, axis.step)
 
 
 def _matrix(term: Term, d: int, axis: Axis, boundary: str, dtype: Any) -> Any:
-    return convolution.matrix(axis, boundary, lambda lag, period: term.along(d, lag, period, axis.step), dtype)
+    return convolution.matrix(axis, boundary, _profile(term, d, axis), dtype)

@@ -39,6 +39,13 @@ class Kernel(Part):
         """The separable terms; amplitudes are live, `along` may only use parameters that rebuild."""
         raise NotImplementedError
 
+    def widths(self) -> Sequence[Any]:
+        """For a kernel that is a sum of Gaussians, their widths (each one number, or one for each axis), in the order of the terms; else none.
+
+        Such a kernel is smooth: few waves carry it, and how few can be told from its widths.
+        """
+        return ()
+
     def samples(self, axes: Axes, dtype: Any) -> Any | None:
         """The kernel as an array around lag zero on the grid of `axes`, or None where `terms` say it all."""
         return None

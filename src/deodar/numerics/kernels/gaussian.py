@@ -46,6 +46,9 @@ class Gaussian(Kernel):
     def terms(self) -> Sequence[Term]:
         return (gaussian_term(self.amplitude, self.sigma, self.normalized),)
 
+    def widths(self) -> Sequence[Any]:
+        return (self.sigma,)
+
 
 def gaussian_term(amplitude: Any, sigma: Any, normalized: bool) -> Term:
     """A Gaussian as one separable term."""

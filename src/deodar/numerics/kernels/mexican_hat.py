@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import NARROWEST, gaussian_term
@@ -47,3 +47,6 @@ class MexicanHat(Kernel):
             gaussian_term(self.excitation, self.sigma_excitation, self.normalized),
             gaussian_term(-self.inhibition, self.sigma_inhibition, self.normalized),
         )
+
+    def widths(self) -> Sequence[Any]:
+        return (self.sigma_excitation, self.sigma_inhibition)

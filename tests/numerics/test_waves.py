@@ -1,0 +1,117 @@
+"""Waves and Fourier transforms in place of matrices: the same convolution, cheaper, and only where it may be."""
+
+from __future__ import annotations
+
+import itertools
+
+import jax
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.numerics import interaction
+from deodar.numerics.axes import Axis
+from deodar.numerics.choice import Choice, bounds, bucket, choose
+from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.waves import Waves
+
+BOUNDARIES = ("periodic", "zero", "reflect")
+
+
+@pytest.mark.parametrize(("boundary", "samples"), list(itertools.product(BOUNDARIES, (7, 8))))
+def test_all_waves_together_are_a_basis(boundary: str, samples: int) -> None:
+    length = {"periodic": samples, "zero": samples + 5, "reflect": 2 * samples}[boundary]
+    waves = Waves(boundary, samples, length, samples - 1 if boundary == "reflect" else length // 2)
+    table = waves.basis()
+    assert table.shape == (samples, waves.count)
+    np.testing.assert_allclose(table @ table.T, np.eye(samples), atol=1e-12)
+
+
+def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, found: object) -> np.ndarray:
+    with jax.enable_x64(True):
+        mixture = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), found))
+        return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), interaction.choices(kernels, axes, found)))
+
+
+@pytest.mark.parametrize("way", ["waves", "fourier"])
+@pytest.mark.parametrize(("first", "second"), list(itertools.product(BOUNDARIES, repeat=2)))
+def test_every_way_gives_what_matrices_give(first: str, second: str, way: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """To 1e-5 of the sum of absolute weights, for kernels of different widths, one of them anisotropic, on a rectangle."""
+    if way == "fourier" and "reflect" in (first, second):
+        return  # a mirror is never transformed so
+    axes = (Axis("x", 0, 39, 40), Axis("y", -1, 1, 33))
+    kernels = [dd.Gaussian(7, (3.0, 0.2), boundary=[first, second]), dd.Gaussian(-4, (5.0, 0.3), boundary=[first, second], normalized=True)]
+    found = tuple((tuple(bucket(w) for w in k.sigma),) for k in kernels)  # type: ignore[union-attr]
+    monkeypatch.setattr(interaction, "choose", lambda *given: Choice(way, choose_waves(*given)))
+    y = np.random.default_rng(1).random((40, 33))
+    total = np.abs(applied(kernels, axes, np.ones((40, 33)), None)).max()
+    difference = applied(kernels, axes, y, found) - applied(kernels, axes, y, None)
+    assert np.abs(difference).max() < 1e-4 * total
+
+
+def choose_waves(axes: tuple[Axis, ...], boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int) -> tuple[Waves, ...]:
+    from deodar.numerics.choice import _waves  # pyright: ignore[reportPrivateUsage]
+
+    return tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+
+
+def test_buckets_hold_their_widths() -> None:
+    for width in (1e-3, 0.7, 1.0, 3.0, 1000.0):
+        low, high = bounds(bucket(width))
+        assert low <= width * (1 + 1e-9) and width < high * (1 + 1e-9) and high / low < 1.2
+
+
+def test_what_is_chosen_where() -> None:
+    line = (Axis("x", 0, 99, 100),)
+    square, large = tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"), tuple(Axis(a, 0, 399, 400, periodic=True) for a in "xy")
+    assert choose(line, ("zero",), ((3.0, 6.0),), 2).way == "matrices", "a small field takes its matrix"
+    assert choose(square, ("periodic",) * 2, ((3.0, 6.0),) * 2, 2).way == "waves"
+    assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).way == "fourier", "narrow kernels need many waves"
+    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).way == "matrices", "one narrow kernel gains nothing"
+
+
+SQUARE = [dd.Axis("x", 0, 60, samples=61), dd.Axis("y", 0, 50, samples=51)]
+
+
+def model(sigma: float = 4.0) -> dd.Model:
+    made = dd.Model("square")
+    kernel = [dd.Gaussian(15, sigma, normalized=True), MexicanHat(4, 4, 2, 8, normalized=True, boundary=["reflect"]), dd.Gaussian(-0.1, 9.0)]
+    u = made.add(dd.Field("u", SQUARE, kernel=kernel, global_inhibition=0.001))
+    made.add(dd.GaussianStimulus("s", SQUARE, center=[20, 48], sigma=4, amplitude=8)) >> u
+    made.add(dd.GaussianStimulus("t", SQUARE, center=[59, 10], sigma=3, amplitude=7)) >> u
+    return made
+
+
+def test_default_plans_stay_near_exact_ones() -> None:
+    """1e-4 in activation after 400 steps without noise, with peaks at the borders."""
+    made = model()
+    field = made["u"].element
+    assert interaction.choices(field.kernel, tuple(field.axes), field.bucket()), "something is planned here"
+    exact = dd.simulate(made, 400, precision="float64")["u.activation"].values
+    default = dd.simulate(made, 400)["u.activation"].values
+    assert exact.max() > 3 and np.abs(default - exact).max() < 1e-4
+
+
+def test_widths_change_inside_a_bucket_without_compiling_and_outside_it_with() -> None:
+    made = model(4.2)
+    session = dd.Session(made)
+    session.step(50)
+    low, high = bounds(bucket(4.2))
+    assert session.set("u.kernel.0.sigma", 0.5 * (4.2 + high)) == "rebuild"
+    assert session.set("u.kernel.0.sigma", 2.0) == "recompile"
+    session.step(350)
+    other = dd.Session(made, precision="float64")
+    other.step(50)
+    other.set("u.kernel.0.sigma", 2.0)
+    other.step(350)
+    assert low < 4.2 and np.abs(session.read("u.activation") - other.read("u.activation")).max() < 1e-3
+
+
+def test_a_sweep_over_widths_is_valid_for_all_of_them() -> None:
+    made = model()
+    widths = [1.0, 4.0, 12.0]
+    swept = dd.simulate(made, 100, sweep={"u.kernel.0.sigma": widths})["u.activation"]
+    for k, width in enumerate(widths):
+        made.set("u.kernel.0.sigma", width)
+        alone = dd.simulate(made, 100, precision="float64")["u.activation"].values
+        assert np.abs(swept.values[k] - alone).max() < 1e-3
