@@ -1,11 +1,17 @@
 """Prints the figures that the project promises, each beside its target: `python benchmarks/run.py [NAME ...]`.
 
 Times are CPU time (user and system) of processes that keep to one core (`NPROC=1`), medians over repetitions. Nothing is
-asserted: a busy machine prints larger numbers.
+asserted: a busy machine prints larger numbers. The workloads stand in workloads.py, how they are timed in steps.py, what the columns mean in
+README.md.
 """
 
 from __future__ import annotations
 
+import argparse
+import contextlib
+import dataclasses as dc
+import io
+import json
 import os
 import platform
 import resource
@@ -17,7 +23,11 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import steps
+import workloads
+
 HERE = Path(__file__).parent
+SHOWN: list[tuple[str, float, str, float]] = []
 FIRST_RESULT = """
 import deodar as dd
 x = dd.Axis("x", 0, 100, samples=101)
@@ -39,6 +49,7 @@ def child(code: str, *arguments: str, cache: str | None = None) -> float:
 
 
 def show(name: str, value: float, unit: str, target: float) -> None:
+    SHOWN.append((name, value, unit, target))
     print(f"{name:62} {value:9.3f} {unit:4} (target <= {target:g})", flush=True)
 
 
@@ -120,13 +131,99 @@ def memory() -> None:
 
 
 PARTS: dict[str, Callable[[], None]] = {"start": start_up, "field": one_field, "compile": compile_times, "memory": memory}
+MARKS = ("<!-- table -->", "<!-- end of the table -->")
+
+
+def machine() -> dict[str, str]:
+    """What the figures were taken on."""
+    import jax
+    import jaxlib.version
+    import numpy as np
+
+    import deodar
+
+    processor = platform.processor() or platform.machine()
+    with contextlib.suppress(OSError):
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        processor = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), processor)
+        widest = [name for name in ("avx512f", "avx2") if any(line.startswith("flags") and name in line.split() for line in lines)]
+        processor = ", ".join([processor, *widest[:1]])
+    cc = steps.compiler()
+    told = subprocess.run([cc, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0] if cc else "none"
+    versions = {"deodar": deodar.__version__, "jax": jax.__version__, "jaxlib": jaxlib.version.__version__, "numpy": np.__version__}
+    return {
+        "date": time.strftime("%Y-%m-%d"),
+        "system": platform.platform(),
+        "processor": f"{processor}, {os.cpu_count()} cores",
+        "python": platform.python_version(),
+        "versions": ", ".join(f"{name} {version}" for name, version in versions.items()),
+        "compiler": told,
+    }
+
+
+def load() -> str:
+    """The load of the last 1, 5 and 15 minutes, where the system tells."""
+    return " ".join(f"{x:.1f}" for x in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
+
+
+def workload_table(rows: list[steps.Row]) -> list[str]:
+    """Lines of text, readable as they are and as Markdown."""
+    head = f"| {'workload':12} | {'us a step':>9} | {'C, us':>8} | {'ratio':>7} | {'of':6} | {'earlier C':>9} | {'target':>6} | {'spread':>6} |"
+    lines = [head + f" {'what it is':68} |"]
+    lines.append("|" + "|".join("-" * len(cell) for cell in lines[0].split("|")[1:-1]) + "|")
+    for r in rows:
+        c, ratio, earlier = (f"{x:.{digits}f}" if x is not None else "-" for x, digits in ((r.c_us, 3), (r.ratio, 2), (r.earlier, 2)))
+        lines.append(
+            f"| {r.name:12} | {r.us:9.3f} | {c:>8} | {ratio:>7} | {r.to:6} | {earlier:>9} | {r.target:6g} | {r.spread:6.0%} | {r.meaning:68} |"
+        )
+    return lines
+
+
+def write_readme(about: dict[str, str], rows: list[steps.Row]) -> None:
+    """The last table, between its marks in README.md."""
+    path = HERE / "README.md"
+    before, rest = path.read_text(encoding="utf-8").split(MARKS[0])
+    after = rest.split(MARKS[1])[1]
+    facts = [f"- {name}: {value}" for name, value in about.items()]
+    promised = ["| figure | value | target |", "|---|---|---|"]
+    promised += [f"| {name} | {value:.3f} {unit} | {target:g} {unit} |" for name, value, unit, target in SHOWN]
+    body = [*facts, "", *workload_table(rows), *(["", *promised] if SHOWN else [])]
+    path.write_text("\n".join([before + MARKS[0], "", *body, "", MARKS[1] + after]), encoding="utf-8")
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    known = [*PARTS, *workloads.WORKLOADS, steps.CLOSED_LOOP]
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"all of them, or some of: {', '.join(known)}")
+    parser.add_argument("--quick", action="store_true", help="the workloads only (unless others are named), fewer rounds, less sure")
+    parser.add_argument("--json", action="store_true", help="one JSON object on the standard output, nothing else")
+    parser.add_argument("--readme", action="store_true", help="write the table into benchmarks/README.md")
+    given = parser.parse_args()
+    unknown = [name for name in given.names if name not in known]
+    if unknown:
+        parser.error(f"unknown: {', '.join(unknown)}; there are {', '.join(known)}")
     os.environ["NPROC"] = "1"
-    print(f"{platform.platform()}, Python {platform.python_version()}, {os.cpu_count()} cores")
-    for name in sys.argv[1:] or PARTS:
-        PARTS[name]()
+    with contextlib.redirect_stdout(io.StringIO() if given.json else sys.stdout):
+        about = machine() | {"load before": load()}
+        print(f"{about['system']}, {about['processor']}\nPython {about['python']}, {about['versions']}; C: {about['compiler']}; load {load()}")
+        if steps.compiler() is None:
+            print("No C compiler was found (gcc, clang, cc, or the one that CC names): the ratios to C are left out.")
+        timed = [name for name in known if name not in PARTS and (not given.names or name in given.names)]
+        rows: list[steps.Row] = []
+        if timed:
+            with tempfile.TemporaryDirectory() as folder:
+                rows = steps.measure(timed, *((3, 0.05) if given.quick else (7, 0.08)), Path(folder))
+            print("\n".join(workload_table(rows)), flush=True)
+        for name in PARTS:
+            if name in given.names or not (given.names or given.quick):
+                PARTS[name]()
+        about["load after"] = load()
+        print(f"load {load()}")
+    if given.readme:
+        write_readme(about, rows)
+    if given.json:
+        figures = [dict(zip(("name", "value", "unit", "target"), figure, strict=True)) for figure in SHOWN]
+        print(json.dumps({"machine": about, "workloads": [dc.asdict(r) for r in rows], "figures": figures}, indent=1))
 
 
 if __name__ == "__main__":
