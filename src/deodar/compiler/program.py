@@ -20,7 +20,7 @@ from deodar.compiler.plan import Call, Group, Plan, Read
 from deodar.element import Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
-from deodar.numerics.noise import element_keys, normal
+from deodar.numerics.noise import element_keys, normal, pair
 
 Buffers = dict[tuple[int, str, int], Any]
 Tree = Any
@@ -71,6 +71,7 @@ class Program:
         self.dtype: Any = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
         self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
+        self.paired = [g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful]
         self.slow = [g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful]
         self.still = [c for c in plan.calls if plan.groups[c.group].still]
         self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
@@ -110,8 +111,18 @@ class Program:
             self._output(call, buffers, values, constants, {}, {}, sensed, time, jnp.uint32(0))
         return buffers
 
-    def step(self, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any) -> Tree:
-        """The state at tick + 1: every output at t is read, then all new states are committed together."""
+    def draw(self, keys: Tree, tick: Any) -> tuple[Tree, Tree]:
+        """Noise of the fast groups for the two ticks of the block that `tick` lies in."""
+        out: list[tuple[Array, Array]] = []
+        for g in self.paired:
+            cells = shape(self.plan.groups[g].noise or ())
+            out.append(jax.vmap(lambda key, cells=cells: pair(cells, key, tick, self.dtype))(keys[str(g)]))
+        return {str(g): first for g, (first, _) in zip(self.paired, out, strict=True)}, {
+            str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
+        }
+
+    def step(self, values: Tree, constants: Tree, state: Tree, keys: Tree, drawn: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any) -> Tree:
+        """The state at tick + 1: every output at t is read, then all new states are committed together. `drawn`: noise of the fast groups."""
         buffers, old = dict(still), state["groups"]
         new, held = list(old), dict(state["held"])
         for call in self.moving:
@@ -124,7 +135,8 @@ class Program:
                 inputs = self._inputs(call.group, buffers)
 
                 def run(g: int = call.group, inputs: Any = inputs, time: Time = time) -> Any:
-                    return self._advance(g, values, constants, old[g], inputs, keys, time, tick)
+                    noise = drawn[str(g)] if str(g) in drawn else self._noise(g, keys, tick)
+                    return self._advance(g, values, constants, old[g], inputs, noise, time)
 
                 new[call.group] = self._gated(call.group, run, old, held, tick)
         return {"groups": new, "held": held}
@@ -178,8 +190,7 @@ class Program:
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes)))
 
-    def _advance(self, g: int, values: Tree, constants: Tree, state: Any, inputs: Any, keys: Tree, time: Time, tick: Any) -> Any:
-        noise = self._noise(g, keys, tick)
+    def _advance(self, g: int, values: Tree, constants: Tree, state: Any, inputs: Any, noise: Any, time: Time) -> Any:
         new = self._each(g, lambda e, at, s, x, c, z: e.advance(at, s, x, c, time, z), values, state, inputs, constants[g], noise)
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, state)
 

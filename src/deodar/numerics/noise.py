@@ -75,6 +75,13 @@ def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
     return (radius * wave).reshape(shape)
 
 
+def pair(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> tuple[Array, Array]:
+    """The deviates of both ticks of a block, the even one's first: what `normal` gives at each, for less than it takes twice."""
+    a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
+    radius, turn = _radius(a, dtype), _uniform(b)
+    return (radius * _sine(turn, dtype)).reshape(shape), (radius * _cosine(turn, dtype)).reshape(shape)
+
+
 def correlation(axes: Axes, lengths: Sequence[Any], dtype: Any) -> list[Array]:
     """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every point.
 

@@ -164,6 +164,7 @@ class Project:
         self._name, self._kept = self.keeper.new_name(), doc
         if file is not None:
             self.keeper.opened(file)
+        self.busy = "compiling"  # before a page is told of the document, so that none takes it for ready
         self._moved()
         self._starting = asyncio.create_task(self._start(self.session))
 
