@@ -34,6 +34,9 @@ MOST_KEPT = 16
 PAIRS_FROM = 1000
 """Cells with noise, for each call of a step, from which noise is drawn in pairs: they save 0.4 ns a cell and step, a copy costs compile time."""
 
+MOST_COPIED = 12
+"""Calls of a step beyond which three copies of it would compile for seconds."""
+
 BUFFER_BYTES = 16 * 2**20
 """Size of the buffer in which a chunk records."""
 
@@ -260,7 +263,8 @@ class Executable:
     def _draws_pairs(self) -> bool:
         """Whether drawing noise for two steps at once is worth a program with three copies of the step."""
         cells = sum(self.plan.groups[g].rows * math.prod(shape(self.plan.groups[g].noise or ())) for g in self.program.paired)
-        return cells * self.batch.size >= PAIRS_FROM * len(self.program.moving)
+        calls = len(self.program.moving)
+        return calls <= MOST_COPIED and cells * self.batch.size >= PAIRS_FROM * calls
 
     # -------------------------------------------------------------------------------- compiling
 
