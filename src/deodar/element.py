@@ -50,12 +50,15 @@ class Time:
 
 @dc.dataclass(frozen=True)
 class Setting:
-    """Where an element stands: the axes at its ports, the precision of the model, and the element's bucket (None: results are to be exact)."""
+    """Where an element stands: the axes at its ports, the precision of the model, the element's bucket (None: results are to be exact), and how
+    many copies of it run at once.
+    """
 
     ins: Mapping[str, Axes]
     outs: Mapping[str, Axes]
     dtype: Any
     bucket: Any = None
+    copies: int = 1
 
     def full(self, axes: Axes, value: Any) -> Any:
         """An array over the axes, filled with one value."""

@@ -29,8 +29,9 @@ def test_all_waves_together_are_a_basis(boundary: str, samples: int) -> None:
 
 def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, found: object) -> np.ndarray:
     with jax.enable_x64(True):
-        mixture = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), found))
-        return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), interaction.choices(kernels, axes, found)))
+        chosen = interaction.choices(kernels, axes, found)
+        mixture = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), chosen))
+        return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), chosen))
 
 
 @pytest.mark.parametrize("way", ["waves", "fourier"])
@@ -49,10 +50,21 @@ def test_every_way_gives_what_matrices_give(first: str, second: str, way: str, m
     assert np.abs(difference).max() < 1e-4 * total
 
 
-def choose_waves(axes: tuple[Axis, ...], boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int) -> tuple[Waves, ...]:
+def choose_waves(axes: tuple[Axis, ...], boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], *others: int) -> tuple[Waves, ...]:
     from deodar.numerics.choice import _waves  # pyright: ignore[reportPrivateUsage]
 
     return tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_taps_give_what_a_matrix_gives(boundary: str) -> None:
+    axes = (Axis("x", 0, 199, 200),)
+    kernels = [dd.Gaussian(7, 3.0, boundary=[boundary]), dd.Gaussian(-4, 6.0, boundary=[boundary], normalized=True)]
+    found = interaction.buckets(kernels, axes)
+    assert [c.way for c in interaction.choices(kernels, axes, found).values()] == ["taps"]
+    y = np.random.default_rng(1).random(200)
+    total = np.abs(applied(kernels, axes, np.ones(200), None)).max()
+    assert np.abs(applied(kernels, axes, y, found) - applied(kernels, axes, y, None)).max() < 1e-5 * total
 
 
 def test_buckets_hold_their_widths() -> None:
@@ -65,6 +77,9 @@ def test_what_is_chosen_where() -> None:
     line = (Axis("x", 0, 99, 100),)
     square, large = tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"), tuple(Axis(a, 0, 399, 400, periodic=True) for a in "xy")
     assert choose(line, ("zero",), ((3.0, 6.0),), 2).way == "matrices", "a small field takes its matrix"
+    longer = (Axis("x", 0, 499, 500),)
+    assert choose(longer, ("zero",), ((3.0, 12.0),), 2).way == "taps"
+    assert choose(longer, ("zero",), ((30.0, 90.0),), 2).way == "waves", "wide kernels have many taps and few waves"
     assert choose(square, ("periodic",) * 2, ((3.0, 6.0),) * 2, 2).way == "waves"
     assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).way == "fourier", "narrow kernels need many waves"
     assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).way == "matrices", "one narrow kernel gains nothing"

@@ -75,7 +75,7 @@ class Executable:
         self.batch = batch
         self.sweep = tuple(tuple(s) for s in sweep)
         self.plan: Plan = plan(doc, frozenset(leaf for leafs in self.sweep for leaf in leafs))
-        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep])
+        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep], batch.size)
         self.traced = 0
         self.compiled = 0
         self.seconds = 0.0

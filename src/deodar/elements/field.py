@@ -89,7 +89,7 @@ class Field(Element):
 
     def prepare(self, at: Setting) -> Any:
         axes = tuple(self.axes)
-        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype, at.bucket)}
+        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype, self._chosen(at))}
         if not is_neutral(self.noise_length):
             constants["noise"] = noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)
         return constants
@@ -113,8 +113,10 @@ class Field(Element):
     def _interaction(self, at: Setting, g: Any, constants: Any) -> Any:
         axes = tuple(self.axes)
         inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
-        chosen = interaction.choices(self.kernel, axes, at.bucket)
-        return interaction.apply(constants["kernel"], axes, g, chosen) - inhibition
+        return interaction.apply(constants["kernel"], axes, g, self._chosen(at)) - inhibition
+
+    def _chosen(self, at: Setting) -> Any:
+        return interaction.choices(self.kernel, tuple(self.axes), at.bucket, at.copies)
 
     def _noise(self, deviates: Any, constants: Any) -> Any:
         if deviates is None:

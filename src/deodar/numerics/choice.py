@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from deodar.numerics.axes import Axes
+from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.waves import Waves
 
 BUCKETS_PER_OCTAVE = 4
@@ -25,19 +25,29 @@ REACH = 5.0
 """Widths after which a Gaussian counts as nothing (4e-6 of its centre)."""
 
 PRODUCT_NS = 0.016
+"""A multiplication and addition in a product of matrices."""
+
+LINE_NS = {False: 0.035, True: 0.01}
+"""The same in a product with the samples of one axis: of one copy (bound by memory), of many at once."""
+
+TAP_NS = 0.04
 CALL_NS = 800.0
 FOURIER_NS = 0.3
 FOURIER_CALL_NS = 5000.0
-SMALLEST = 256
+SMALLEST = 128
 """Below so many samples a field over one axis always takes its matrix: a choice would cost more than it brings."""
+
+MANY = 6
+"""Copies (rows of a group, trials, points of a sweep) from which products of matrices are worth their preparation."""
 
 
 @dataclass(frozen=True)
 class Choice:
-    """How a sum of kernels is applied: `matrices`, `waves` or `fourier`, with the waves of each axis, and its predicted cost."""
+    """How a sum of kernels is applied: `matrices`, `taps` (with their reach), `waves` or `fourier` (with the waves of each axis), at what cost."""
 
     way: str
     waves: tuple[Waves, ...] = ()
+    reach: int = 0
     nanoseconds: float = 0.0
 
 
@@ -52,14 +62,26 @@ def bounds(number: int) -> tuple[float, float]:
 
 
 @functools.cache
-def choose(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int) -> Choice:
-    """The cheapest way for `terms` kernels whose widths (in axis units) lie between the given bounds on each axis."""
-    found = [Choice("matrices", (), _matrices(axes, terms))]
-    if len(axes) > 1 or max(a.samples for a in axes) >= SMALLEST:
-        few = tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
-        found.append(Choice("waves", few, _transforms(axes, few)))
-        if "reflect" not in boundaries:
-            found.append(Choice("fourier", few, _fourier(few)))
+def choose(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int, copies: int = 1) -> Choice:
+    """The cheapest way for `terms` kernels whose widths (in axis units) lie between the given bounds on each axis, for each of so many copies."""
+    few = tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+    if len(axes) == 1:
+        return _on_a_line(axes[0], few[0], widths[0][1], copies >= MANY)
+    found = [Choice("matrices", (), 0, _matrices(axes, terms)), Choice("waves", few, 0, _transforms(axes, few))]
+    if "reflect" not in boundaries:
+        found.append(Choice("fourier", few, 0, _fourier(few)))
+    return min(found, key=lambda c: c.nanoseconds)
+
+
+def _on_a_line(axis: Axis, waves: Waves, widest: float, many: bool) -> Choice:
+    """One axis: all kernels are one matrix, or one row of taps."""
+    n, each = axis.samples, LINE_NS[many]
+    found = [Choice("matrices", (), 0, each * n * n)]
+    if n >= SMALLEST:
+        found.append(Choice("waves", (waves,), 0, 2 * each * n * waves.count))
+        reach = math.ceil(REACH * widest / axis.step)
+        if 2 * reach < n:
+            found.append(Choice("taps", (), reach, TAP_NS * n * reach))
     return min(found, key=lambda c: c.nanoseconds)
 
 
@@ -77,8 +99,6 @@ def _waves(samples: int, boundary: str, narrow: float, wide: float) -> Waves:
 
 def _matrices(axes: Axes, terms: int) -> float:
     cells = math.prod(a.samples for a in axes)
-    if len(axes) == 1:
-        terms = 1  # they are one matrix
     return terms * sum(CALL_NS + PRODUCT_NS * cells * a.samples for a in axes)
 
 

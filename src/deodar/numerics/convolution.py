@@ -48,6 +48,26 @@ def matrix(axis: Axis, boundary: str, profile: Profile, dtype: Any) -> Array:
     return jnp.where(jnp.abs(weights) < TINY, 0.0, weights) * jnp.asarray(axis.step, dtype)
 
 
+def taps(axis: Axis, boundary: str, profile: Profile, reach: int, dtype: Any) -> Array:
+    """Weights of a symmetric kernel at lags of 0 to `reach` samples, times the grid step."""
+    lag = jnp.asarray(np.arange(reach + 1) * axis.step, dtype)
+    weights = profile(lag, axis.step * axis.samples if boundary == "periodic" else None)
+    return weights * jnp.asarray(axis.step, dtype)
+
+
+def tapped(weights: Array, y: Array, boundary: str) -> Array:
+    """Convolution over one axis as a sum of shifted copies, those of equal distance together."""
+    reach, n = weights.shape[0] - 1, y.shape[0]
+    sides = {"periodic": (y[n - reach :], y[:reach]), "reflect": (y[:reach][::-1], y[n - reach :][::-1])}
+    nothing = jnp.zeros((reach,), y.dtype)
+    before, after = sides.get(boundary, (nothing, nothing))
+    wide = jnp.concatenate([before, y, after])
+    total = weights[0] * y
+    for k in range(1, reach + 1):
+        total = total + weights[k] * (wide[reach - k : reach - k + n] + wide[reach + k : reach + k + n])
+    return total
+
+
 def along(m: Array, y: Array, d: int) -> Array:
     """The matrix applied along axis d."""
     if d == 0:
