@@ -4,6 +4,7 @@ python studio/build.py build      the page into src/deodar/server/static, unless
 python studio/build.py check      the types
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
+python studio/build.py bench      what the page promises about time, measured in a real browser and printed
 python studio/build.py pictures   the manual's pictures of the studio, into docs/pictures
 python studio/build.py npm ...    npm itself, to add or renew a library
 
@@ -37,6 +38,7 @@ TOOLS = {
     "check": ("node_modules/typescript/bin/tsc", "--noEmit"),
     "test": ("node_modules/vitest/vitest.mjs", "run"),
     "browser": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.browser.ts"),
+    "bench": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.bench.ts"),
     "pictures": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.pictures.ts"),
 }
 

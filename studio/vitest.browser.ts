@@ -1,6 +1,6 @@
 import { defineConfig } from "vitest/config";
 
-/** The page in a real browser before a running studio: one test at a time, because each starts both. */
+/** The page in a real browser before a running studio: one file at a time, because each starts both. */
 export default defineConfig({
   test: {
     include: ["browser/**/*.test.ts"],
@@ -8,5 +8,8 @@ export default defineConfig({
     fileParallelism: false,
     testTimeout: 120_000,
     hookTimeout: 120_000,
+    expect: { poll: { timeout: 60_000, interval: 50 } },
+    // the observer needs what node has only from version 22 on without being asked
+    execArgv: "WebSocket" in globalThis ? [] : ["--experimental-websocket"],
   },
 });

@@ -1,19 +1,25 @@
 /** A running studio with its page open in a browser, for one test. */
-import { cpSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 
 import type { Browser, BrowserContext, Page } from "playwright-core";
 
 import { launch } from "./chromium";
+import { Observer } from "./observer";
 import { type Server, type ServerOptions, startServer } from "./server";
 
 const ROOT = join(import.meta.dirname, "..", "..");
 const SIZE = { width: 1280, height: 800 };
 
+/** Longest time that a person would wait for something; a failure, not a measure. */
+const PATIENCE = 60_000;
+
 export interface StudioOptions extends ServerOptions {
   /** Files and folders of the repository that are copied into the working folder first, such as examples/selection.json. */
   copies?: string[];
+  /** Further files in it: their names and what they hold. */
+  files?: Record<string, string>;
   colours?: "light" | "dark";
   /** Messages of the browser's console that belong to the test, such as those of a lost connection. */
   expected?: RegExp[];
@@ -24,6 +30,8 @@ export interface Studio {
   url: string;
   /** The working folder: FILE is looked for here. */
   folder: string;
+  /** Where unsaved edits are kept. */
+  state: string;
   browser: Browser;
   context: BrowserContext;
   /** The server that runs now. */
@@ -32,6 +40,8 @@ export interface Studio {
   restart: (signal?: NodeJS.Signals) => Promise<void>;
   /** A further page before the same server. */
   another: () => Promise<Page>;
+  /** A page without a browser, which reads exact numbers. */
+  observe: () => Promise<Observer>;
   /** Ends browser and server, and fails where a page reported an error. */
   stop: () => Promise<void>;
 }
@@ -41,6 +51,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
   const folder = join(home, "folder");
   mkdirSync(folder);
   for (const name of options.copies ?? []) cpSync(join(ROOT, name), join(folder, basename(name)), { recursive: true });
+  for (const [name, content] of Object.entries(options.files ?? {})) writeFileSync(join(folder, name), content);
 
   const closing: (() => Promise<void>)[] = [async () => rmSync(home, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 })];
   const close = async () => {
@@ -65,6 +76,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
       reducedMotion: "reduce",
       acceptDownloads: true,
     });
+    context.setDefaultTimeout(PATIENCE);
     const another = async () => {
       const page = await context.newPage();
       const note = (text: string) => {
@@ -77,6 +89,11 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
       await page.goto(server.url);
       return page;
     };
+    const observe = async () => {
+      const observer = await Observer.connect(server.url);
+      closing.push(async () => observer.close());
+      return observer;
+    };
     const page = await another();
     const stop = async () => {
       await close();
@@ -86,6 +103,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
       page,
       url: server.url,
       folder,
+      state,
       browser,
       context,
       get server() {
@@ -93,6 +111,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
       },
       restart,
       another,
+      observe,
       stop,
     };
   } catch (error) {

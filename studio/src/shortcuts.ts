@@ -64,6 +64,11 @@ export function isTyping(target: Element | null): boolean {
   return field !== null && !field.matches("input:is([type=checkbox], [type=radio], [type=range], [type=button], [type=submit])");
 }
 
+// Whether keys with Ctrl, too, belong to the text: in a choice from a list they have nothing to do.
+function isWriting(target: Element | null, press: Press): boolean {
+  return isTyping(target) && !((press.ctrlKey || press.metaKey) && target?.closest("input:read-only") != null);
+}
+
 // What Space presses where it has the focus.
 const PRESSED = "button, a, summary, input:not([type=range]), [role=menuitem], [role=option], [role=switch], [role=checkbox], [role=tab]";
 
@@ -91,7 +96,7 @@ function onKey(event: KeyboardEvent, focusSeen: boolean): void {
     return;
   }
   const target = event.target instanceof Element ? event.target : null;
-  const typing = isTyping(target);
+  const typing = isWriting(target, event);
   if ((typing && shortcut.typing !== true) || (event.key === " " && focusSeen && target?.closest(PRESSED) != null)) {
     return;
   }

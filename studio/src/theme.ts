@@ -15,6 +15,7 @@ const dark: MantineColorsTuple = [
 ];
 
 export const theme = createTheme({
+  respectReducedMotion: true,
   primaryColor: "deodar",
   primaryShade: 7,
   colors: { deodar, gray, dark },

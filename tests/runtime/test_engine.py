@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar.errors import ParameterError, TimeError
 from deodar.model import edit
-from deodar.runtime.engine import Engine
+from deodar.runtime.engine import Engine, Hand
 from deodar.runtime.pace import Pace, unit_seconds
 from deodar.runtime.trace import CAPACITY, Trace, Wish
 
@@ -74,6 +74,25 @@ def test_what_was_asked_for_before_there_was_a_session_is_shown(driven: Driven) 
     driven.do(lambda: engine.show([place], [Wish(place)]))
     driven.do(lambda: engine.load(dd.Session(driven.model)))
     driven.until(lambda: place in engine.shot.arrays)
+
+
+def test_a_hand_is_seen_in_the_input(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "input")
+    driven.do(lambda: engine.show([place], []))
+    driven.until(lambda: place in engine.shot.arrays)
+    before = engine.shot.arrays[place]
+    driven.do(lambda: engine.push(Hand(driven.u, np.full(101, 2.5))))
+    driven.until(lambda: np.allclose(engine.shot.arrays[place], before + 2.5))
+    driven.do(lambda: engine.push(None))
+    driven.until(lambda: np.allclose(engine.shot.arrays[place], before))
+
+
+def test_steps_wait_for_a_session_too(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.load(None))
+    driven.do(lambda: engine.step(7))
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    driven.until(lambda: engine.shot.tick == 7)
 
 
 def test_play_waits_for_a_session(driven: Driven) -> None:
@@ -161,8 +180,6 @@ def test_what_cannot_go_on_is_refused_and_nothing_changes(driven: Driven) -> Non
             driven.do(lambda bad=bad: engine.adopt(m, bad))
     assert session.document is before
     with pytest.raises(ParameterError, match="takes no input"):
-        from deodar.runtime.engine import Hand
-
         driven.do(lambda: engine.push(Hand(m["s"].id, np.zeros(101))))
 
 

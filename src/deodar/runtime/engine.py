@@ -119,10 +119,11 @@ class Engine:
     # -------------------------------------------------------------------------------- in the engine's thread, through `call`
 
     def load(self, session: Session | None) -> None:
-        """Take another session. It stands still, unless `play` was called while there was none."""
-        self.running = self.running and self.session is None and session is not None
+        """Take another session. It stands still, unless `play` or `step` was called while there was none."""
+        waited = self.session is None and session is not None
+        self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.hand, self._target = session, None, None
-        self.failure, self._look, self._sample, self._steps = ((), ()), None, None, 0
+        self.failure, self._look, self._sample = ((), ()), None, None
         self._looks.clear()
         self.restart()
         self._make()
@@ -137,7 +138,7 @@ class Engine:
     def step(self, n: int) -> None:
         """So many steps, then stand still."""
         self.play(False)
-        self._steps = n if self.session is not None else 0
+        self._steps = n
         self.failure = ((), ())
 
     def reset(self, seed: int | None = None) -> None:
@@ -248,11 +249,19 @@ class Engine:
         sample = self._sample
         if not self.traces or sample is None or sample.program is not session.program:
             return
-        arrays = session.look(sample, {wish.place for wish in self.traces})
+        arrays = self._with_hand(session.look(sample, {wish.place for wish in self.traces}), session)
         for wish, trace in self.traces.items():
             if wish.place in arrays:
                 axes = session.program.axes(session.program.port(*wish.place))
                 trace.add(session.time, wish.value(arrays[wish.place], axes))
+
+    def _with_hand(self, arrays: Mapping[Place, np.ndarray], session: Session) -> Mapping[Place, np.ndarray]:
+        """What a hand brings is part of the input that is shown."""
+        entry = session.document.by_id().get(self.hand.element) if self.hand is not None else None
+        if self.hand is None or entry is None:
+            return arrays
+        place = (entry.id, entry.element.ports()[0])
+        return {**arrays, place: arrays[place] + self.hand.amount} if place in arrays else arrays
 
     def _publish(self) -> None:
         """A new shot, if something happened, somebody waits for it, and the last one is long enough ago."""
@@ -262,7 +271,7 @@ class Engine:
         session, seen = self.session, self._look
         arrays: Mapping[Place, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
-            arrays = session.look(seen, self._places)
+            arrays = self._with_hand(session.look(seen, self._places), session)
         moment = (session.time, session.tick) if session is not None else (0.0, 0)
         self.shot = Shot(self.shot.number + 1, *moment, arrays)
         self._stale, self._wanted, self._shown = False, False, now

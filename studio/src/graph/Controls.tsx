@@ -4,6 +4,7 @@ import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconMaximize, IconMinus, IconPlus, IconSearch, IconSitemap } from "@tabler/icons-react";
 import { useReactFlow, type FitViewOptions } from "@xyflow/react";
 import type { ReactNode } from "react";
+import { glide } from "./glide";
 
 type Props = { onSearch: () => void; onTidy: () => void };
 
@@ -20,7 +21,7 @@ export function Controls({ onSearch, onTidy }: Props) {
       <Control label="Zoom out" onClick={() => void zoomOut()}>
         <IconMinus size={16} />
       </Control>
-      <Control label="Show everything" onClick={() => void fitView(FIT)}>
+      <Control label="Show everything" onClick={() => void fitView({ ...FIT, duration: glide(GLIDE_MS) })}>
         <IconMaximize size={16} />
       </Control>
       <Control label="Tidy: lay everything out anew" onClick={onTidy}>
@@ -31,7 +32,8 @@ export function Controls({ onSearch, onTidy }: Props) {
 }
 
 // The left margin keeps clear of the buttons.
-export const FIT: FitViewOptions = { padding: { top: "32px", right: "48px", bottom: "32px", left: "64px" }, maxZoom: 1.15, duration: 200 };
+export const FIT: FitViewOptions = { padding: { top: "32px", right: "48px", bottom: "32px", left: "64px" }, maxZoom: 1.15 };
+export const GLIDE_MS = 200;
 
 function Control({ label, onClick, children }: { label: string; onClick: () => void; children: ReactNode }) {
   return (

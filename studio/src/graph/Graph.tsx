@@ -2,15 +2,16 @@
 
 import { Background, BackgroundVariant, MarkerType, MiniMap, ReactFlow, ReactFlowProvider, useReactFlow, type Edge, type EdgeTypes, type NodeTypes } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
-import { useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { openPlot } from "../panels/openPlot";
 import { useStudio } from "../store";
 import { place, unfold } from "./arrange";
 import { Box } from "./Box";
 import { Card } from "./Card";
-import { Controls, FIT } from "./Controls";
+import { Controls, FIT, GLIDE_MS } from "./Controls";
 import { Folded } from "./Folded";
 import { Frame } from "./Frame";
+import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
 import { Painter } from "./painter";
@@ -58,6 +59,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const around = useRef<HTMLDivElement>(null);
   const center = useCenter(now);
   const flow = useReactFlow();
+  const touched = useWhole(around);
 
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
@@ -75,7 +77,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const tidy = useCallback(async () => {
     const { problems = [] } = await place(scene({ ...structure, layout: { ...structure.layout, boxes: {} } }, kinds).places.elements);
     if (problems.length === 0) {
-      requestAnimationFrame(() => void flow.fitView(FIT));
+      requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: glide(GLIDE_MS) }));
     }
   }, [structure, kinds, flow]);
 
@@ -91,7 +93,7 @@ function Canvas({ structure }: { structure: Structure }) {
 
   return (
     <PainterContext value={painter}>
-      <div className="graph" ref={around}>
+      <div className="graph" ref={around} onPointerDownCapture={touched} onWheelCapture={touched} onKeyDownCapture={touched}>
         <ReactFlow<SceneNode, Edge>
           nodes={nodes}
           edges={now.wires as Edge[]}
@@ -117,7 +119,7 @@ function Canvas({ structure }: { structure: Structure }) {
           minZoom={0.08}
           maxZoom={2.5}
           fitView
-          fitViewOptions={{ ...FIT, duration: 0 }}
+          fitViewOptions={FIT}
         >
           {nodes.length <= MOST_DOTTED && <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />}
           <MiniMap style={MAP} pannable zoomable ariaLabel="Overview of the canvas" nodeStrokeWidth={0} nodeBorderRadius={4} nodeClassName={miniClass} />
@@ -149,7 +151,7 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
     }
     const wire = now.wires.find(({ id }) => id === now.pills.get(wanted));
     const { x, y, width, height } = getNodesBounds(wire === undefined ? [wanted] : [wire.source, wire.target]);
-    void setCenter(x + width / 2, y + height / 2, { zoom: Math.max(getZoom(), 0.8), duration: 250 });
+    void setCenter(x + width / 2, y + height / 2, { zoom: Math.max(getZoom(), 0.8), duration: glide(GLIDE_MS) });
     setWanted(null);
   }, [wanted, now, getNodesBounds, setCenter, getZoom]);
   return (element) => {
@@ -159,6 +161,27 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
     }
     setWanted(element);
   };
+}
+
+// Until somebody reaches in, everything is in sight, whatever size the panel gets: at first it is seldom its own. Gives what to call then.
+function useWhole(around: RefObject<HTMLElement | null>): () => void {
+  const { fitView } = useReactFlow();
+  const touched = useRef(false);
+  useEffect(() => {
+    if (around.current === null) {
+      return;
+    }
+    const observer = new ResizeObserver(() => {
+      if (!touched.current) {
+        void fitView(FIT);
+      }
+    });
+    observer.observe(around.current);
+    return () => observer.disconnect();
+  }, [around, fitView]);
+  return useCallback(() => {
+    touched.current = true;
+  }, []);
 }
 
 function miniClass({ type }: SceneNode): string {

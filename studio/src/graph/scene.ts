@@ -35,7 +35,7 @@ export function scene(structure: Structure, kinds: Map<string, Kind>): Scene {
   const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e)]));
   const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")) }));
   const where = places(found.root, sizes, bonds, readBoxes(layout));
-  const wires = wiresOf(chained.edges, found);
+  const wires = wiresOf(chained.edges, found, names);
   lanes(wires, (node) => rectOf(node, where, sizes));
   return {
     nodes: nodesOf(found.root, names, kinds, sizes, where),
@@ -117,7 +117,7 @@ function ports(names: string[], type: "source" | "target", { width, height }: Si
 }
 
 // Edges of elements in folded groups end at the group; those that then run between the same two ports become one, with their number.
-function wiresOf(edges: Chain[], found: Tree): Wire[] {
+function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): Wire[] {
   const wires = new Map<string, Wire>();
   for (const edge of edges) {
     const [from, to] = [hiddenBy(found, edge.source), hiddenBy(found, edge.target)];
@@ -136,7 +136,9 @@ function wiresOf(edges: Chain[], found: Tree): Wire[] {
       continue;
     }
     const data = { pills: edge.couplings, reads: edge.reads, count: 1, lane: 0 };
-    wires.set(id, { id, type: "wire", source, target, sourceHandle, targetHandle, data, focusable: false, zIndex: 1 });
+    const called = [from?.key ?? names.get(edge.source)?.path ?? edge.source, to?.key ?? names.get(edge.target)?.path ?? edge.target];
+    const ariaLabel = called.join(" to ");
+    wires.set(id, { id, type: "wire", source, target, sourceHandle, targetHandle, data, ariaLabel, focusable: false, zIndex: 1 });
   }
   return [...wires.values()];
 }

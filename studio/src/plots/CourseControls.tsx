@@ -34,6 +34,7 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
   const trace: TraceSetting =
     axes.length === 0 ? { element: chosen, port, reduce: "at", at: [] } : { element: chosen, port, reduce, at: reduce === "at" ? axes.map(place) : [] };
   const there = traces.some((other) => JSON.stringify(other) === JSON.stringify(trace));
+  const idle = there || port === "";
 
   return (
     <>
@@ -103,7 +104,8 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
             ))}
           </div>
         )}
-        <Button size="compact-xs" variant="light" disabled={there || port === ""} onClick={() => set({ traces: [...traces, trace] })}>
+        {/* It keeps the focus when there is nothing more to add, so that Escape still closes the settings. */}
+        <Button size="compact-xs" variant="light" data-disabled={idle || undefined} aria-disabled={idle} onClick={() => !idle && set({ traces: [...traces, trace] })}>
           {there ? "Already in this plot" : "Add"}
         </Button>
       </div>

@@ -1,0 +1,98 @@
+/** From a key on a slider to the drawing of the answer of a field. */
+import type { Page } from "playwright-core";
+
+import { ident } from "./documents";
+import "./probe";
+
+const FIELD = "activation";
+/** So many times the largest of the former steps of the mean is no noise. */
+const CLEAR = 3;
+const FORMER = 40;
+
+/**
+ * Turns the resting level of an element from one end to the other by keys, and returns for each the ms from the key (as the browser got it) to the
+ * end of the picture in which the plot drew the first frame whose mean left what noise had made of it before.
+ */
+export async function slid(page: Page, element: string, times: number): Promise<number[]> {
+  await page.getByRole("group", { name: `Drawing of ${element}` }).first().waitFor();
+  await page.locator(`.react-flow__node[data-id="${ident(element)}"]`).click();
+  const slider = page.getByRole("slider", { name: /^resting.level$/i }).first();
+  await slider.focus();
+  await page.evaluate(watch, { element: ident(element), port: FIELD, clear: CLEAR, former: FORMER });
+  const all: number[] = [];
+  for (let i = 0; i < times; i++) {
+    await page.waitForFunction(() => window.answers.calm(), undefined, { polling: 50 });
+    await page.waitForTimeout(17 * Math.random());
+    await page.keyboard.press(i % 2 === 0 ? "Home" : "End");
+    await page.waitForFunction((n) => window.answers.all.length > n, i, { polling: 50 });
+    all.push(await page.evaluate(() => window.answers.all.at(-1) ?? NaN));
+  }
+  return all;
+}
+
+declare global {
+  interface Window {
+    answers: { all: number[]; calm: () => boolean };
+  }
+}
+
+function watch({ element, port, clear, former }: { element: string; port: string; clear: number; former: number }): void {
+  const { probe } = window;
+  const canvas = document.querySelector(".plot-host canvas") as HTMLCanvasElement;
+  const streams = new Set([...probe.watched].filter(([, wish]) => wish.element === element && wish.port === port && (wish.most ?? 0) > 100).map(([number]) => number));
+  const means: number[] = [];
+  const answers = { all: [] as number[], calm: () => pressed === null && means.length >= former };
+  window.answers = answers;
+  let pressed: number | null = null;
+  let bound = 0;
+  let last = NaN;
+
+  addEventListener(
+    "keydown",
+    (event) => {
+      pressed = event.timeStamp;
+      // What a frame may differ from the last one and still be noise.
+      bound = clear * Math.max(...means.slice(1).map((mean, i) => Math.abs(mean - (means[i] ?? mean))));
+    },
+    true,
+  );
+  probe.heard = (data) => {
+    if (!streams.has(new DataView(data).getUint32(0, true))) {
+      return;
+    }
+    const values = new Float32Array(data, 16);
+    const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
+    if (pressed !== null && bound > 0 && Math.abs(mean - last) > bound) {
+      const began = pressed;
+      const came = performance.now();
+      bound = 0;
+      // In the picture in which the plot is drawn after this frame came; it is done with when the next task begins.
+      const look = () => {
+        if ((probe.drawn.get(canvas)?.at ?? 0) >= came) {
+          const channel = new MessageChannel();
+          channel.port1.onmessage = () => {
+            answers.all.push(performance.now() - began);
+            means.length = 0;
+            pressed = null;
+          };
+          channel.port2.postMessage(0);
+        } else {
+          requestAnimationFrame(look);
+        }
+      };
+      requestAnimationFrame(look);
+    }
+    // Noise is measured where the field stands: a frame far from the ones before begins anew.
+    if (pressed === null) {
+      means.push(mean);
+      if (means.length > former) {
+        means.shift();
+      }
+      const all = means.length;
+      if (all >= 10 && Math.abs(mean - (means[all - 10] ?? mean)) > 0.5) {
+        means.length = 0;
+      }
+    }
+    last = mean;
+  };
+}

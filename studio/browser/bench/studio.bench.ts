@@ -1,0 +1,11 @@
+import { test } from "vitest";
+
+import { selection } from "./documents";
+import { firstPaint, manyElements, sliderToPlot, slowdown, tenPlots } from "./measures";
+
+test("first paint of the gallery", () => firstPaint("the gallery", null, "img"));
+test("first paint of a document", () => firstPaint("a document", selection, ".plot-host canvas"));
+test("slider", () => sliderToPlot(20));
+test("ten plots", tenPlots);
+test("canvas", () => manyElements(200));
+test("slowdown", () => slowdown(5));

@@ -1,0 +1,191 @@
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { box, button, colours, panel, reopen, select } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio({ copies: ["examples/groups.json"], file: "groups.json" });
+  observer = await studio.observe();
+  await observer.runs();
+});
+
+// Nothing selected, everything in sight.
+beforeEach(async () => {
+  await button(studio.page, "Show everything").click();
+});
+
+afterAll(() => studio.stop());
+
+type Boxes = Record<string, { x: number; y: number }>;
+
+const canvas = () => panel(studio.page, "Architecture");
+const boxes = () => (observer.document?.layout["boxes"] ?? {}) as Boxes;
+const place = (path: string) => boxes()[observer.element(path).id];
+const inspected = (name: string) => panel(studio.page, "Inspector").getByRole("heading", { name, exact: true });
+
+/** How much larger than one to one the canvas is drawn. */
+const zoom = () =>
+  canvas()
+    .locator(".react-flow__viewport")
+    .evaluate((viewport) => new DOMMatrix(getComputedStyle(viewport).transform).a);
+
+test("elements are boxes with name and kind, couplings stand on their edges", async () => {
+  const { page } = studio;
+  for (const path of ["search.intention", "search.satisfied", "lift.intention", "start"]) await box(page, path).waitFor();
+  expect(await box(page, "search.intention").innerText()).toMatch(/intention\s+Field/);
+  expect(await box(page, "search.expects").count(), "a coupling is no box").toBe(0);
+  await button(page, "search.expects, 2.5").click();
+  await inspected("expects").waitFor();
+  expect(await button(page, "search.expects, 2.5").getAttribute("aria-pressed")).toBe("true");
+  await select(page, "start");
+  expect(await button(page, "search.expects, 2.5").getAttribute("aria-pressed")).toBe("false");
+  await shot(page, "graph");
+});
+
+test("a document without anything to plot is in sight as soon as it is opened", async () => {
+  const { page, folder } = studio;
+  const spot = { kind: "GaussianStimulus", id: "00000001", axes: ["x"], center: 5, sigma: 2, amplitude: 1 };
+  const axes = { x: { name: "x", lower: 0, upper: 10, samples: 11 } };
+  writeFileSync(join(folder, "spot.json"), JSON.stringify({ deodar: 1, name: "spot", axes, elements: { spot } }));
+  await reopen(page, observer, "spot.json");
+  await box(page, "spot").waitFor();
+  await expect.poll(zoom).toBeGreaterThan(1);
+  await select(page, "spot");
+  await reopen(page, observer, "groups.json");
+});
+
+test("edges are told by the elements that they connect", async () => {
+  await canvas().getByRole("img", { name: "search.intention to search.satisfied", exact: true }).waitFor({ state: "attached" });
+});
+
+test("a group folds into one box, stays folded when the page is loaded anew, and unfolds", async () => {
+  const { page } = studio;
+  await button(page, "Fold search").click();
+  const folded = page.getByRole("group", { name: /^Group search, folded, / });
+  await folded.waitFor();
+  await box(page, "search.intention").waitFor({ state: "detached" });
+  await page.reload();
+  await folded.waitFor();
+  expect(await box(page, "search.intention").count()).toBe(0);
+  await button(page, "Unfold search").click();
+  await box(page, "search.intention").waitFor();
+  await folded.waitFor({ state: "detached" });
+});
+
+test("a box that is dragged stays where it is put, also in the file", async () => {
+  const { page, folder } = studio;
+  await box(page, "start").hover({ trial: true, position: { x: 20, y: 10 } });
+  const before = await box(page, "start").boundingBox();
+  if (before === null) throw new Error("The box is not in sight.");
+  const [x, y] = [before.x + before.width / 3, before.y + 10];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 30, y + 25, { steps: 6 });
+  await page.mouse.up();
+  await observer.until(() => place("start"));
+  const put = place("start");
+  const after = await box(page, "start").boundingBox();
+  expect(after?.x).toBeGreaterThan(before.x + 15);
+  expect(after?.y).toBeGreaterThan(before.y + 10);
+  await page.keyboard.press("Control+s");
+  await page.getByText("Saved as groups.json").waitFor();
+  const kept = JSON.parse(readFileSync(join(folder, "groups.json"), "utf8")) as { layout: { boxes: Boxes } };
+  expect(kept.layout.boxes[observer.element("start").id]).toEqual(put);
+
+  await page.keyboard.press("Control+z");
+  await observer.until(() => place("start") === undefined);
+  await page.keyboard.press("Control+Shift+z");
+  await observer.until(() => place("start") !== undefined);
+});
+
+test("search finds an element, selects it and brings it into sight", async () => {
+  const { page } = studio;
+  await page.keyboard.press("/");
+  const field = page.getByRole("textbox", { name: "Search for an element" });
+  await field.fill("no such thing");
+  await page.getByText("No element matches").waitFor();
+  await field.fill("lift sat");
+  await page.getByRole("option", { name: /lift\.satisfied/ }).waitFor();
+  await field.press("Enter");
+  await inspected("satisfied").waitFor();
+  await panel(page, "Inspector").getByRole("navigation", { name: "Where it stands" }).getByText("/ lift").waitFor();
+  await box(page, "lift.satisfied").waitFor();
+  await field.waitFor({ state: "detached" });
+
+  await button(page, "Search ( / )").click();
+  await field.fill("search.ends");
+  await page.getByRole("option", { name: /search\.ends/ }).click();
+  await inspected("ends").waitFor();
+});
+
+test("the card of an element shows its equation and its values", async () => {
+  const { page } = studio;
+  const card = page.getByRole("tooltip").filter({ hasText: "grasp.intention" });
+  // a canvas that still moves puts the card away
+  await expect
+    .poll(
+      async () => {
+        await page.mouse.move(0, 0);
+        await box(page, "grasp.intention").hover({ position: { x: 20, y: 12 } });
+        return card.waitFor({ timeout: 3000 }).then(() => true, () => false);
+      },
+      { interval: 0 },
+    )
+    .toBe(true);
+  await card.locator(".katex").first().waitFor();
+  expect(await card.getByRole("math").count()).toBeGreaterThan(0);
+  expect(await card.innerText()).toMatch(/20 ms/);
+  await shot(page, "graph-card");
+  await page.keyboard.press("Escape");
+  await card.waitFor({ state: "detached" });
+});
+
+test("the canvas is enlarged, made smaller, and shown whole; a map shows all of it", async () => {
+  const { page } = studio;
+  await expect.poll(() => box(page, "lift done").count()).toBe(1);
+  const whole = await zoom();
+  await button(page, "Zoom in").click();
+  await expect.poll(zoom).toBeGreaterThan(whole * 1.1);
+  const large = await zoom();
+  await button(page, "Zoom out").click();
+  await expect.poll(zoom).toBeLessThan(large * 0.95);
+  await button(page, "Show everything").click();
+  await expect.poll(zoom).toBeCloseTo(whole, 2);
+  const map = page.getByRole("img", { name: "Overview of the canvas" });
+  await map.waitFor();
+  expect(await map.locator(".react-flow__minimap-node").count()).toBeGreaterThanOrEqual(13);
+});
+
+test("a live picture stands in each box while it runs", async () => {
+  const { page } = studio;
+  await button(page, "Play").click();
+  await observer.until(() => observer.max("search.intention", "activation") > 0);
+  for (const path of ["search.intention", "lift.satisfied"]) {
+    await expect.poll(() => colours(page.getByRole("img", { name: `activation of ${path}, live` }))).toBeGreaterThan(2);
+  }
+  await shot(page, "graph-live");
+  await button(page, "Pause").click();
+});
+
+test("boxes are reached, selected and moved by keyboard", async () => {
+  const { page } = studio;
+  await box(page, "start").focus();
+  await page.keyboard.press("Enter");
+  await inspected("start").waitFor();
+  const before = place("start");
+  await page.keyboard.press("ArrowDown");
+  await observer.until(() => (place("start")?.y ?? 0) > (before?.y ?? 0));
+});
+
+test("a double click on a box plots it", async () => {
+  const { page } = studio;
+  await box(page, "approach.intention").dblclick({ position: { x: 20, y: 12 } });
+  await page.getByRole("region", { name: "Time course of approach.intention" }).waitFor();
+});

@@ -1,0 +1,106 @@
+/** What a person does on the page, by the names that its controls have. */
+import type { Locator, Page } from "playwright-core";
+
+import type { Observer } from "./observer";
+
+/** One of the panels, by its title. */
+export const panel = (page: Page, title: string): Locator => page.getByRole("tabpanel", { name: title, exact: true });
+
+/** The box of an element on the canvas. */
+export const box = (page: Page, path: string): Locator => page.getByRole("group", { name: new RegExp(`^${escaped(path)}, `) });
+
+/** The slider of a parameter in the inspector, or of a pin by its path in another panel. */
+export const slider = (page: Page, path: string, where = "Inspector"): Locator => panel(page, where).getByRole("slider", { name: path, exact: true });
+
+/** The number beside it. */
+export const number = (page: Page, path: string, where = "Inspector"): Locator => panel(page, where).getByRole("textbox", { name: path, exact: true });
+
+export const button = (page: Page, name: string): Locator => page.getByRole("button", { name, exact: true });
+
+/** Open an example from the gallery. */
+export async function openExample(page: Page, title: string): Promise<void> {
+  await page.getByRole("button", { name: new RegExp(`^${title} `) }).click();
+  await page.getByRole("toolbar", { name: "Run" }).waitFor();
+}
+
+/** Open a file afresh, without asking, and by way of the gallery: what the page shows afterwards is not of the document before. */
+export async function reopen(page: Page, observer: Observer, path: string): Promise<void> {
+  await observer.ask({ type: "close", discard: true });
+  await page.getByRole("heading", { name: "Examples" }).waitFor();
+  await observer.ask({ type: "open_file", path });
+  await observer.until(() => observer.document?.file === path);
+  await observer.runs();
+  await page.getByRole("toolbar", { name: "Run" }).waitFor();
+}
+
+/** Select an element on the canvas, so that the inspector shows it. */
+export async function select(page: Page, path: string): Promise<void> {
+  await box(page, path).click({ position: { x: 20, y: 12 } });
+  await panel(page, "Inspector").getByRole("heading", { name: path.split(".").at(-1) as string, exact: true }).waitFor();
+}
+
+/** Type a number into its field and take it with Enter. */
+export async function type(page: Page, path: string, text: string, where?: string): Promise<void> {
+  const field = number(page, path, where);
+  await field.fill(text);
+  await field.press("Enter");
+}
+
+/** Choose from a menu behind a button. */
+export async function choose(page: Page, name: string, item: string | RegExp): Promise<void> {
+  await button(page, name).click();
+  await page.getByRole("menuitem", { name: item }).click();
+  await page.getByRole("menu").waitFor({ state: "detached" });
+}
+
+/** What opens beside a button, used and closed again. */
+export async function beside(page: Page, name: string, use: (opened: Locator) => Promise<unknown>): Promise<void> {
+  await button(page, name).click();
+  const opened = page.getByRole("dialog");
+  await use(opened);
+  await page.keyboard.press("Escape");
+  await opened.waitFor({ state: "detached" });
+}
+
+/** Choose from the menu of files. */
+export const file = (page: Page, item: string | RegExp): Promise<void> => choose(page, "File menu", item);
+
+/** Move the hand to a slider's place, a share of its length, and let go. */
+export async function drag(page: Page, thumb: Locator, share: number): Promise<void> {
+  const track = thumb.locator("xpath=ancestor::*[contains(@class, 'Slider-trackContainer')]");
+  const [from, along] = [await thumb.boundingBox(), await track.boundingBox()];
+  if (from === null || along === null) throw new Error("The slider is not in sight.");
+  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(along.x + along.width * share, along.y + along.height / 2, { steps: 8 });
+  await page.mouse.up();
+}
+
+/** How many different colours a canvas shows; one is an empty one. */
+export function colours(canvas: Locator): Promise<number> {
+  return canvas.evaluate((element) => {
+    const { width, height } = element as HTMLCanvasElement;
+    const data = (element as HTMLCanvasElement).getContext("2d")?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray();
+    return new Set(new Uint32Array(data.buffer)).size;
+  });
+}
+
+/** What a canvas shows, to compare with what it shows later. */
+export const drawn = (canvas: Locator): Promise<string> => canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
+
+/** Drop a file of the person's own anywhere on the page. */
+export async function drop(page: Page, name: string, type: string, content: Uint8Array): Promise<void> {
+  const carried = await page.evaluateHandle(
+    ([bytes, called, sort]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([new Uint8Array(bytes)], called, { type: sort }));
+      return transfer;
+    },
+    [[...content], name, type] as const,
+  );
+  for (const event of ["dragenter", "dragover", "drop"]) await page.dispatchEvent("body", event, { dataTransfer: carried });
+}
+
+function escaped(text: string): string {
+  return text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+}

@@ -1,0 +1,191 @@
+/** A second page without a browser, before the same server: it speaks the studio's protocol, so that a test reads exact numbers. */
+import { decode, type Frame } from "../src/frames";
+import type { Announced, Answer, Changed, Clock, DocumentView, ElementView, Lost, ToPage, ToServer } from "../src/protocol";
+import { replaced, valueAt } from "../src/values";
+
+/** Longest time that anything may take; a failure, not a measure. */
+const PATIENCE = 60_000;
+
+interface Stream {
+  number: number;
+  form?: Announced;
+  lost?: Lost;
+  frame?: Frame;
+}
+
+export class Observer {
+  document: DocumentView | null = null;
+  clock: Clock | undefined;
+  private session = 0;
+  private last = 0;
+  private ended = "";
+  private streams = new Map<string, Stream>();
+  private answers = new Map<number, Answer>();
+  private waiting = new Set<() => void>();
+
+  private constructor(private socket: WebSocket) {
+    socket.binaryType = "arraybuffer";
+    socket.onmessage = ({ data }) => {
+      if (data instanceof ArrayBuffer) this.takeFrame(decode(data));
+      else this.take(JSON.parse(data as string) as ToPage);
+      this.tell();
+    };
+    socket.onclose = () => {
+      this.ended = "the connection ended";
+      this.tell();
+    };
+  }
+
+  /** Connect to the server at the address that it printed. */
+  static async connect(url: string): Promise<Observer> {
+    const observer = new Observer(new WebSocket(new URL("/ws", url).href.replace(/^http/, "ws")));
+    await observer.until(() => observer.clock !== undefined);
+    return observer;
+  }
+
+  close(): void {
+    this.socket.close();
+  }
+
+  /** Wait until something holds. It is looked at after each message, and has to hold within a minute. */
+  until(condition: () => unknown): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const done = (how: () => void) => {
+        clearTimeout(timer);
+        this.waiting.delete(look);
+        how();
+      };
+      const fail = (why: string) => done(() => reject(new Error(`${why}, and never held: ${condition}. ${this.situation()}`)));
+      const look = () => {
+        try {
+          if (condition()) done(resolve);
+          else if (this.ended !== "") fail(this.ended);
+        } catch (error) {
+          done(() => reject(error as Error));
+        }
+      };
+      const timer = setTimeout(fail, PATIENCE, "a minute went by");
+      this.waiting.add(look);
+      look();
+    });
+  }
+
+  /** Ask for something and wait for the answer. */
+  async ask(message: ToServer): Promise<Answer> {
+    const request = ++this.last;
+    this.say({ ...message, request } as ToServer);
+    await this.until(() => this.answers.has(request));
+    return this.answers.get(request) as Answer;
+  }
+
+  /** Wait until a document is open and compiled. */
+  runs(): Promise<void> {
+    return this.until(() => this.document !== null && this.clock?.busy === "" && (this.clock?.failure ?? []).length === 0);
+  }
+
+  get running(): boolean {
+    return this.clock?.running ?? false;
+  }
+
+  /** Simulated time. */
+  get time(): number {
+    return this.clock?.time ?? Number.NaN;
+  }
+
+  element(path: string): ElementView {
+    const found = this.document?.elements.find((element) => element.path === path);
+    if (!found) throw new Error(`There is no ${path}. There are: ${this.document?.elements.map((element) => element.path).join(", ")}`);
+    return found;
+  }
+
+  /** A parameter of an element as the document has it, such as kernel.0.sigma. */
+  value(path: string, parameter: string): unknown {
+    return valueAt(this.element(path).values, parameter);
+  }
+
+  /** The values at a port in the newest frame; none until the first one came. */
+  values(path: string, port: string): Float32Array {
+    const key = `${path}.${port}`;
+    let stream = this.streams.get(key);
+    if (!stream) {
+      stream = { number: ++this.last };
+      this.streams.set(key, stream);
+      this.say({ type: "watch", stream: stream.number, element: this.element(path).id, port, most: 0 });
+    }
+    return stream.frame?.values ?? new Float32Array();
+  }
+
+  /** The simulated time of that frame. */
+  moment(path: string, port: string): number {
+    return this.streams.get(`${path}.${port}`)?.frame?.time ?? Number.NaN;
+  }
+
+  /** The largest of them; NaN until the first frame came, so that no comparison holds. */
+  max(path: string, port: string): number {
+    const values = this.values(path, port);
+    return values.length === 0 ? Number.NaN : values.reduce((most, value) => Math.max(most, value));
+  }
+
+  /** The index of the largest. */
+  peak(path: string, port: string): number {
+    return this.values(path, port).indexOf(this.max(path, port));
+  }
+
+  private say(message: ToServer): void {
+    this.socket.send(JSON.stringify(message));
+  }
+
+  private take(message: ToPage): void {
+    switch (message.type) {
+      case "opened":
+        this.document = message.document;
+        if (message.session !== this.session) {
+          for (const { number } of this.streams.values()) this.say({ type: "unwatch", stream: number });
+          this.streams.clear();
+          this.clock = undefined; // that of the document before
+        }
+        this.session = message.session;
+        break;
+      case "changed":
+        this.change(message);
+        break;
+      case "announced":
+      case "lost": {
+        const stream = [...this.streams.values()].find(({ number }) => number === message.stream);
+        if (stream) Object.assign(stream, message.type === "lost" ? { lost: message } : { form: message }, { frame: undefined });
+        break;
+      }
+      case "answer":
+        this.answers.set(message.request, message);
+        break;
+      case "clock":
+        this.clock = message;
+        this.say({ type: "drawn", frame: message.frame });
+        break;
+    }
+  }
+
+  private change({ element, parameter, value, unsaved, undo, redo }: Changed): void {
+    if (this.document === null) return;
+    const knobs = this.document.knobs.map((knob) => (element === "" && knob.name === parameter ? { ...knob, value: value as number } : knob));
+    const elements = this.document.elements.map((e) => (e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e));
+    this.document = { ...this.document, knobs, elements, unsaved, undo, redo };
+  }
+
+  private takeFrame(frame: Frame): void {
+    const stream = [...this.streams.values()].find(({ number }) => number === frame.stream);
+    if (stream) stream.frame = frame;
+  }
+
+  private tell(): void {
+    for (const look of [...this.waiting]) look();
+  }
+
+  private situation(): string {
+    const seen = [...this.streams].map(([key, { frame, lost }]) => {
+      const values = [...(frame?.values ?? [])];
+      return `${key} ${lost ? lost.problem.what : `${values.length} values, at most ${Math.max(...values)}`}`;
+    });
+    return `Clock: ${JSON.stringify(this.clock)}. Seen: ${seen.join("; ")}.`;
+  }
+}

@@ -1,0 +1,189 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+import type { Locator } from "playwright-core";
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { beside, button, choose, colours, drawn, panel, reopen } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio({ copies: ["examples/selection.json", "examples/node.json", "examples/saliency.json"], file: "selection.json" });
+  observer = await studio.observe();
+});
+
+beforeEach(() => reopen(studio.page, observer, "selection.json"));
+
+afterAll(() => studio.stop());
+
+const plot = (name: string): Locator => studio.page.getByRole("region", { name, exact: true });
+const chart = (name: string, label: string): Locator => plot(name).getByRole("img", { name: label, exact: true });
+const panels = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
+
+async function step(n: number): Promise<void> {
+  await observer.ask({ type: "step", n });
+  await observer.until(() => observer.clock?.tick === n);
+}
+
+test("the first field is plotted from the start, with threshold and resting level", async () => {
+  const { page } = studio;
+  const curves = plot("Curves of u");
+  const drawing = chart("Curves of u", "activation, output of u over x");
+  const before = await drawn(drawing);
+  await step(300);
+  await curves.getByText("Press play to see values").waitFor({ state: "detached" });
+  await expect.poll(() => drawn(drawing)).not.toBe(before);
+  expect(await colours(drawing)).toBeGreaterThan(5);
+  expect(await curves.getByRole("button", { name: "levels" }).getAttribute("aria-pressed")).toBe("true");
+  const width = await drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width);
+  await page.setViewportSize({ width: 1100, height: 700 });
+  await expect.poll(() => drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width)).toBeLessThan(width);
+  await page.setViewportSize({ width: 1280, height: 800 });
+});
+
+test("input, interaction and resting level are curves of their own, chosen one by one", async () => {
+  await step(300);
+  const curves = plot("Curves of u");
+  for (const name of ["input", "interaction"]) {
+    await curves.getByRole("button", { name, exact: true }).click();
+    await expect.poll(() => curves.getByRole("button", { name, exact: true }).getAttribute("aria-pressed")).toBe("true");
+  }
+  const all = chart("Curves of u", "activation, output, input, interaction of u over x");
+  await expect.poll(() => colours(all)).toBeGreaterThan(10);
+  await shot(studio.page, "plot-curves");
+  for (const name of ["output", "levels"]) await curves.getByRole("button", { name, exact: true }).click();
+  await chart("Curves of u", "activation, input, interaction of u over x").waitFor();
+  await observer.until(() => panels().includes('"shown":["activation","input","interaction"]'));
+});
+
+test("the largest value of a field over time", async () => {
+  const { page } = studio;
+  await choose(page, "Menu of this plot", "Time course");
+  const drawing = chart("Time course of u", "max of activation over time");
+  await drawing.waitFor();
+  const before = await drawn(drawing);
+  await button(page, "Play").click();
+  await observer.until(() => observer.max("u", "activation") > 3);
+  await expect.poll(() => drawn(drawing)).not.toBe(before);
+  expect(await colours(drawing)).toBeGreaterThan(5);
+  await button(page, "Pause").click();
+});
+
+test("the time course of a node, and of another element in the same plot", async () => {
+  const { page } = studio;
+  await reopen(page, observer, "node.json");
+  const course = plot("Time course of u");
+  await course.waitFor();
+  await button(page, "Play").click();
+  await observer.until(() => observer.max("u", "activation") > 0);
+  await button(page, "Pause").click();
+  await beside(page, "Settings of this plot", async (settings) => {
+    await settings.getByRole("combobox", { name: "Element of the new curve" }).click();
+    await settings.getByRole("option", { name: "off", exact: true }).click();
+    await settings.getByRole("button", { name: "Add", exact: true }).click();
+    await settings.getByRole("button", { name: "Already in this plot" }).waitFor();
+  });
+  await chart("Time course of u", "activation, off output over time").waitFor();
+  await shot(page, "plot-course");
+});
+
+test("a field over two dimensions is a heat map with a scale; a sensor shows its picture", async () => {
+  const { page } = studio;
+  await reopen(page, observer, "saliency.json");
+  await step(3);
+  const map = plot("Heat map of spatial");
+  await expect.poll(() => colours(map.locator("canvas.plot-heat"))).toBeGreaterThan(5);
+  const bar = map.getByRole("img", { name: "activation of spatial as colours over x and y" });
+  await expect.poll(() => colours(bar)).toBeGreaterThan(50);
+  await map.getByRole("combobox", { name: "Port of spatial" }).selectOption("input");
+  await map.getByRole("img", { name: "input of spatial as colours over x and y" }).waitFor();
+
+  await button(page, "Open panels and plots").click();
+  await page.getByRole("menuitem", { name: "eye", exact: true }).click();
+  const picture = plot("Picture of eye").getByRole("img", { name: "Picture at output of eye" });
+  await expect.poll(() => colours(picture)).toBeGreaterThan(2);
+  await shot(page, "plot-heat");
+});
+
+test("the arrangement of panels is kept when the page is loaded anew, and in the file", async () => {
+  const { page, folder } = studio;
+  const original = readFileSync(join(folder, "selection.json"), "utf8");
+  expect(original).not.toContain("panels");
+  await button(page, "Open panels and plots").click();
+  await page.getByLabel("Find an element to plot").fill("lef");
+  await page.getByRole("menuitem", { name: "left", exact: true }).click();
+  await plot("Curves of left").waitFor();
+  await button(page, "Close Sliders").click();
+  await panel(page, "Sliders").waitFor({ state: "detached" });
+  await observer.until(() => panels().includes(observer.element("left").id) && !panels().includes('"contentComponent":"pins"'));
+  expect(observer.document?.unsaved, "how panels stand is nothing to ask about").toBe(false);
+
+  await page.reload();
+  await plot("Curves of left").waitFor();
+  expect(await panel(page, "Sliders").count()).toBe(0);
+  await observer.ask({ type: "save", path: "arranged.json" });
+  expect(readFileSync(join(folder, "arranged.json"), "utf8")).toContain('"panels"');
+  await reopen(page, observer, "node.json");
+  await plot("Time course of u").waitFor();
+  await reopen(page, observer, "arranged.json");
+  await plot("Curves of left").waitFor();
+  await choose(page, "Open panels and plots", "Sliders");
+  await panel(page, "Sliders").waitFor();
+});
+
+test("a plot is exported as a picture file", async () => {
+  const { page } = studio;
+  await step(300);
+  await plot("Curves of u").getByText("Press play").waitFor({ state: "detached" });
+  const coming = page.waitForEvent("download");
+  await choose(page, "Menu of this plot", "Export PNG");
+  const download = await coming;
+  expect(download.suggestedFilename()).toBe("u.png");
+  const png = readFileSync(await download.path());
+  expect(png.subarray(0, 8).toString("latin1")).toBe("\x89PNG\r\n\x1a\n");
+  const drawn = await plot("Curves of u").locator("canvas").first().boundingBox();
+  const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
+  expect(width).toBeGreaterThanOrEqual(2 * Math.floor(drawn?.width ?? Infinity) - 2);
+  expect(height).toBeGreaterThan(2 * (drawn?.height ?? Infinity) - 2);
+  expect(png.length).toBeGreaterThan(5000);
+});
+
+test("a hand makes a peak while the right button is held, or the key I", async () => {
+  const { page } = studio;
+  for (const path of ["left", "right"]) {
+    await observer.ask({ type: "set", element: observer.element(path).id, parameter: "amplitude", value: 0 });
+  }
+  await observer.ask({ type: "play" });
+  await observer.until(() => observer.max("u", "activation") < 0);
+  const over = plot("Curves of u").locator(".u-over");
+  const place = await over.boundingBox();
+  if (place === null) throw new Error("The plot is not in sight.");
+  await page.mouse.move(place.x + place.width * 0.25, place.y + place.height / 2);
+  await page.mouse.down({ button: "right" });
+  await observer.until(() => observer.max("u", "activation") > 3);
+  expect(Math.abs(observer.peak("u", "activation") - 25)).toBeLessThan(6);
+  await observer.until(() => observer.clock?.pushing === observer.element("u").id);
+  await shot(page, "plot-injection");
+  await page.mouse.up({ button: "right" });
+  await observer.until(() => observer.clock?.pushing === "");
+  await observer.until(() => observer.max("u", "activation") < 0);
+
+  await page.mouse.move(place.x + place.width * 0.75, place.y + place.height / 2);
+  await plot("Curves of u").getByRole("group", { name: "Drawing of u; hold I to inject" }).focus();
+  await page.keyboard.down("i");
+  await observer.until(() => observer.max("u", "activation") > 3);
+  await page.keyboard.up("i");
+  await observer.until(() => observer.clock?.pushing === "");
+  await observer.until(() => observer.max("u", "activation") < 0);
+
+  await page.keyboard.down("Shift");
+  await page.mouse.down({ button: "right" });
+  await observer.until(() => observer.clock?.pushing === observer.element("u").id && observer.max("u", "activation") > 0);
+  await page.mouse.up({ button: "right" });
+  await page.keyboard.up("Shift");
+  await observer.until(() => observer.clock?.pushing === "");
+});

@@ -1,0 +1,150 @@
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { beside, button, select, slider } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio({ copies: ["examples/selection.json"], file: "selection.json" });
+  observer = await studio.observe();
+  await observer.runs();
+});
+
+// Each test begins at the start, standing still, at real time.
+beforeEach(async () => {
+  await observer.ask({ type: "pause" });
+  await observer.ask({ type: "speed", factor: 1 });
+  await observer.ask({ type: "reset" });
+  await observer.until(() => !observer.running && observer.time === 0);
+  await button(studio.page, "Play").waitFor();
+  await expect.poll(said).toMatch(/^0 ms\s+step 0$/);
+});
+
+afterAll(() => studio.stop());
+
+const timer = () => studio.page.getByRole("timer", { name: "Simulated time" });
+const said = () => timer().innerText();
+
+test("play goes on, pause stands still, and time and factor are in sight", async () => {
+  const { page } = studio;
+  await button(page, "Play").click();
+  await button(page, "Pause").waitFor();
+  await observer.until(() => observer.time > 100);
+  await expect.poll(said).toMatch(/^[1-9][\d.\u2009]* m?s\s+step [1-9]/);
+  const factor = page.getByLabel("Speed measured");
+  await expect.poll(() => factor.innerText()).toMatch(/^×(?!0\.00)\d/);
+  await shot(page, "run");
+
+  await button(page, "Pause").click();
+  await button(page, "Play").waitFor();
+  await observer.until(() => !observer.running);
+  await expect.poll(() => factor.innerText()).toMatch(/^×–/);
+  const { time } = observer;
+  // what stands still is shown as often as asked for, and shows the same
+  await observer.ask({ type: "list_folder" });
+  await observer.ask({ type: "list_folder" });
+  expect(observer.time).toBe(time);
+  await expect.poll(async () => (await said()).replaceAll("\u2009", "")).toMatch(new RegExp(`step ${observer.clock?.tick}$`));
+});
+
+test("single steps, and several at a time", async () => {
+  const { page } = studio;
+  await button(page, "Step").click();
+  await observer.until(() => observer.clock?.tick === 1);
+  await page.keyboard.press(".");
+  await observer.until(() => observer.clock?.tick === 2);
+  expect(observer.running).toBe(false);
+
+  await beside(page, "Run settings", (settings) => settings.getByRole("textbox", { name: "Steps at a time" }).fill("50"));
+  await button(page, "50 steps").click();
+  await observer.until(() => observer.clock?.tick === 52);
+  await beside(page, "Run settings", (settings) => settings.getByRole("textbox", { name: "Steps at a time" }).fill("1"));
+  await button(page, "Step").waitFor();
+});
+
+test("reset goes back to the start; another seed is another run, the same seed the same", async () => {
+  const { page } = studio;
+  const run = async (): Promise<number[]> => {
+    await observer.ask({ type: "step", n: 60 });
+    await observer.until(() => observer.clock?.tick === 60 && Math.abs(observer.max("u", "activation")) > 0);
+    await observer.until(() => observer.moment("u", "activation") === 60);
+    return [...observer.values("u", "activation")];
+  };
+  const first = await run();
+  await button(page, "Reset").click();
+  await observer.until(() => observer.time === 0);
+  expect(await run()).toEqual(first);
+
+  await beside(page, "Run settings", async (settings) => {
+    await settings.getByRole("textbox", { name: "Seed of the noise" }).fill("7");
+    await settings.getByText("Takes effect with the next reset.").waitFor();
+    await settings.getByRole("button", { name: "Reset" }).click();
+  });
+  await observer.until(() => observer.clock?.seed === 7 && observer.time === 0);
+  expect(await run()).not.toEqual(first);
+
+  await beside(page, "Run settings", async (settings) => {
+    await settings.getByRole("button", { name: "New seed" }).click();
+    await settings.getByRole("textbox", { name: "Seed of the noise" }).fill("0");
+  });
+  await page.keyboard.press("Shift+R");
+  await observer.until(() => observer.clock?.seed === 0 && observer.time === 0);
+  expect(await run()).toEqual(first);
+});
+
+test("from slow motion to as fast as possible", async () => {
+  const { page } = studio;
+  await beside(page, "Speed: 1×", (speed) => speed.getByRole("slider", { name: "Speed" }).press("Home"));
+  await observer.until(() => observer.clock?.speed === 0.01);
+  await button(page, "Speed: 0.01×").waitFor();
+  await button(page, "Play").click();
+  await observer.until(() => observer.running && observer.time > 0);
+  await beside(page, "Speed: 0.01×", (speed) => speed.getByRole("slider", { name: "Speed" }).press("End"));
+  await observer.until(() => observer.clock?.speed === null);
+  await button(page, "Speed: max").waitFor();
+  const { time } = observer;
+  await observer.until(() => observer.time > time + 1000);
+  await expect.poll(() => page.getByLabel("Speed measured").innerText()).toMatch(/^×(?!0\.00)\d/);
+});
+
+test("another time step belongs to the document and keeps the state", async () => {
+  const { page } = studio;
+  await observer.ask({ type: "step", n: 20 });
+  await observer.until(() => observer.time === 20);
+  await beside(page, "Run settings", async (settings) => {
+    const step = settings.getByRole("textbox", { name: "Time step dt" });
+    await step.fill("0.5");
+    await step.press("Enter");
+    await observer.until(() => observer.clock?.dt === 0.5 && observer.document?.dt === 0.5);
+    expect(observer.time).toBe(20);
+    await step.fill("50");
+    await step.press("Enter");
+    await page.getByRole("region", { name: "Messages" }).getByText("longer than the time constant").waitFor();
+  });
+  await button(page, "Dismiss").click();
+  await observer.ask({ type: "step", n: 2 });
+  await observer.until(() => observer.time === 21);
+  await page.keyboard.press("Control+z");
+  await observer.until(() => observer.clock?.dt === 1 && observer.document?.dt === null);
+});
+
+test("the keys of the run, listed in the help", async () => {
+  const { page } = studio;
+  await page.keyboard.press("?");
+  const help = page.getByRole("dialog", { name: "Keys and mouse" });
+  await help.getByText("Play or pause").waitFor();
+  await shot(page, "help");
+  await page.keyboard.press("Escape");
+  await help.waitFor({ state: "detached" });
+  await page.keyboard.press("Space");
+  await observer.until(() => observer.running && observer.time > 0);
+  await select(page, "u");
+  await slider(page, "tau").focus();
+  await page.keyboard.press("Space");
+  await observer.until(() => !observer.running);
+  await page.keyboard.press("Shift+R");
+  await observer.until(() => observer.time === 0);
+});

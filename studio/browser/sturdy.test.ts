@@ -1,0 +1,134 @@
+import { existsSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+
+import { expect, onTestFinished, test } from "vitest";
+
+import { box, button, choose, drag, number, panel, select, slider, type } from "./hands";
+import { shot, startStudio, type Studio, type StudioOptions } from "./studio";
+
+/** What a browser says of a server that is gone for a while. */
+const GONE = [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/];
+
+const NODE = { axes: [], sigmoid: { kind: "Logistic" }, kernel: [] };
+const RUNAWAY = {
+  deodar: 1,
+  name: "runaway",
+  elements: {
+    calm: { kind: "Field", id: "00000001", ...NODE, tau: 10, resting_level: 0.5 },
+    grow: { kind: "Field", id: "00000002", ...NODE, tau: 1, resting_level: 1, sigmoid: { kind: "Linear" } },
+    gain: { kind: "Gain", id: "00000003", factor: 1e6 },
+  },
+  connections: [
+    { source: "grow.output", target: "gain.input" },
+    { source: "gain.output", target: "grow.input" },
+  ],
+};
+
+async function start(options: StudioOptions = {}): Promise<Studio> {
+  const studio = await startStudio({ copies: ["examples/selection.json"], file: "selection.json", ...options });
+  onTestFinished(studio.stop);
+  return studio;
+}
+
+test("the run goes on without a page, and every page that opens finds it; two pages are in step", async () => {
+  const { page, another, observe } = await start();
+  const observer = await observe();
+  await observer.runs();
+  const second = await another();
+  await select(page, "u");
+  await select(second, "u");
+  await drag(page, slider(page, "resting_level"), 0.6);
+  await observer.until(() => observer.value("u", "resting_level") === 2);
+  await expect.poll(() => number(second, "resting_level").inputValue()).toBe("2");
+  await type(second, "tau", "33");
+  await expect.poll(() => number(page, "tau").inputValue()).toBe("33");
+  await button(second, "Play").click();
+  await button(page, "Pause").waitFor();
+  await button(page, "Undo").click();
+  await expect.poll(() => number(second, "tau").inputValue()).toBe("20");
+
+  await page.close();
+  await second.close();
+  const { time } = observer;
+  await observer.until(() => observer.time > time + 50);
+  const third = await another();
+  await button(third, "Pause").waitFor();
+  await third.getByRole("img", { name: "Unsaved edits" }).waitFor();
+  await select(third, "u");
+  expect(await number(third, "resting_level").inputValue()).toBe("2");
+});
+
+test("a page whose connection is lost says so, comes back by itself, and shows what is true then", async () => {
+  const { page, restart, observe } = await start({ expected: GONE });
+  await select(page, "u");
+  await type(page, "tau", "33");
+  await page.getByRole("img", { name: "Unsaved edits" }).waitFor();
+  const back = restart();
+  await page.getByText("Connection lost, trying again").waitFor();
+  expect(await box(page, "u").count(), "what is there stays to look at").toBe(1);
+  await back;
+  await page.getByText("Connection lost, trying again").waitFor({ state: "detached" });
+  const observer = await observe();
+  await observer.runs();
+  expect(observer.value("u", "tau"), "the file is opened afresh").toBe(20);
+  await select(page, "u");
+  await expect.poll(() => number(page, "tau").inputValue()).toBe("20");
+  await page.getByRole("img", { name: "Unsaved edits" }).waitFor({ state: "detached" });
+  await button(page, "Play").click();
+  await observer.until(() => observer.max("u", "activation") > 3);
+  await page.getByRole("region", { name: "Curves of u" }).getByText("Press play").waitFor({ state: "detached" });
+});
+
+test("edits that no file holds are offered after a crash", async () => {
+  const { page, state, restart, observe } = await start({ expected: GONE });
+  await select(page, "u");
+  await type(page, "tau", "44");
+  await page.getByRole("img", { name: "Unsaved edits" }).waitFor();
+  const kept = join(state, "unsaved");
+  await expect.poll(() => existsSync(kept) && readdirSync(kept).some((name) => name.endsWith(".note"))).toBe(true);
+  await restart("SIGKILL");
+  await page.getByText("Connection lost, trying again").waitFor({ state: "detached" });
+  await choose(page, "File menu", "Examples");
+  const offer = page.getByRole("region", { name: "Unsaved edits of selection" });
+  await offer.getByText("selection.json").waitFor();
+  await shot(page, "recovery");
+  await offer.getByRole("button", { name: "Open" }).click();
+  await page.getByRole("img", { name: "Unsaved edits" }).waitFor();
+  const observer = await observe();
+  await observer.until(() => observer.document !== null && observer.value("u", "tau") === 44);
+  expect(observer.document?.file).toBe("selection.json");
+  await select(page, "u");
+  expect(await number(page, "tau").inputValue()).toBe("44");
+  await page.keyboard.press("Escape");
+  await choose(page, "File menu", /^Save Ctrl/);
+  await page.getByText("Saved as selection.json").waitFor();
+  await expect.poll(() => readdirSync(kept)).toEqual([]);
+});
+
+test("an element that fails stops the run, is named, and leaves the rest intact", async () => {
+  const { page, observe } = await start({ files: { "runaway.json": JSON.stringify(RUNAWAY) }, file: "runaway.json" });
+  const observer = await observe();
+  await observer.runs();
+  await observer.ask({ type: "speed", factor: null });
+  await button(page, "Play").click();
+  const bar = page.getByRole("alert").filter({ hasText: "The run stopped" });
+  await bar.waitFor();
+  expect(await bar.innerText()).toMatch(/grow|gain/);
+  await button(page, "Play").waitFor();
+  const failed = observer.clock?.failure[0]?.element === observer.element("grow").id ? "grow" : "gain";
+  await page.getByRole("img", { name: /^Problem: / }).or(page.getByRole("button", { name: /^gain, .*infinite/ })).first().waitFor();
+  await shot(page, "failure");
+  if (failed === "grow") await select(page, "grow");
+  else await page.getByRole("button", { name: /^gain, / }).click();
+  await panel(page, "Inspector").getByRole("alert").filter({ hasText: "infinite" }).waitFor();
+  await observer.until(() => Number.isFinite(observer.max("calm", "activation")));
+
+  await page.getByRole("button", { name: /^gain, / }).click();
+  await type(page, "factor", "0");
+  await observer.until(() => observer.value("gain", "factor") === 0);
+  await bar.getByRole("button", { name: "Reset" }).click();
+  await bar.waitFor({ state: "detached" });
+  await button(page, "Play").click();
+  await observer.until(() => observer.time > 100);
+  expect(observer.clock?.failure).toEqual([]);
+});
