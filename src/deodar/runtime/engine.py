@@ -29,7 +29,7 @@ from deodar.runtime.trace import Trace, Wish
 from deodar.worlds._base import World
 
 T = TypeVar("T")
-FRAME = 0.016
+FRAME = 0.022
 """Shortest wall time between two shots, in seconds: faster than screens are worth."""
 
 SAMPLES = 4

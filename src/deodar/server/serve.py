@@ -62,7 +62,8 @@ def bind(host: str, port: int | None) -> socket.socket:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     wanted = [port] if port is not None else [*range(PORT, PORT + TRIED), 0]
     for number in wanted:
-        bound = socket.socket(family)
+        # named as TCP, so that the event loop turns off the waiting of small packets for each other: it would cost 40 ms a frame
+        bound = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
         if os.name == "posix":  # a port that was just left; elsewhere this would also take one that is in use
             bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:

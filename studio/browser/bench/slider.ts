@@ -38,7 +38,7 @@ declare global {
 
 function watch({ element, port, clear, former }: { element: string; port: string; clear: number; former: number }): void {
   const { probe } = window;
-  const canvas = document.querySelector(".plot-host canvas") as HTMLCanvasElement;
+  const canvas = document.querySelector(".plot-host > .uplot > .u-wrap > canvas") as HTMLCanvasElement;
   const streams = new Set([...probe.watched].filter(([, wish]) => wish.element === element && wish.port === port && (wish.most ?? 0) > 100).map(([number]) => number));
   const means: number[] = [];
   const answers = { all: [] as number[], calm: () => pressed === null && means.length >= former };
