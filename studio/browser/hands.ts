@@ -79,8 +79,9 @@ export async function drag(page: Page, thumb: Locator, share: number): Promise<v
 /** How many different colours a canvas shows; one is an empty one. */
 export function colours(canvas: Locator): Promise<number> {
   return canvas.evaluate((element) => {
-    const { width, height } = element as HTMLCanvasElement;
-    const data = (element as HTMLCanvasElement).getContext("2d")?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray();
+    const found = (element instanceof HTMLCanvasElement ? element : element.querySelector("canvas")) as HTMLCanvasElement;
+    const { width, height } = found;
+    const data = found.getContext("2d")?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray();
     return new Set(new Uint32Array(data.buffer)).size;
   });
 }

@@ -41,7 +41,7 @@ def test_elements_of_one_structure_are_one_array_of_the_reader() -> None:
     session = dd.Session(model)
     few = look(session.program, [(model["u1"].id, "activation")])
     assert len(few.ports) <= 2, "a field of the ring stands with its kind in one array"
-    assert few.covers([(model["u2"].id, "activation")]) and not few.covers([(model["u2"].id, "output")])
+    assert few.fits([(model["u1"].id, "activation")]) and not few.fits([(model["u2"].id, "output")])
 
 
 def test_what_is_not_there_is_left_out() -> None:

@@ -11,7 +11,7 @@ import dataclasses as dc
 import queue
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, TypeVar
 
@@ -77,7 +77,7 @@ class Engine:
         self._stale = True
         self._shown = 0.0
         self._places: frozenset[Place] = frozenset()
-        self._looks: dict[tuple[Any, frozenset[Place]], Look] = {}
+        self._looks: list[Look] = []
         self._look: Look | None = None
         self._sample: Look | None = None
         self._target: tuple[Model, Document] | None = None
@@ -292,34 +292,31 @@ class Engine:
         if session is None or self._making is not None:
             return
         model, document = self._target or (None, session.document)
-        shown, sampled = self._places, frozenset(wish.place for wish in self.traces)
-        known, program = dict(self._looks), session.program
+        wanted = (self._places, frozenset(wish.place for wish in self.traces))
+        known, program = list(self._looks), session.program
 
-        def make() -> tuple[Any, Look, Look]:
+        def make() -> tuple[Any, list[Look]]:
             made = program
             if model is not None:
                 made = executable(model, document, session.precision)
                 made.chunk(())
-            looks = [known.get((made, places)) or look(made, places) for places in (shown, sampled)]
-            return made, looks[0], looks[1]
+            return made, [_found(known, made, places) or look(made, places) for places in wanted]
 
-        ready = all((program, places) in known for places in (shown, sampled))
-        if model is None and ready:
-            self._look, self._sample = known[program, shown], known[program, sampled]
+        there = [_found(known, program, places) for places in wanted]
+        if model is None and there[0] is not None and there[1] is not None:
+            self._look, self._sample = there[0], there[1]
             return
         self.busy = "compiling" if model is not None else self.busy
         self._making = self._compiler.submit(make)
-        self._making.add_done_callback(lambda future: self._closed or self.call(lambda: self._made(session, document, shown, sampled, future)))
+        self._making.add_done_callback(lambda future: self._closed or self.call(lambda: self._made(session, document, wanted, future)))
 
-    def _made(self, session: Session, document: Document, shown: frozenset[Place], sampled: frozenset[Place], future: Future[Any]) -> None:
+    def _made(self, session: Session, document: Document, wanted: tuple[frozenset[Place], ...], future: Future[Any]) -> None:
         self._making, self.busy, self._stale = None, "", True
         if session is not self.session:
             return self._make()
         try:
-            program, at_shown, at_sampled = future.result()
-            self._looks[program, shown], self._looks[program, sampled] = at_shown, at_sampled
-            while len(self._looks) > MOST_LOOKS:
-                del self._looks[next(iter(self._looks))]
+            program, (at_shown, at_sampled) = future.result()
+            self._looks = [*(known for known in self._looks if known not in (at_shown, at_sampled)), at_shown, at_sampled][-MOST_LOOKS:]
             if document is not session.document and self._target is not None and self._target[1] is document:
                 session.edit(document)
                 self._target = None
@@ -332,7 +329,12 @@ class Engine:
             return None
         if session.program is program:
             self._look, self._sample = at_shown, at_sampled
-        wanted = (self._places, frozenset(wish.place for wish in self.traces))
-        if self._target is not None or wanted != (shown, sampled) or session.program is not program:
+        now = (self._places, frozenset(wish.place for wish in self.traces))
+        if self._target is not None or now != wanted or session.program is not program:
             self._make()
         return None
+
+
+def _found(known: Sequence[Look], program: Any, places: Iterable[Place]) -> Look | None:
+    """A look at these places of a program, and at not much else, if there is one: elements of one structure are seen together anyway."""
+    return next((one for one in known if one.program is program and one.fits(places)), None)

@@ -26,9 +26,9 @@ class Look:
     ports: tuple[Port, ...]
     reader: Any
 
-    def covers(self, places: Iterable[Place]) -> bool:
-        """Whether all these places can be seen with it."""
-        return whole(self.program, places) <= set(self.ports)
+    def fits(self, places: Iterable[Place]) -> bool:
+        """Whether it reads just what these places need."""
+        return whole(self.program, places) == set(self.ports)
 
     def arrays(self, seen: Iterable[Any], places: Iterable[Place]) -> Mapping[Place, np.ndarray]:
         """The arrays of places, out of what the reader gave; places it does not cover are left out."""

@@ -14,8 +14,7 @@ import { Frame } from "./Frame";
 import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
-import { Painter } from "./painter";
-import { PainterContext } from "./PainterContext";
+import { newStudio, PainterContext } from "./PainterContext";
 import { foldedAround, scene, type SceneNode, type Structure } from "./scene";
 import { Search } from "./Search";
 import { useStructure } from "./structure";
@@ -54,10 +53,13 @@ function Canvas({ structure }: { structure: Structure }) {
   const kinds = useStudio((state) => state.kinds);
   const now = useMemo(() => scene(structure, kinds), [structure, kinds]);
   const { nodes, onNodesChange, settle } = useNodes(now);
-  const [painter] = useState(() => new Painter());
+  const [studio] = useState(newStudio);
+  const { painter, layer } = studio;
   const [searching, setSearching] = useState(false);
   const around = useRef<HTMLDivElement>(null);
   const center = useCenter(now);
+  const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
+  useEffect(() => layer.change(), [layer, nodes]);
   const flow = useReactFlow();
   const touched = useWhole(around);
 
@@ -86,13 +88,14 @@ function Canvas({ structure }: { structure: Structure }) {
     (moving: boolean) => {
       useHover.getState().close();
       painter.hold(moving);
+      layer.move(moving ? flow.getViewport() : null);
       around.current?.toggleAttribute("data-moving", moving);
     },
-    [painter],
+    [painter, layer, flow],
   );
 
   return (
-    <PainterContext value={painter}>
+    <PainterContext value={studio}>
       <div className="graph" ref={around} onPointerDownCapture={touched} onWheelCapture={touched} onKeyDownCapture={touched}>
         <ReactFlow<SceneNode, Edge>
           nodes={nodes}
@@ -107,6 +110,8 @@ function Canvas({ structure }: { structure: Structure }) {
           onNodeDoubleClick={(_, node) => node.type === "box" && openPlot({ element: node.id })}
           onPaneClick={() => useStudio.getState().select([])}
           onMoveStart={() => move(true)}
+          onMove={(_, view) => layer.move(view)}
+          onNodeDrag={() => layer.change()}
           onMoveEnd={() => move(false)}
           onlyRenderVisibleElements
           nodesConnectable={false}
@@ -122,6 +127,7 @@ function Canvas({ structure }: { structure: Structure }) {
           fitViewOptions={FIT}
         >
           {nodes.length <= MOST_DOTTED && <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />}
+          <canvas ref={shown} className="graph-live-layer" aria-hidden />
           <MiniMap style={MAP} pannable zoomable ariaLabel="Overview of the canvas" nodeStrokeWidth={0} nodeBorderRadius={4} nodeClassName={miniClass} />
         </ReactFlow>
         <Controls onSearch={() => setSearching(true)} onTidy={() => void tidy()} />

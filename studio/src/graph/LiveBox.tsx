@@ -1,4 +1,4 @@
-// The live picture of an element: a canvas that is drawn past React. It asks for data only while it is mounted, which is while it is in sight.
+// The live picture of an element, drawn past React and shown by the live layer. It asks for data only while it is mounted, which is while it is in sight.
 
 import { useComputedColorScheme } from "@mantine/core";
 import { useContext, useEffect, useRef } from "react";
@@ -13,17 +13,20 @@ const MOST = 64;
 type Props = { element: string; port: string; label: string; width: number; height: number };
 
 export function LiveBox({ element, port, label, width, height }: Props) {
-  const painter = useContext(PainterContext);
+  const { painter, layer } = useContext(PainterContext);
   const ref = useRef<HTMLCanvasElement>(null);
+  const slot = useRef<HTMLDivElement>(null);
   const colorScheme = useComputedColorScheme();
 
   useEffect(() => {
-    if (ref.current === null) {
+    const [place, picture] = [slot.current, ref.current];
+    if (place === null || picture === null) {
       return;
     }
-    const canvas: Canvas = { element: ref.current, width, height, span: null, port };
+    layer.add(place, picture);
+    const canvas: Canvas = { element: picture, width, height, span: null, port };
     let form: Live["form"] = null;
-    ref.current.getContext("2d", { willReadFrequently: true });
+    picture.getContext("2d", { willReadFrequently: true });
     clear(canvas);
     const leave = socket.streams.subscribe({ type: "watch", element, port, most: MOST }, (live) => {
       if (live.form !== form) {
@@ -35,8 +38,13 @@ export function LiveBox({ element, port, label, width, height }: Props) {
     return () => {
       leave();
       painter.forget(canvas);
+      layer.remove(place);
     };
-  }, [painter, element, port, width, height, colorScheme]);
+  }, [painter, layer, element, port, width, height, colorScheme]);
 
-  return <canvas ref={ref} className="graph-live" role="img" aria-label={label} style={{ width, height }} />;
+  return (
+    <div ref={slot} className="graph-live" role="img" aria-label={label} style={{ width, height }}>
+      <canvas ref={ref} hidden />
+    </div>
+  );
 }

@@ -17,6 +17,9 @@ export class Painter {
   private share = 8;
   private last = 0;
 
+  // `after` runs when something was drawn.
+  constructor(private after: () => void = () => undefined) {}
+
   // Draw when there is time; a later wish of the same owner takes the place of the former.
   wish(owner: object, draw: Draw): void {
     this.waiting.set(owner, draw);
@@ -58,6 +61,7 @@ export class Painter {
         break;
       }
     }
+    this.after();
     this.ask();
   }
 

@@ -1,0 +1,96 @@
+// All live pictures on one canvas over the boxes: a browser pays for every canvas that it puts on the page, and hundreds of small ones cost
+// more than one large one. Each box draws its picture on a canvas of its own that is not on the page; here they are copied to where the boxes stand.
+
+import type { Viewport } from "@xyflow/react";
+
+// Without a further move for so long the view stands still, whether its end was told or not.
+const STILL_MS = 400;
+
+export class LiveLayer {
+  private pictures = new Map<HTMLElement, HTMLCanvasElement>();
+  private canvas: HTMLCanvasElement | null = null;
+  private asked = false;
+  private from: Viewport | null = null;
+  private still = 0;
+
+  // The canvas that shows them; what is returned takes it away.
+  attach(canvas: HTMLCanvasElement): () => void {
+    const observer = new ResizeObserver(() => this.change());
+    observer.observe(canvas);
+    this.canvas = canvas;
+    return () => {
+      observer.disconnect();
+      this.canvas = null;
+    };
+  }
+
+  add(slot: HTMLElement, picture: HTMLCanvasElement): void {
+    this.pictures.set(slot, picture);
+    this.change();
+  }
+
+  remove(slot: HTMLElement): void {
+    this.pictures.delete(slot);
+    this.change();
+  }
+
+  // Something moved or was drawn: show it with the browser's next picture.
+  change(): void {
+    if (!this.asked) {
+      this.asked = true;
+      requestAnimationFrame(() => {
+        this.asked = false;
+        this.paint();
+      });
+    }
+  }
+
+  // While the view is moved the layer moves with it as it is, which costs a browser nothing; null: it stands still, and is painted anew.
+  move(view: Viewport | null): void {
+    if (this.canvas === null) {
+      return;
+    }
+    window.clearTimeout(this.still);
+    if (view === null) {
+      this.from = null;
+      this.canvas.style.transform = "";
+      this.change();
+      return;
+    }
+    this.still = window.setTimeout(() => this.move(null), STILL_MS);
+    this.from ??= view;
+    const scale = view.zoom / this.from.zoom;
+    this.canvas.style.transform = `translate(${view.x - this.from.x * scale}px, ${view.y - this.from.y * scale}px) scale(${scale})`;
+  }
+
+  // Show everything now, unless the view is being moved.
+  paint(): void {
+    if (this.from !== null) {
+      return;
+    }
+    const base = this.canvas?.getBoundingClientRect();
+    if (this.canvas === null || base === undefined || base.width === 0) {
+      return;
+    }
+    const ratio = Math.min(2, window.devicePixelRatio);
+    const [width, height] = [Math.round(base.width * ratio), Math.round(base.height * ratio)];
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      Object.assign(this.canvas, { width, height });
+    }
+    const ctx = this.canvas.getContext("2d", { willReadFrequently: true });
+    if (ctx === null) {
+      return;
+    }
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.clearRect(0, 0, base.width, base.height);
+    for (const [slot, picture] of this.pictures) {
+      const at = slot.getBoundingClientRect();
+      if (at.right > base.left && at.left < base.right && at.bottom > base.top && at.top < base.bottom && picture.width > 0) {
+        const whole = picture.style.objectFit === "contain" ? Math.min(at.width / picture.width, at.height / picture.height) : 0;
+        const [w, h] = whole > 0 ? [picture.width * whole, picture.height * whole] : [at.width, at.height];
+        ctx.imageSmoothingEnabled = picture.style.imageRendering !== "pixelated";
+        ctx.drawImage(picture, at.left - base.left + (at.width - w) / 2, at.top - base.top + (at.height - h) / 2, w, h);
+      }
+    }
+  }
+}
