@@ -66,8 +66,10 @@ function TimeStep() {
   const [value, setValue] = useState<number | string>(dt);
   const asked = useRef(dt);
   useEffect(() => {
+    // What was typed since stays: the person is ahead of the answer.
+    const known = asked.current;
+    setValue((now) => (now === known ? dt : now));
     asked.current = dt;
-    setValue(dt);
   }, [dt]);
   const send = async () => {
     if (typeof value !== "number") {
@@ -85,7 +87,7 @@ function TimeStep() {
     <div>
       <NumberInput label="Time step dt" size="xs" value={value} onChange={setValue} onBlur={() => void send()} min={0} hideControls
         onKeyDown={(event) => event.key === "Enter" && void send()} suffix={unit === "" ? "" : ` ${unit}`} />
-      <Hint>Small beside every time constant. Compiles anew; the state is kept.</Hint>
+      <Hint>Small beside every time constant. The state is kept.</Hint>
     </div>
   );
 }
