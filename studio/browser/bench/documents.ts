@@ -8,7 +8,7 @@ const CURVE = {
   tau: 20,
   resting_level: -5,
   sigmoid: { kind: "Logistic", beta: 4, threshold: 0 },
-  kernel: [{ kind: "Gaussian", amplitude: 12, sigma: 5 }],
+  kernel: [{ kind: "Gaussian", amplitude: 12, sigma: 5, normalized: true }],
   global_inhibition: 0.6,
   noise: 1,
 };
@@ -16,7 +16,7 @@ const MAP = {
   ...CURVE,
   axes: ["wide", "high"],
   tau: 50,
-  kernel: [{ kind: "Gaussian", amplitude: 12, sigma: 8 }],
+  kernel: [{ kind: "Gaussian", amplitude: 12, sigma: 8, normalized: true }],
   global_inhibition: 0.0005,
   noise: 2,
 };

@@ -23,7 +23,7 @@ async function run(page: Page, milliseconds: number): Promise<void> {
     .poll(async () => tick(page), { ...PATIENCE, interval: 100 })
     .toBeGreaterThan(milliseconds);
   await page.getByRole("button", { name: /^pause/i }).click();
-  await page.mouse.move(300, 20);
+  await page.mouse.move(3, 400);
   await page.waitForTimeout(500); // the last frames are drawn
 }
 
@@ -34,7 +34,7 @@ async function tick(page: Page): Promise<number> {
 
 async function select(page: Page, name: string): Promise<void> {
   await page.locator(".react-flow__node", { hasText: name }).first().click();
-  await page.mouse.move(300, 20);
+  await page.mouse.move(3, 400);
   await page.waitForTimeout(500); // the hover card goes
 }
 

@@ -14,7 +14,7 @@ import { Frame } from "./Frame";
 import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
-import { newStudio, PainterContext } from "./PainterContext";
+import { newPainting, PainterContext } from "./PainterContext";
 import { foldedAround, scene, type SceneNode, type Structure } from "./scene";
 import { Search } from "./Search";
 import { useStructure } from "./structure";
@@ -53,8 +53,8 @@ function Canvas({ structure }: { structure: Structure }) {
   const kinds = useStudio((state) => state.kinds);
   const now = useMemo(() => scene(structure, kinds), [structure, kinds]);
   const { nodes, onNodesChange, settle } = useNodes(now);
-  const [studio] = useState(newStudio);
-  const { painter, layer } = studio;
+  const [painting] = useState(newPainting);
+  const { painter, layer } = painting;
   const [searching, setSearching] = useState(false);
   const around = useRef<HTMLDivElement>(null);
   const center = useCenter(now);
@@ -95,7 +95,7 @@ function Canvas({ structure }: { structure: Structure }) {
   );
 
   return (
-    <PainterContext value={studio}>
+    <PainterContext value={painting}>
       <div className="graph" ref={around} onPointerDownCapture={touched} onWheelCapture={touched} onKeyDownCapture={touched}>
         <ReactFlow<SceneNode, Edge>
           nodes={nodes}

@@ -4,11 +4,11 @@ import { createContext } from "react";
 import { LiveLayer } from "./liveLayer";
 import { Painter } from "./painter";
 
-export type Studio = { painter: Painter; layer: LiveLayer };
+export type Painting = { painter: Painter; layer: LiveLayer };
 
-export function newStudio(): Studio {
+export function newPainting(): Painting {
   const layer = new LiveLayer();
   return { painter: new Painter(() => layer.paint()), layer };
 }
 
-export const PainterContext = createContext(newStudio());
+export const PainterContext = createContext(newPainting());

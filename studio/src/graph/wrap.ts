@@ -2,7 +2,7 @@
 
 import type { Point, Size } from "./layout";
 
-const WIDEST = 4.5;
+const WIDEST = 6.5;
 // What lines together aim at: the shape of the canvas.
 const SHAPE = 2.2;
 const BETWEEN_LINES = 72;

@@ -1,0 +1,72 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { LiveLayer } from "./liveLayer";
+
+type Drawn = [picture: unknown, x: number, y: number, width: number, height: number];
+
+let frames: (() => void)[] = [];
+const next = () => frames.splice(0).forEach((frame) => frame());
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("window", { devicePixelRatio: 1, setTimeout, clearTimeout });
+  vi.stubGlobal("requestAnimationFrame", (frame: () => void) => frames.push(frame));
+  vi.stubGlobal("ResizeObserver", class { observe() {} disconnect() {} });
+});
+afterEach(() => {
+  frames = [];
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+const rect = (left: number, top: number, width: number, height: number) => ({ left, top, width, height, right: left + width, bottom: top + height });
+const slot = (left: number, top: number) => ({ getBoundingClientRect: () => rect(left, top, 100, 50) }) as unknown as HTMLElement;
+const picture = (style = {}) => ({ width: 100, height: 100, style }) as unknown as HTMLCanvasElement;
+
+function stage() {
+  const drawn: Drawn[] = [];
+  const ctx = { setTransform: () => {}, clearRect: () => drawn.splice(0), drawImage: (...given: Drawn) => drawn.push(given), imageSmoothingEnabled: true };
+  const canvas = { width: 0, height: 0, style: { transform: "" }, getBoundingClientRect: () => rect(10, 20, 400, 300), getContext: () => ctx };
+  const layer = new LiveLayer();
+  layer.attach(canvas as unknown as HTMLCanvasElement);
+  return { layer, canvas, drawn };
+}
+
+test("pictures are shown where their boxes stand, those out of sight are not", () => {
+  const { layer, canvas, drawn } = stage();
+  const near = picture();
+  layer.add(slot(110, 70), near);
+  layer.add(slot(900, 70), picture());
+  next();
+  expect(drawn).toEqual([[near, 100, 50, 100, 50]]);
+  expect([canvas.width, canvas.height]).toEqual([400, 300]);
+});
+
+test("a picture that keeps its shape stands in the middle", () => {
+  const { layer, drawn } = stage();
+  layer.add(slot(10, 20), picture({ objectFit: "contain" }));
+  next();
+  expect(drawn[0]?.slice(1)).toEqual([25, 0, 50, 50]);
+});
+
+test("who left is not shown", () => {
+  const { layer, drawn } = stage();
+  const place = slot(110, 70);
+  layer.add(place, picture());
+  layer.remove(place);
+  next();
+  expect(drawn).toEqual([]);
+});
+
+test("while the view is moved the layer moves as it is, and is painted anew when it stands still", () => {
+  const { layer, canvas, drawn } = stage();
+  layer.add(slot(110, 70), picture());
+  layer.move({ x: 0, y: 0, zoom: 1 });
+  layer.move({ x: 30, y: -10, zoom: 2 });
+  next();
+  expect(drawn).toEqual([]);
+  expect(canvas.style.transform).toBe("translate(30px, -10px) scale(2)");
+  vi.runAllTimers(); // nobody said that it ended
+  next();
+  expect(canvas.style.transform).toBe("");
+  expect(drawn).toHaveLength(1);
+});
