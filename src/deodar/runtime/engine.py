@@ -255,6 +255,12 @@ class Engine:
                 axes = session.program.axes(session.program.port(*wish.place))
                 trace.add(session.time, wish.value(arrays[wish.place], axes))
 
+    def _take_first(self, session: Session) -> None:
+        """A time course that has just been asked for begins with what is there now, also while time stands still."""
+        if any(trace.count == 0 for trace in self.traces.values()):
+            self._take_samples(session)
+            self._stale = True
+
     def _with_hand(self, arrays: Mapping[Place, np.ndarray], session: Session) -> Mapping[Place, np.ndarray]:
         """What a hand brings is part of the input that is shown."""
         entry = session.document.by_id().get(self.hand.element) if self.hand is not None else None
@@ -305,6 +311,7 @@ class Engine:
         there = [_found(known, program, places) for places in wanted]
         if model is None and there[0] is not None and there[1] is not None:
             self._look, self._sample = there[0], there[1]
+            self._take_first(session)
             return
         self.busy = "compiling" if model is not None else self.busy
         self._making = self._compiler.submit(make)
@@ -329,6 +336,7 @@ class Engine:
             return None
         if session.program is program:
             self._look, self._sample = at_shown, at_sampled
+            self._take_first(session)
         now = (self._places, frozenset(wish.place for wish in self.traces))
         if self._target is not None or now != wanted or session.program is not program:
             self._make()

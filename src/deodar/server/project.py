@@ -264,6 +264,11 @@ class Project:
         """Change general properties."""
         await self.change(lambda doc: edit.describe(doc, **values))
 
+    def require_run(self) -> None:
+        """Refuse to run what does not run and is not being made."""
+        if self.engine.session is None and not self.busy:
+            raise DocumentError(self.failure or [Wrong("", "no document is open")])
+
     async def embody(self, world: World) -> None:
         """Let the sensors read another world; where there is none to read, it waits for a document that senses."""
         model, session = self._require(), self.engine.session

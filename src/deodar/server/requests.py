@@ -128,6 +128,7 @@ async def _engine(page: Connection, function: Callable[[], Any]) -> None:
 
 
 async def _play(page: Connection, m: to_server.Play) -> None:
+    page.hub.project.require_run()
     await _engine(page, lambda: page.hub.engine.play(True))
 
 
@@ -136,6 +137,7 @@ async def _pause(page: Connection, m: to_server.Pause) -> None:
 
 
 async def _step(page: Connection, m: to_server.Step) -> None:
+    page.hub.project.require_run()
     await _engine(page, lambda: page.hub.engine.step(m.n))
 
 
