@@ -6,7 +6,9 @@ import asyncio
 import contextlib
 import json
 import shutil
+import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ import websockets
 
 import deodar as dd
 from deodar.numerics.sigmoids.linear import Linear
+from deodar.runtime import engine
 from tests.server.page import Page, page, play, studio
 
 
@@ -254,6 +257,24 @@ def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
         await p.until(lambda: p.clock["tick"] == 50 and not p.clock["failure"])
 
     with studio(root, root / "runaway.json") as address:
+        play(address, scene)
+
+
+def test_what_is_compiled_late_is_shown_when_it_is_there(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = engine.look
+
+    def slowly(*what: Any) -> Any:
+        time.sleep(0.3)
+        return made(*what)
+
+    monkeypatch.setattr(engine, "look", slowly)
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.until(lambda: 1 in p.frames)
+
+    with studio(root, root / "selection.json") as address:
         play(address, scene)
 
 

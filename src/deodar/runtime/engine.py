@@ -274,13 +274,14 @@ class Engine:
         now = time.perf_counter()
         if not (self._stale and self._wanted) or now - self._shown < FRAME:
             return
+        self._stale, self._wanted = False, False  # before the shot is there: who has seen it may want the next one at once
         session, seen = self.session, self._look
         arrays: Mapping[Place, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
             arrays = self._with_hand(session.look(seen, self._places), session)
         moment = (session.time, session.tick) if session is not None else (0.0, 0)
         self.shot = Shot(self.shot.number + 1, *moment, arrays)
-        self._stale, self._wanted, self._shown = False, False, now
+        self._shown = now
         self._changed()
 
     def _fail(self, error: Exception) -> None:

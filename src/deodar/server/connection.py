@@ -170,6 +170,8 @@ class Connection:
             self._exchange += 1
             self._ready = False
             await self._text(msgspec.structs.replace(clock, frame=self._exchange))
+        else:
+            engine.want()  # the last shot held nothing for this page, and it is still waiting for one that does
 
     def _news_of_state(self) -> list[ToPage]:
         project = self.hub.project
