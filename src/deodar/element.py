@@ -14,16 +14,24 @@ The laws that an element may rely on:
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, ClassVar, Self
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import jax.numpy as jnp
 
 from deodar.errors import ModelError
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.choice import Choice
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.waves import Waves
 from deodar.parameters import Part, Recompile
 
 Arrays = dict[str, Any]
+WAVES = "~"
+"""Ends the name of a port that holds as waves what the port without it holds; of an input, only what comes as waves."""
+
+REST = "-"
+"""Ends the name of a port that holds what does not come as waves."""
 
 
 @dc.dataclass(frozen=True)
@@ -50,15 +58,25 @@ class Time:
 
 @dc.dataclass(frozen=True)
 class Setting:
-    """Where an element stands: the axes at its ports, the precision of the model, the element's bucket (None: results are to be exact), and how
-    many copies of it run at once.
+    """Where an element stands: the axes at its ports, the precision of the model, and how it applies its kernels.
+
+    Attributes:
+        ins, outs: axes of the ports.
+        dtype: working precision.
+        choices: for each kind of boundaries how kernels are applied, where not by matrices.
+        shared: the kind of boundaries whose waves it shares with others (it then has ports ending in `WAVES` and `REST`), or "".
     """
 
     ins: Mapping[str, Axes]
     outs: Mapping[str, Axes]
     dtype: Any
-    bucket: Any = None
-    copies: int = 1
+    choices: Mapping[str, Choice] = dc.field(default_factory=dict)
+    shared: str = ""
+
+    @property
+    def waves(self) -> Sequence[Waves]:
+        """The waves that are shared."""
+        return self.choices[self.shared].waves
 
     def full(self, axes: Axes, value: Any) -> Any:
         """An array over the axes, filled with one value."""
@@ -82,6 +100,8 @@ class Element(Part):
         direct: for each output port that passes inputs on in the same instant, which; ports not named show the state.
         stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
         linear: whether the default output is linear in the one input.
+        sharing: how its `input` and `output` take part where couplings are added up as waves: they are the `ends` of it (what comes as waves is
+            taken back, and what goes is also given as waves), it `filters` (a kernel is applied to waves too), or it `scales`.
         levels: for a port, the parameters that are levels on its scale, by what they are called: drawn as lines in plots.
     """
 
@@ -91,6 +111,7 @@ class Element(Part):
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     stateful: ClassVar[bool] = False
     linear: ClassVar[bool] = False
+    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
 
     def __rshift__(self, other: object) -> Any:
@@ -133,6 +154,10 @@ class Element(Part):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         """What does not fit between the parameters and the axes at the ports, with what to type if it is not another connection."""
         return iter(())
+
+    def kernels(self) -> Sequence[Kernel]:
+        """The kernels it convolves with, whose way of being applied is chosen before it is compiled."""
+        return ()
 
     # -------------------------------------------------------------------------------- in the compiled program
 

@@ -69,7 +69,7 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
 
     Leaves named in `neutral` are left out of the program, which is a structure of its own.
     """
-    out: list[Any] = [type(part).__qualname__, part.bucket()]
+    out: list[Any] = [type(part).__qualname__]
     for p in parameters(type(part)):
         value, path = getattr(part, p.name), prefix + p.name
         if p.name == "name" or value is None:

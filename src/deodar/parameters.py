@@ -19,7 +19,7 @@ import math
 import numbers
 import types
 import typing
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -140,7 +140,9 @@ class Part:
         problems: list[Problem] = []
         for p in parameters(type(self)):
             try:
-                object.__setattr__(self, p.name, normal(p, getattr(self, p.name)))
+                stored = normal(p, given := getattr(self, p.name))
+                if not _same(stored, given):  # what is stored stays the same object, by which a change is told quickly
+                    object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
         if not problems:
@@ -159,10 +161,6 @@ class Part:
     def accept(cls, value: Any) -> Any:
         """What may stand for an instance, made into one: for parts with a short way of writing them."""
         return value
-
-    def bucket(self) -> Hashable:
-        """What a compiled program takes from the values of parameters that rebuild: as long as it stays equal, they may change."""
-        return None
 
     @classmethod
     def example(cls) -> Part:
@@ -247,6 +245,11 @@ def normal(p: Parameter, value: Any) -> Any:
     if value is None and not p.optional:
         raise ValueError("needs a value")
     return None if value is None else _NORMAL[p.form](p, value)
+
+
+def _same(a: Any, b: Any) -> bool:
+    """Whether two values in stored form are made of the same objects."""
+    return a is b or (type(a) is type(b) is tuple and len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True)))
 
 
 def real(value: Any) -> float | None:

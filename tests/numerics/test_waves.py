@@ -27,9 +27,9 @@ def test_all_waves_together_are_a_basis(boundary: str, samples: int) -> None:
     np.testing.assert_allclose(table @ table.T, np.eye(samples), atol=1e-12)
 
 
-def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, found: object) -> np.ndarray:
+def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, planned: bool) -> np.ndarray:
     with jax.enable_x64(True):
-        chosen = interaction.choices(kernels, axes, found)
+        chosen = interaction.choices(kernels, axes) if planned else {}
         mixture = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), chosen))
         return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), chosen))
 
@@ -42,11 +42,10 @@ def test_every_way_gives_what_matrices_give(first: str, second: str, way: str, m
         return  # a mirror is never transformed so
     axes = (Axis("x", 0, 39, 40), Axis("y", -1, 1, 33))
     kernels = [dd.Gaussian(7, (3.0, 0.2), boundary=[first, second]), dd.Gaussian(-4, (5.0, 0.3), boundary=[first, second], normalized=True)]
-    found = tuple((tuple(bucket(w) for w in k.sigma),) for k in kernels)  # type: ignore[union-attr]
     monkeypatch.setattr(interaction, "choose", lambda *given: Choice(way, choose_waves(*given)))
     y = np.random.default_rng(1).random((40, 33))
-    total = np.abs(applied(kernels, axes, np.ones((40, 33)), None)).max()
-    difference = applied(kernels, axes, y, found) - applied(kernels, axes, y, None)
+    total = np.abs(applied(kernels, axes, np.ones((40, 33)), False)).max()
+    difference = applied(kernels, axes, y, True) - applied(kernels, axes, y, False)
     assert np.abs(difference).max() < 1e-4 * total
 
 
@@ -60,11 +59,10 @@ def choose_waves(axes: tuple[Axis, ...], boundaries: tuple[str, ...], widths: tu
 def test_taps_give_what_a_matrix_gives(boundary: str) -> None:
     axes = (Axis("x", 0, 199, 200),)
     kernels = [dd.Gaussian(7, 3.0, boundary=[boundary]), dd.Gaussian(-4, 6.0, boundary=[boundary], normalized=True)]
-    found = interaction.buckets(kernels, axes)
-    assert [c.way for c in interaction.choices(kernels, axes, found).values()] == ["taps"]
+    assert [c.way for c in interaction.choices(kernels, axes).values()] == ["taps"]
     y = np.random.default_rng(1).random(200)
-    total = np.abs(applied(kernels, axes, np.ones(200), None)).max()
-    assert np.abs(applied(kernels, axes, y, found) - applied(kernels, axes, y, None)).max() < 1e-5 * total
+    total = np.abs(applied(kernels, axes, np.ones(200), False)).max()
+    assert np.abs(applied(kernels, axes, y, True) - applied(kernels, axes, y, False)).max() < 1e-5 * total
 
 
 def test_buckets_hold_their_widths() -> None:
@@ -101,7 +99,7 @@ def test_default_plans_stay_near_exact_ones() -> None:
     """1e-4 in activation after 400 steps without noise, with peaks at the borders."""
     made = model()
     field = made["u"].element
-    assert interaction.choices(field.kernel, tuple(field.axes), field.bucket()), "something is planned here"
+    assert interaction.choices(field.kernel, tuple(field.axes)), "something is planned here"
     exact = dd.simulate(made, 400, precision="float64")["u.activation"].values
     default = dd.simulate(made, 400)["u.activation"].values
     assert exact.max() > 3 and np.abs(default - exact).max() < 1e-4

@@ -30,13 +30,13 @@ def folder() -> Path | None:
     return Path(given) if given else Path(platformdirs.user_cache_dir("deodar")) / "programs"
 
 
-def compile(lowered: Any, options: dict[str, Any] | None = None) -> tuple[Any, bool]:
-    """The executable of a lowered program, and whether it had to be compiled."""
+def compile(lowered: Any, options: dict[str, Any] | None, device: Any) -> tuple[Any, bool]:
+    """The executable of a program lowered for a device, and whether it had to be compiled."""
     place = folder()
     if place is None:
         return lowered.compile(compiler_options=options), True
-    path = place / key(lowered, options)
-    found = _read(path, lowered)
+    path = place / key(lowered, options, device)
+    found = _read(path, lowered, device)
     if found is not None:
         return found, False
     compiled = lowered.compile(compiler_options=options)
@@ -44,10 +44,9 @@ def compile(lowered: Any, options: dict[str, Any] | None = None) -> tuple[Any, b
     return compiled, True
 
 
-def key(lowered: Any, options: dict[str, Any] | None = None) -> str:
-    """Name of the file of a program: equal programs on equal machines with equal versions share it."""
-    device = jax.devices()[0]
-    about = [jax.__version__, jaxlib.version.__version__, device.platform, device.device_kind, platform.machine(), _processor()]
+def key(lowered: Any, options: dict[str, Any] | None, device: Any) -> str:
+    """Name of the file of a program: equal programs on equal devices with equal versions share it."""
+    about = [jax.__version__, jaxlib.version.__version__, device.platform, device.device_kind, str(device.id), platform.machine(), _processor()]
     about += [os.environ.get("XLA_FLAGS", ""), os.environ.get("NPROC", ""), str(os.cpu_count()), repr(options), str(lowered.in_tree)]
     # an argument that is not used is missing in the text of the program, and is checked all the same when it is called
     about.append(repr(lowered.args_info))
@@ -55,9 +54,9 @@ def key(lowered: Any, options: dict[str, Any] | None = None) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 
 
-def options() -> dict[str, Any] | None:
-    """Options for compiling on this machine: the processor's widest vectors, where XLA would take half (elementwise work is 25 to 30 % faster)."""
-    wide = jax.devices()[0].platform == "cpu" and "avx512f" in _processor().split()
+def options(device: Any) -> dict[str, Any] | None:
+    """Options for compiling: the processor's widest vectors, where XLA would take half (elementwise work is 25 to 30 % faster)."""
+    wide = device.platform == "cpu" and "avx512f" in _processor().split()
     return {"xla_cpu_prefer_vector_width": "512"} if wide else None
 
 
@@ -70,12 +69,12 @@ def _processor() -> str:
     return platform.processor()
 
 
-def _read(path: Path, lowered: Any) -> Any:
+def _read(path: Path, lowered: Any, device: Any) -> Any:
     try:
         payload = path.read_bytes()
         with contextlib.suppress(OSError):
             os.utime(path)  # used now: the longest unused go first
-        return serialize_executable.deserialize_and_load(payload, lowered.in_tree, lowered.out_tree)
+        return serialize_executable.deserialize_and_load(payload, lowered.in_tree, lowered.out_tree, device.client, [device])
     except FileNotFoundError:
         return None
     except Exception:  # a damaged file, or one of another build: it is compiled anew and replaced

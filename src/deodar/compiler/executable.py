@@ -17,7 +17,8 @@ import numpy as np
 from jax import lax
 
 from deodar.compiler import cache
-from deodar.compiler.plan import Leaf, Plan, plan
+from deodar.compiler import device as devices
+from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Port, Program, array_key, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
 from deodar.leaves import leaves, resting, structure
@@ -64,25 +65,28 @@ class Executable:
 
     Attributes:
         plan: the plan they compute.
+        device: where they run.
         traced: how many functions were traced so far; running does not change it.
         compiled: how many of them were not found in the cache.
         seconds: CPU time spent on planning, tracing and compiling.
     """
 
-    def __init__(self, doc: Document, precision: str, batch: Batch, sweep: Sequence[Sequence[Leaf]]) -> None:
+    def __init__(self, doc: Document, precision: str, batch: Batch, sweep: Sequence[Sequence[Leaf]], device: Any = None) -> None:
         began = time.process_time()
+        self.device: Any = device or devices.find()
         self.precision = precision
         self.batch = batch
         self.sweep = tuple(tuple(s) for s in sweep)
-        self.plan: Plan = plan(doc, frozenset(leaf for leafs in self.sweep for leaf in leafs))
-        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep], batch.size)
+        lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
+        self.plan: Plan = plan(doc, lifted, precision == "float64", batch.size)
+        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep])
         self.traced = 0
         self.compiled = 0
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
         values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.trials or 1, np.uint32)
-        self._prepare, constants = self._compile(self.program.prepare, values)
-        self._init, (state, keys) = self._compile(self._start, values, seed, trials)
+        self._prepare, constants = self.compile(self.program.prepare, values)
+        self._init, (state, keys) = self.compile(self._start, values, seed, trials)
         zero, count = np.zeros((), self.program.dtype), np.int32(0)
         clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero}
         counts = {"head": count, "every": count, "records": count}
@@ -136,7 +140,7 @@ class Executable:
         key = ("chunk", tuple(ports))
         if key not in self._known:
             capacity = self.capacity(ports)
-            chunk, _ = self._compile(lambda *a: self._chunk(ports, capacity, *a), *self._example)
+            chunk, _ = self.compile(lambda *a: self._chunk(ports, capacity, *a), *self._example)
             self._known[key] = (chunk, capacity)
         return self._known[key]
 
@@ -149,7 +153,7 @@ class Executable:
 
     def new_reader(self, ports: Sequence[Port]) -> Any:
         """The same, for a caller that keeps it itself."""
-        return self._compile(lambda *a: self._read(ports, *a), *self._example[:-1])[0]
+        return self.compile(lambda *a: self._read(ports, *a), *self._example[:-1])[0]
 
     def call(self, executable: Any, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
@@ -223,20 +227,28 @@ class Executable:
         constants = program.settle(values, constants)
         still = program.steady(values, constants, sensed)
         head, every, records = counts["head"], counts["every"], counts["records"]
+        leaves_of, tree = jax.tree.flatten(state)
+        shapes = [leaf.shape for leaf in leaves_of]
+
+        def full(flat: Tree) -> Tree:
+            return jax.tree.unflatten(tree, [a.reshape(s) for a, s in zip(jax.tree.leaves(flat), shapes, strict=True)])
+
+        def flat(state: Tree) -> Tree:  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
+            return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
         def steps(n: Any, tick: Any, state: Tree) -> tuple[Any, Tree]:
             def one(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
                 tick, state = carry
-                return tick + jnp.uint32(1), program.step(values, constants, state, keys, {}, sensed, still, clock, tick)
+                return tick + jnp.uint32(1), flat(program.step(values, constants, full(state), keys, {}, sensed, still, clock, tick))
 
             def two(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
                 tick, state = carry
                 for drawn in program.draw(keys, tick):  # noise comes in pairs: for an even tick and the odd one after it
-                    state = program.step(values, constants, state, keys, drawn, sensed, still, clock, tick)
+                    state = flat(program.step(values, constants, full(state), keys, drawn, sensed, still, clock, tick))
                     tick = tick + jnp.uint32(1)
                 return tick, state
 
-            if not self._draws_pairs():
+            if not self.draws_pairs():
                 return lax.fori_loop(0, n, one, (tick, state))
             lead = jnp.minimum(n, (tick % jnp.uint32(2)).astype(n.dtype))
             singles, doubles = jnp.stack([lead, (n - lead) % 2]), jnp.stack([(n - lead) // 2, jnp.zeros_like(n)])
@@ -247,20 +259,21 @@ class Executable:
             return lax.fori_loop(0, 2, phase, (tick, state))
 
         if not ports:
-            _, state = steps(head, clock["tick"], state)
+            state = full(steps(head, clock["tick"], flat(state))[1])
             return state, (), program.finite(state)
         buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
 
         def segment(r: Any, carry: Any) -> Any:
             tick, state, buffers = carry
             tick, state = steps(jnp.where(r == 0, head, every), tick, state)
-            seen = program.observe(ports, values, constants, state, keys, sensed, still, clock, tick)
+            seen = program.observe(ports, values, constants, full(state), keys, sensed, still, clock, tick)
             return tick, state, tuple(lax.dynamic_update_index_in_dim(b, s, r, 0) for b, s in zip(buffers, seen, strict=True))
 
-        _, state, buffers = lax.fori_loop(0, records, segment, (clock["tick"], state, buffers))
+        _, state, buffers = lax.fori_loop(0, records, segment, (clock["tick"], flat(state), buffers))
+        state = full(state)
         return state, buffers, program.finite(state)
 
-    def _draws_pairs(self) -> bool:
+    def draws_pairs(self) -> bool:
         """Whether drawing noise for two steps at once is worth a program with three copies of the step."""
         cells = sum(self.plan.groups[g].rows * math.prod(shape(self.plan.groups[g].noise or ())) for g in self.program.paired)
         calls = len(self.program.moving)
@@ -268,13 +281,14 @@ class Executable:
 
     # -------------------------------------------------------------------------------- compiling
 
-    def _compile(self, function: Any, *args: Any) -> tuple[Any, Tree]:
+    def compile(self, function: Any, *args: Any) -> tuple[Any, Tree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
-        with precision_context(self.precision):
+        # full products everywhere: processors that multiply in fewer digits (TF32) would do so otherwise
+        with precision_context(self.precision), jax.default_device(self.device), jax.default_matmul_precision("highest"):
             # unused arguments stay: two programs that differ in which argument they use must not look alike to the cache
             lowered = jax.jit(function, keep_unused=True).lower(*args)
-            executable, fresh = cache.compile(lowered, cache.options())
+            executable, fresh = cache.compile(lowered, cache.options(self.device), self.device)
         self.traced += 1
         self.compiled += fresh
         self.seconds += time.process_time() - began
@@ -295,21 +309,23 @@ def executable(
     precision: str = "float32",
     batch: Batch | None = None,
     sweep: Sequence[Sequence[Leaf]] = (),
+    device: str | None = None,
 ) -> Executable:
-    """The executable of a document, by default the model's present one; kept by the model, so that it compiles once."""
-    batch, doc = batch or Batch(), doc or model.document
+    """The executable of a document, by default the model's present one, for the CPU or a device; kept by the model, so that it compiles once."""
+    batch, doc, place = batch or Batch(), doc or model.document, devices.find(device)
     if precision not in PRECISIONS:
         raise ParameterError(f"precision is {precision!r}; it is float32 or float64")
     require_trust(model, doc)
     lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.outside())
-    key = (signature(doc), outside, precision, batch, tuple(map(tuple, sweep)), neutral)
+    ways = () if precision == "float64" else tuple(ways_of(doc, lifted, batch.size).items())
+    key = (signature(doc), ways, outside, precision, batch, tuple(map(tuple, sweep)), neutral, devices.name(place))
     if key not in model.programs:
         problems = model.check() if doc is model.document else check(doc)
         if problems:
             raise ModelError(problems)
-        made = Executable(doc, precision, batch, sweep)
+        made = Executable(doc, precision, batch, sweep, place)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]
         model.programs[key] = made

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar.compiler.ways import EXACT, Way, shared, ways
 from deodar.elements.sensor import Sensor
 from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure
@@ -21,6 +22,7 @@ from deodar.model.resolve import Instant, Node, resolve
 from deodar.numerics.axes import Axes
 from deodar.parameters import Parameter
 
+Partition = Callable[[Node, bool, frozenset[str], Way], Hashable]
 Leaf = tuple[str, str]
 """Element id and path of a traced leaf inside the element."""
 
@@ -36,6 +38,7 @@ class Group:
         cost: for each leaf, `live` or `rebuild`.
         still: whether its outputs stay the same during a chunk.
         noise: axes over which a row draws noise, or None.
+        way: how its kernels are applied.
     """
 
     nodes: list[Node]
@@ -44,6 +47,7 @@ class Group:
     cost: dict[str, str]
     still: bool
     noise: Axes | None
+    way: Way = EXACT
 
     @property
     def like(self) -> Node:
@@ -96,6 +100,7 @@ class Plan:
         for k, g in enumerate(self.groups):
             names = ", ".join(n.path for n in g.nodes[:4]) + (", ..." if g.rows > 4 else "")
             lines.append(f"group {k}: {g.rows} x {type(g.like.element).__name__} every {g.like.every}{' still' if g.still else ''}: {names}")
+            lines += [f"  {key}: {choice.way}{' shared' if key == g.way.shared else ''}" for key, choice in g.way.choices]
         lines += [f"call: {c.role} of group {c.group} at t{' + dt' if c.instant else ''}" for c in self.calls]
         return "\n".join(lines)
 
@@ -124,24 +129,28 @@ class Plan:
         return [c for c in self.calls if c.role == "output" and c.instant == 0 and c.group in want]
 
 
-def by_structure(node: Node, still: bool, neutral: frozenset[str]) -> Hashable:
-    """Rows that share one group: equal level, rate, structure and axes. A sensor stands alone: a world feeds it by name."""
+def by_structure(node: Node, still: bool, neutral: frozenset[str], way: Way) -> Hashable:
+    """Rows that share one group: equal level, rate, structure, axes and way. A sensor stands alone: a world feeds it by name."""
     alone = node.id if isinstance(node.element, Sensor) else ""
     ins, outs = tuple(sorted(node.ins.items())), tuple(node.outs.items())
-    return (node.level, node.every, still, structure(node.element, neutral), ins, outs, alone)
+    return (node.level, node.every, still, structure(node.element, neutral), ins, outs, way, alone)
 
 
 def plan(
     doc: Document,
     lifted: frozenset[Leaf] = frozenset(),
-    partition: Callable[[Node, bool, frozenset[str]], Hashable] = by_structure,
+    exact: bool = False,
+    copies: int = 1,
+    partition: Partition | None = None,
 ) -> Plan:
     """The plan of a document.
 
     Args:
         doc: a document without problems, else they are raised together.
         lifted: leaves that are traced although they have their neutral value (because they are swept, or have left it once).
-        partition: which nodes share a group.
+        exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
+        copies: how many copies of the model run at once.
+        partition: which nodes share a group; none: `by_structure`.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
@@ -149,12 +158,23 @@ def plan(
         raise ModelError([*problems, *loops])
     neutral = {n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes}
     still = _still(nodes)
-    groups, row = _groups(nodes, neutral, still, partition)
+    found = ways(nodes, still, {n.id for n in nodes} if exact else _swept(nodes, lifted), copies)
+    nodes = shared(nodes, found)
+    groups, row = _groups(nodes, neutral, still, found, partition or by_structure)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
     reads = {(g, port): _reads(group, port, groups, row) for g, group in enumerate(groups) for port in group.like.reads}
     sensors = {n.id: k for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if isinstance(n.element, Sensor))}
     return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
+
+
+def ways_of(doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1) -> dict[str, Way]:
+    """How each element would apply its kernels, where not by matrices."""
+    nodes, problems = resolve(doc)
+    if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
+        return {}
+    found = ways(nodes, _still(nodes), _swept(nodes, lifted), copies)
+    return {i: way for i, way in sorted(found.items()) if way != EXACT}
 
 
 def _still(nodes: Sequence[Node]) -> dict[str, bool]:
@@ -175,21 +195,29 @@ def _groups(
     nodes: Sequence[Node],
     neutral: Mapping[str, frozenset[str]],
     still: Mapping[str, bool],
-    partition: Callable[[Node, bool, frozenset[str]], Hashable],
+    found: Mapping[str, Way],
+    partition: Partition,
 ) -> tuple[list[Group], dict[str, tuple[int, int]]]:
     keys: dict[Hashable, int] = {}
     groups: list[Group] = []
     row: dict[str, tuple[int, int]] = {}
     for n in sorted(nodes, key=lambda n: n.id):  # by stored id: the order of declaration cannot matter
-        key = partition(n, still[n.id], neutral[n.id])
+        key = partition(n, still[n.id], neutral[n.id], found[n.id])
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
             # noise at its neutral strength 0 is left out of the program, unless that value may change
             probe: Any = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
-            groups.append(Group([], {}, (), {}, still[n.id], probe.noise_axes()))
+            groups.append(Group([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id]))
         row[n.id] = (g, groups[g].rows)
         groups[g].nodes.append(n)
     return groups, row
+
+
+def _swept(nodes: Sequence[Node], lifted: frozenset[Leaf]) -> set[str]:
+    """Nodes of which constants are made at several values at once."""
+    by = {n.id: n for n in nodes}
+    costs = {(i, path): cost(p) for i in {i for i, _ in lifted} for path, _, p in leaves(by[i].element)}
+    return {i for i, path in lifted if costs[i, path] == "rebuild"}
 
 
 def _place(groups: Sequence[Group], neutral: Mapping[str, frozenset[str]]) -> int:

@@ -65,7 +65,7 @@ class Program:
         clock: `tick` (uint32), `start` and `rest` (document time at the tick, in two parts), `dt`.
     """
 
-    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = (), copies: int = 1) -> None:
+    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = ()) -> None:
         self.plan = plan
         self.precision = precision
         self.dtype: Any = np.dtype(precision)
@@ -76,7 +76,7 @@ class Program:
         self.still = [c for c in plan.calls if plan.groups[c.group].still]
         self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
-        self.settings = [self._setting(g, swept, copies) for g, swept in zip(plan.groups, self.rebuilt, strict=True)]
+        self.settings = [Setting(g.like.ins, g.like.outs, self.dtype, dict(g.way.choices), g.way.shared) for g in plan.groups]
 
     # -------------------------------------------------------------------------------- prepare and init
 
@@ -267,11 +267,6 @@ class Program:
         for path in group.arrays:
             out[path] = values["arrays"][array_key(g, path)]
         return out
-
-    def _setting(self, group: Group, swept: bool, copies: int) -> Setting:
-        """Double precision is exact, and so is what a sweep carries out of its bucket."""
-        like, exact = group.like, swept or self.dtype == np.float64
-        return Setting(like.ins, like.outs, self.dtype, None if exact else like.element.bucket(), copies * group.rows)
 
     def _swept_constants(self, group: Group) -> bool:
         for path, offset in group.offset.items():

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import REST, WAVES, Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernels._base import Kernel
@@ -37,16 +37,23 @@ class Convolve(Coupling):
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
 
     linear: ClassVar[bool] = True
+    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "filters"
+
+    def kernels(self) -> Sequence[Kernel]:
+        return self.kernel
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         for i, kernel in enumerate(self.kernel):
             yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
 
     def prepare(self, at: Setting) -> Any:
-        return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
+        return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype, at.choices)}
 
     def settle(self, at: Setting, constants: Any) -> Any:
         return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        return {"output": interaction.apply(constants["kernel"], at.ins["input"], inputs["input"])}
+        if not at.shared:
+            return {"output": interaction.apply(constants["kernel"], at.ins["input"], inputs["input"], at.choices)}
+        waves = constants["kernel"]["waves"][at.shared] * (inputs["input" + WAVES] + interaction.to_waves(at.waves, inputs["input" + REST]))
+        return {"output": interaction.from_waves(at.waves, waves), "output" + WAVES: waves}

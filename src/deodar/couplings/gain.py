@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import WAVES, Arrays, Coupling, Setting, Time
+from deodar.numerics import interaction
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -32,6 +33,10 @@ class Gain(Coupling):
     factor: Annotated[float, Live(meaning="strength")] = 1.0
 
     linear: ClassVar[bool] = True
+    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "scales"
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        return {"output": self.factor * inputs["input"]}
+        if not at.shared:
+            return {"output": self.factor * inputs["input"]}
+        waves = self.factor * inputs["input" + WAVES]
+        return {"output": interaction.from_waves(at.waves, waves), "output" + WAVES: waves}

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 import jax.numpy as jnp
 
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import REST, WAVES, Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import interaction
 from deodar.numerics import noise as noises
@@ -63,14 +63,15 @@ class Field(Element):
     noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")] = 0.0
 
     stateful: ClassVar[bool] = True
+    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "ends"
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         axes = tuple(self.axes)
         return {"output": axes, "activation": axes, "interaction": axes}
 
-    def bucket(self) -> Hashable:
-        return interaction.buckets(self.kernel, tuple(self.axes))
+    def kernels(self) -> Sequence[Kernel]:
+        return self.kernel
 
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
@@ -89,7 +90,7 @@ class Field(Element):
 
     def prepare(self, at: Setting) -> Any:
         axes = tuple(self.axes)
-        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype, self._chosen(at))}
+        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype, at.choices)}
         if not is_neutral(self.noise_length):
             constants["noise"] = noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)
         return constants
@@ -100,23 +101,22 @@ class Field(Element):
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         u = state["activation"]
         g = self.sigmoid(u)
-        return {"output": g, "activation": u, "interaction": self._interaction(at, g, constants)}
+        shown = {"output": g, "activation": u, "interaction": self._interaction(at, g, constants)}
+        return shown | ({"output" + WAVES: interaction.to_waves(at.waves, g)} if at.shared else {})
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        u, h, s = state["activation"], self.resting_level, inputs["input"]
-        rate = -u + h + s + self._interaction(at, self.sigmoid(u), constants)
+        u, h, s = state["activation"], self.resting_level, inputs["input" + REST if at.shared else "input"]
+        rate = -u + h + s + self._interaction(at, self.sigmoid(u), constants, inputs)
         return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
 
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
 
-    def _interaction(self, at: Setting, g: Any, constants: Any) -> Any:
+    def _interaction(self, at: Setting, g: Any, constants: Any, inputs: Arrays | None = None) -> Any:
         axes = tuple(self.axes)
         inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
-        return interaction.apply(constants["kernel"], axes, g, self._chosen(at)) - inhibition
-
-    def _chosen(self, at: Setting) -> Any:
-        return interaction.choices(self.kernel, tuple(self.axes), at.bucket, at.copies)
+        own, arriving = ((inputs or {}).get(port + WAVES) for port in ("output", "input"))
+        return interaction.apply(constants["kernel"], axes, g, at.choices, at.shared, own, arriving) - inhibition
 
     def _noise(self, deviates: Any, constants: Any) -> Any:
         if deviates is None:

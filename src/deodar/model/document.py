@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 from collections.abc import Mapping
 from typing import Any
 
@@ -78,12 +79,20 @@ class Document:
     notes: str = ""
     layout: Mapping[str, Any] = dc.field(default_factory=dict[str, Any])
 
-    def by_id(self) -> dict[str, Entry]:
+    def by_id(self) -> Mapping[str, Entry]:
         """Entries by id."""
+        return self._by_id
+
+    def by_names(self) -> Mapping[Names, Entry]:
+        """Entries by path."""
+        return self._by_names
+
+    @functools.cached_property
+    def _by_id(self) -> dict[str, Entry]:
         return {e.id: e for e in self.entries}
 
-    def by_names(self) -> dict[Names, Entry]:
-        """Entries by path."""
+    @functools.cached_property
+    def _by_names(self) -> dict[Names, Entry]:
         return {e.names: e for e in self.entries}
 
     def links(self) -> dict[tuple[str, str], str]:

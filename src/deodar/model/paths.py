@@ -59,7 +59,10 @@ def readings(path: str, known: Collection[Names]) -> list[tuple[Names, str]]:
     for k in range(len(parts), 0, -1):
         if parts[:k] in known:
             found.append((parts[:k], ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
+    first = path.partition(".")[0]
     for names in known:
+        if not names[0].startswith(first):
+            continue
         raw = ".".join(names)
         if (path == raw or path.startswith(raw + ".")) and not any(names == f[0] for f in found):
             found.append((names, path[len(raw) + 1 :]))

@@ -34,6 +34,9 @@ TAP_NS = 0.04
 CALL_NS = 800.0
 FOURIER_NS = 0.3
 FOURIER_CALL_NS = 5000.0
+LONGEST = 4
+"""Rings longer than so many times the axis are not taken: so wide a kernel is nearly flat, and hardly a convolution."""
+
 SMALLEST = 128
 """Below so many samples a field over one axis always takes its matrix: a choice would cost more than it brings."""
 
@@ -64,25 +67,57 @@ def bounds(number: int) -> tuple[float, float]:
 @functools.cache
 def choose(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int, copies: int = 1) -> Choice:
     """The cheapest way for `terms` kernels whose widths (in axis units) lie between the given bounds on each axis, for each of so many copies."""
-    few = tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+    return min(candidates(axes, boundaries, widths, terms, copies), key=lambda c: c.nanoseconds)
+
+
+def candidates(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int, copies: int = 1) -> list[Choice]:
+    """All ways that are open, each with what it should cost a copy."""
+    few = _few(axes, boundaries, widths)
     if len(axes) == 1:
-        return _on_a_line(axes[0], few[0], widths[0][1], copies >= MANY)
-    found = [Choice("matrices", (), 0, _matrices(axes, terms)), Choice("waves", few, 0, _transforms(axes, few))]
-    if "reflect" not in boundaries:
+        return _on_a_line(axes[0], few[0], widths[0][1], copies)
+    found = [by_matrices(axes, terms)]
+    if _fit(few):
+        found.append(Choice("waves", few, 0, _transforms(axes, few)))
+    if _fit(few) and "reflect" not in boundaries:
         found.append(Choice("fourier", few, 0, _fourier(few)))
-    return min(found, key=lambda c: c.nanoseconds)
+    return found
 
 
-def _on_a_line(axis: Axis, waves: Waves, widest: float, many: bool) -> Choice:
+def together(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], copies: int) -> Choice:
+    """The waves in which kernels between these widths can be added up, at the cost of transforming one of so many copies there and back."""
+    few = _few(axes, boundaries, widths)
+    if len(axes) == 1:
+        cost = 2 * LINE_NS[copies >= MANY] * axes[0].samples * few[0].count
+    else:
+        cost = _transforms(axes, few)
+    return Choice("waves", few, 0, cost if _fit(few) else math.inf)
+
+
+def by_matrices(axes: Axes, terms: int, copies: int = 1) -> Choice:
+    """The exact way."""
+    if len(axes) == 1:
+        return Choice("matrices", (), 0, LINE_NS[copies >= MANY] * axes[0].samples ** 2)
+    return Choice("matrices", (), 0, _matrices(axes, terms))
+
+
+def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Choice]:
     """One axis: all kernels are one matrix, or one row of taps."""
-    n, each = axis.samples, LINE_NS[many]
-    found = [Choice("matrices", (), 0, each * n * n)]
-    if n >= SMALLEST:
-        found.append(Choice("waves", (waves,), 0, 2 * each * n * waves.count))
-        reach = math.ceil(REACH * widest / axis.step)
-        if 2 * reach < n:
-            found.append(Choice("taps", (), reach, TAP_NS * n * reach))
-    return min(found, key=lambda c: c.nanoseconds)
+    n = axis.samples
+    found = [by_matrices((axis,), 1, copies)]
+    if n >= SMALLEST and _fit([waves]):
+        found.append(Choice("waves", (waves,), 0, 2 * LINE_NS[copies >= MANY] * n * waves.count))
+    reach = math.ceil(REACH * widest / axis.step)
+    if n >= SMALLEST and 2 * reach < n:
+        found.append(Choice("taps", (), reach, TAP_NS * n * reach))
+    return found
+
+
+def _few(axes: Axes, boundaries: Sequence[str], widths: Sequence[tuple[float, float]]) -> tuple[Waves, ...]:
+    return tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+
+
+def _fit(waves: Sequence[Waves]) -> bool:
+    return all(w.length <= LONGEST * w.samples for w in waves)
 
 
 def _waves(samples: int, boundary: str, narrow: float, wide: float) -> Waves:
@@ -91,7 +126,7 @@ def _waves(samples: int, boundary: str, narrow: float, wide: float) -> Waves:
     if boundary == "reflect":
         length = 2 * samples
     elif boundary == "zero":
-        length = fft.next_fast_len(min(2 * samples, samples + math.ceil(REACH * wide)), real=True) or 2 * samples
+        length = fft.next_fast_len(samples + math.ceil(REACH * wide), real=True) or samples
     highest = math.ceil(length * math.sqrt(2 * math.log(1 / LEFT_OUT)) / (2 * math.pi * narrow))
     most = samples - 1 if boundary == "reflect" else length // 2
     return Waves(boundary, samples, length, min(highest, most))

@@ -77,10 +77,10 @@ def along(m: Array, y: Array, d: int) -> Array:
     return jnp.moveaxis(jnp.tensordot(m, y, axes=(1, d), precision="highest"), 0, d)
 
 
-def separable(matrices: Sequence[Array], y: Array) -> Array:
-    """One matrix applied along each axis in turn."""
-    for d, m in enumerate(matrices):
-        y = along(m, y, d)
+def separable(matrices: Sequence[Array], y: Array, order: Sequence[int] | None = None) -> Array:
+    """One matrix applied along each axis in turn, or in another order."""
+    for d in range(len(matrices)) if order is None else order:
+        y = along(matrices[d], y, d)
     return y
 
 

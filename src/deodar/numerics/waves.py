@@ -46,6 +46,10 @@ class Waves:
         """Number of waves."""
         return len(self.turns)
 
+    def axis(self, axis: Axis) -> Axis:
+        """An axis over the waves of another one."""
+        return Axis(f"waves of {axis.name}", 0, self.count, samples=self.count)
+
     def basis(self) -> np.ndarray:
         """The waves at the samples, of length 1 over the ring: shape (samples, count)."""
         n, m = np.arange(self.samples)[:, None], self.turns
@@ -71,8 +75,8 @@ class Waves:
     def _ring(self, axis: Axis, profile: Profile, dtype: Any) -> Array:
         lag = np.arange(self.length)
         lag = np.where(2 * lag <= self.length, lag, lag - self.length) * axis.step
-        period = None if self.boundary == "zero" else axis.step * self.length
-        return profile(jnp.asarray(lag, dtype), period) * jnp.asarray(axis.step, dtype)
+        # also round the ring that stands for a border, so that the kernel is smooth on it: what comes round meets no sample
+        return profile(jnp.asarray(lag, dtype), axis.step * self.length) * jnp.asarray(axis.step, dtype)
 
     def _cosines(self, turns: np.ndarray) -> np.ndarray:
         return np.cos(2 * np.pi * turns[:, None] * np.arange(self.length) / self.length)

@@ -1,0 +1,71 @@
+"""Where programs run: a device by its name, and how many cores the CPU is taken to have."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import jax
+
+from deodar.errors import DeviceError
+from deodar.parameters import show
+
+DEFAULT = "cpu"
+"""Where programs run unless another device is named: a step of a small model takes 1 to 20 microseconds there, less than starting its
+kernels takes on a graphics processor."""
+
+KINDS = ("cpu", "gpu", "cuda", "rocm", "tpu")
+"""Platforms that are asked for; gpu is cuda or rocm, whichever is there."""
+
+CORES = "NPROC"
+"""Environment variable from which XLA reads how many threads it may use on a CPU; without it: as many as the process may have cores."""
+
+INSTALL = "For a graphics processor of NVIDIA type: pip install 'jax[cuda12]'"
+
+
+def find(name: str | None = None) -> Any:
+    """The device called `cpu`, `gpu`, `cuda`, `rocm`, `tpu`, or one of several by its number: `gpu:1`. None: the CPU.
+
+    Raises:
+        DeviceError: there is no such device here.
+    """
+    if name is not None and not isinstance(name, str):
+        raise DeviceError(f"a device is named by a text such as 'cpu' or 'gpu:0', not {show(name)}")
+    wanted = DEFAULT if name is None else name
+    kind, colon, number = wanted.lower().partition(":")
+    devices = _of(kind)
+    index = int(number) if number.isdecimal() else -1 if colon else 0
+    if not 0 <= index < len(devices):
+        raise DeviceError(f"there is no device {wanted!r} here; there is: {', '.join(names())}", fix="" if _of("gpu") else INSTALL)
+    return devices[index]
+
+
+def name(device: Any) -> str:
+    """Name of a device, as `find` takes it."""
+    return f"{device.platform}:{device.id}"
+
+
+def names() -> list[str]:
+    """The devices of this machine that JAX can use."""
+    found = {name(d): None for kind in KINDS for d in _of(kind)}
+    return list(found)
+
+
+def cores() -> int:
+    """Cores that programs on the CPU use, or will use: as the environment says, else those that this process may use."""
+    given = os.environ.get(CORES, "")
+    return int(given) if given.isdecimal() and int(given) > 0 else available()
+
+
+def available() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _of(kind: str) -> list[Any]:
+    if kind not in KINDS:
+        return []
+    try:
+        return list(jax.local_devices(backend=kind))
+    except RuntimeError:  # JAX has no backend of this kind here
+        return []

@@ -1,0 +1,118 @@
+"""The cost model of convolutions against the machine at hand: every way that is open, what it should cost, and what it costs."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from deodar.compiler import cache, device
+from deodar.numerics import interaction
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.choice import Choice, candidates
+from deodar.numerics.kernels.gaussian import Gaussian
+
+SECONDS = 0.02
+"""CPU time of one measurement; the least of `ROUNDS` counts."""
+
+ROUNDS = 5
+NAMES = "xyz"
+
+
+@dc.dataclass(frozen=True)
+class Case:
+    """A field and its kernels: samples on each axis, the boundary of all, widths in samples, and how many copies run at once."""
+
+    samples: tuple[int, ...]
+    boundary: str = "periodic"
+    sigmas: tuple[float, ...] = (5.0, 10.0)
+    copies: int = 1
+
+    def __str__(self) -> str:
+        many = f"{self.copies} of " if self.copies > 1 else ""
+        return f"{many}{' x '.join(map(str, self.samples))} {self.boundary}, sigma {', '.join(f'{s:g}' for s in self.sigmas)}"
+
+    @property
+    def axes(self) -> Axes:
+        """Axes of unit spacing."""
+        return tuple(Axis(n, 0, k - 1, k) for n, k in zip(NAMES, self.samples, strict=False))
+
+    @property
+    def kernels(self) -> list[Gaussian]:
+        """One Gaussian of each width."""
+        return [Gaussian(1.0, s, normalized=True, boundary=[self.boundary]) for s in self.sigmas]
+
+
+CASES = (
+    Case((100,)),
+    Case((200,)),
+    Case((500,)),
+    Case((500,), "zero", (30.0, 90.0)),
+    Case((200,), copies=100),
+    Case((50, 50), sigmas=(3.0, 6.0)),
+    Case((50, 50), "zero", (3.0, 6.0)),
+    Case((100, 100), sigmas=(3.0, 6.0)),
+    Case((100, 100), sigmas=(1.2,)),
+    Case((200, 200), sigmas=(3.0, 6.0)),
+    Case((400, 400), sigmas=(2.0, 3.0)),
+    Case((50, 50, 30), sigmas=(3.0, 6.0)),
+)
+"""Fields like those that people build, from a line to a volume."""
+
+
+@dc.dataclass(frozen=True)
+class Measured:
+    """One way of one case: what a step of all copies should cost and costs, in microseconds; `chosen`: whether it is the one that is taken."""
+
+    case: Case
+    way: str
+    predicted_us: float
+    measured_us: float
+    chosen: bool
+
+
+def measure(case: Case) -> Iterator[Measured]:
+    """Every way that is open for a case, the cheapest by the model first."""
+    key = " ".join([case.boundary] * len(case.samples))
+    terms = interaction.spans(case.kernels, case.axes)[key]
+    found = candidates(case.axes, tuple(key.split()), interaction.covering(terms), len(terms), case.copies)
+    for k, choice in enumerate(sorted(found, key=lambda c: c.nanoseconds)):
+        yield Measured(case, choice.way, choice.nanoseconds * case.copies / 1000, 1e6 * _seconds(case, key, choice), k == 0)
+
+
+def _seconds(case: Case, key: str, choice: Choice) -> float:
+    """CPU seconds of one application to all copies."""
+    axes, kernels, chosen = case.axes, case.kernels, {} if choice.way == "matrices" else {key: choice}
+    weights = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float32"), chosen))
+
+    def run(weights: Any, y: Any, n: Any) -> Any:
+        def once(_: Any, y: Any) -> Any:
+            return 0.5 * y + 0.25 * jax.vmap(lambda one: interaction.apply(weights, axes, one, chosen))(y)
+
+        return lax.fori_loop(0, n, once, y)
+
+    y = np.random.default_rng(0).random((case.copies, *shape(axes))).astype(np.float32)
+    place = device.find()
+    weights = jax.tree.map(jnp.asarray, weights)
+    compiled, _ = cache.compile(jax.jit(run).lower(weights, y, np.int32(1)), cache.options(place), place)
+    return _least(lambda n: jax.block_until_ready(compiled(weights, y, np.int32(n))))
+
+
+def _least(run: Callable[[int], Any]) -> float:
+    """CPU seconds of one of many repetitions, the calls' own cost taken off."""
+
+    def cpu(n: int) -> float:
+        began = time.process_time()
+        run(n)
+        return time.process_time() - began
+
+    n = 1
+    while cpu(n) < SECONDS:
+        n *= 2
+    return max(0.0, min((cpu(2 * n) - cpu(n)) / n for _ in range(ROUNDS)))

@@ -1,0 +1,181 @@
+"""Which way every kernel of a model is applied, and which couplings are added up as waves.
+
+A convolution is cheap between transforms. Where fields of the same axes are coupled by Gaussian kernels, each field is therefore transformed
+once, all kernels are applied to its waves, what arrives at a field is added up as waves, and there is one way back. `ways` decides, before
+anything is compiled, by the costs of `numerics.choice`; `shared` rewrites the nodes: ports whose names end in `WAVES` hold what travels so.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any
+
+from deodar.element import REST, WAVES
+from deodar.leaves import structure
+from deodar.model.document import Document
+from deodar.model.resolve import Node, Slot
+from deodar.numerics import interaction
+from deodar.numerics.axes import Axes
+from deodar.numerics.choice import Choice, by_matrices, together
+
+
+@dc.dataclass(frozen=True)
+class Way:
+    """How one element applies its kernels.
+
+    Attributes:
+        choices: for each kind of boundaries the choice, where it is not matrices.
+        shared: the kind of boundaries whose waves it shares with others, or "".
+    """
+
+    choices: tuple[tuple[str, Choice], ...] = ()
+    shared: str = ""
+
+
+EXACT = Way()
+
+
+def widths(doc: Document) -> dict[str, Any]:
+    """What of its kernels' widths the way of an element is decided by: while it stays equal, so do all ways."""
+    return {e.id: interaction.buckets(e.element.kernels()) for e in doc.entries if e.element.kernels()}
+
+
+def ways(nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str], copies: int = 1) -> dict[str, Way]:
+    """The way of every node; those in `exact` take matrices. `copies`: how many of the whole model run at once."""
+    alike = Counter(_likeness(n) for n in nodes)
+    out: dict[str, Way] = {}
+    for n in nodes:
+        own = {} if n.id in exact else interaction.choices(n.element.kernels(), _axes(n), copies * alike[_likeness(n)])
+        out[n.id] = Way(_sorted(own))
+    free = [n for n in nodes if n.element.sharing and not still[n.id] and n.id not in exact and _axes(n)]
+    for members, key in _circles(free):
+        choice = _together(members, key, out, copies * len(members))
+        if choice is None:
+            continue
+        for n in members:
+            out[n.id] = Way(_sorted({**dict(out[n.id].choices), key: choice}), key)
+    return out
+
+
+def shared(nodes: Sequence[Node], found: dict[str, Way]) -> list[Node]:
+    """The nodes, with the second parts of ports where they share waves. What cannot share after all takes back its choice in `found`."""
+    by = {n.id: n for n in nodes}
+    smooth: set[str] = set()
+    """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it."""
+    for n in _upstream_first([n for n in nodes if found[n.id].shared and n.element.sharing != "ends"]):
+        if n.element.sharing == "filters" or (n.reads["input"] and all(s[0] in smooth and _joined(by[s[0]], n, found) for s in n.reads["input"])):
+            smooth.add(n.id)
+        else:
+            found[n.id] = EXACT
+    return [_with_waves(n, by, found, smooth) if found[n.id].shared else n for n in nodes]
+
+
+def _with_waves(n: Node, by: Mapping[str, Node], found: Mapping[str, Way], smooth: Collection[str]) -> Node:
+    way = found[n.id]
+    waves = tuple(w.axis(a) for w, a in zip(dict(way.choices)[way.shared].waves, _axes(n), strict=True))
+    through = n.element.sharing == "filters"
+
+    def comes(slot: Slot) -> bool:
+        source = by[slot[0]]
+        if slot[1] != "output" or not _joined(source, n, found):
+            return False
+        if source.element.sharing == "ends":
+            return through
+        # beyond a border there is nothing; as waves what a kernel has spread over it would still be there for the next
+        return slot[0] in smooth and not (through and "zero" in way.shared)
+
+    arriving = [slot for slot in n.reads["input"] if comes(slot)]
+    staying = [slot for slot in n.reads["input"] if not comes(slot)]
+    reads = n.reads | {"input" + REST: staying, "input" + WAVES: [(i, port + WAVES, instant) for i, port, instant in arriving]}
+    if n.element.sharing == "ends":
+        reads["output" + WAVES] = [(n.id, "output" + WAVES, 0)]  # its own, for its lateral interaction: transformed once
+    return dc.replace(n, ins=n.ins | {"input" + REST: n.ins["input"], "input" + WAVES: waves}, outs=n.outs | {"output" + WAVES: waves}, reads=reads)
+
+
+def _joined(a: Node, b: Node, found: Mapping[str, Way]) -> bool:
+    """Whether both share the same waves."""
+    one, other = found[a.id], found[b.id]
+    same = bool(one.shared) and one.shared == other.shared and dict(one.choices)[one.shared] == dict(other.choices)[other.shared]
+    return same and a.every == b.every and _axes(a) == _axes(b)
+
+
+def _circles(free: Sequence[Node]) -> Iterator[tuple[list[Node], str]]:
+    """Nodes that are linked through filters of one kind of boundaries, in the order of the nodes."""
+    by = {n.id: n for n in free}
+    keys = {n.id: _key(n) for n in free if n.element.sharing == "filters"}
+    readers: dict[str, list[str]] = {}
+    for n in free:
+        for slot in n.reads["input"]:
+            readers.setdefault(slot[0], []).append(n.id)
+    taken: set[str] = set()
+    for first, key in keys.items():
+        if not key or first in taken:
+            continue
+        members, todo = {first}, [first]
+        while todo:
+            n = by[todo.pop()]
+            beside = [s[0] for s in n.reads["input"] if s[1] == "output"] + readers.get(n.id, [])
+            for i in beside:
+                if i in by and i not in members | taken and keys.get(i, key) == key and _linked(n, by[i]):
+                    members.add(i)
+                    todo.append(i)
+        taken |= members
+        yield [n for n in free if n.id in members], key
+
+
+def _linked(a: Node, b: Node) -> bool:
+    """Whether two neighbours could share waves: not two fields without a kernel between them."""
+    return _axes(a) == _axes(b) and a.every == b.every and not a.element.sharing == b.element.sharing == "ends"
+
+
+def _together(members: Sequence[Node], key: str, alone: Mapping[str, Way], copies: int) -> Choice | None:
+    """The waves that all of them share, if that is cheaper than each on its own."""
+    filters = [n for n in members if n.element.sharing == "filters"]
+    if not any(n.element.sharing == "ends" for n in members):
+        return None
+    axes = _axes(filters[0])
+    terms = [span for n in members for span in interaction.spans(n.element.kernels(), axes).get(key, ())]
+    choice = together(axes, tuple(key.split()), interaction.covering(terms), copies)
+    there = {s[0] for n in filters for s in n.reads["input"]}
+    apart = shared = 0.0
+    for n in members:
+        if n.element.sharing != "scales":
+            apart += _alone(n, key, alone, axes, copies)
+        if n.element.sharing == "ends":
+            lateral = key in interaction.spans(n.element.kernels(), axes)
+            shared += choice.nanoseconds * (0.5 * (lateral or n.id in there) + 0.5)
+    return choice if shared < apart else None
+
+
+def _alone(n: Node, key: str, alone: Mapping[str, Way], axes: Axes, copies: int) -> float:
+    own = dict(alone[n.id].choices).get(key)
+    if own is not None:
+        return own.nanoseconds
+    terms = interaction.spans(n.element.kernels(), axes).get(key)
+    return by_matrices(axes, len(terms), copies).nanoseconds if terms else 0.0
+
+
+def _sorted(choices: Mapping[str, Choice]) -> tuple[tuple[str, Choice], ...]:
+    return tuple((key, choices[key]) for key in sorted(choices))
+
+
+def _key(n: Node) -> str:
+    """The one kind of boundaries of kernels that are Gaussians, or ""."""
+    kernels = n.element.kernels()
+    keys = {interaction.boundaries(k, _axes(n)) if k.widths() else "" for k in kernels}
+    return keys.pop() if len(keys) == 1 else ""
+
+
+def _axes(n: Node) -> Axes:
+    """The axes over which an element convolves."""
+    return n.outs["output"] if n.element.sharing else ()
+
+
+def _likeness(n: Node) -> Any:
+    return (n.every, structure(n.element), _axes(n)) if n.element.kernels() else n.id
+
+
+def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
+    return sorted(nodes, key=lambda n: (n.level, n.id))

@@ -1,0 +1,17 @@
+"""The command that holds the cost model against the machine measures what it says."""
+
+from __future__ import annotations
+
+from deodar.compiler.plans import CASES, Case, measure
+
+
+def test_every_way_of_a_case_is_measured_and_the_cheapest_by_the_model_is_chosen() -> None:
+    found = list(measure(Case((160,), sigmas=(2.0,))))
+    assert {m.way for m in found} == {"taps", "waves", "matrices"}
+    assert [m.chosen for m in found] == [True, False, False]
+    assert [m.predicted_us for m in found] == sorted(m.predicted_us for m in found)
+    assert all(0 < m.measured_us < 1e4 for m in found)
+
+
+def test_cases_reach_from_a_line_to_a_volume() -> None:
+    assert {len(c.samples) for c in CASES} == {1, 2, 3} and len({str(c) for c in CASES}) == len(CASES)
