@@ -23,6 +23,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import recording
 import steps
 import workloads
 
@@ -130,7 +131,13 @@ def memory() -> None:
     show("growth over 500,000 steps of 101 samples without records", (after - before) / 2**20, "MiB", 5)
 
 
-PARTS: dict[str, Callable[[], None]] = {"start": start_up, "field": one_field, "compile": compile_times, "memory": memory}
+def recorded() -> None:
+    """A run that keeps the activation every ten steps beside one that keeps nothing; see recording.py."""
+    without, every_ten = recording.measure("W1_200", recording.NAMES["W1_200"], 5)
+    show("W1_200, kept every 10 steps: a step over one that keeps nothing", every_ten / without, "x", 1.05)
+
+
+PARTS: dict[str, Callable[[], None]] = {"start": start_up, "field": one_field, "compile": compile_times, "memory": memory, "recording": recorded}
 MARKS = ("<!-- table -->", "<!-- end of the table -->")
 
 

@@ -65,7 +65,10 @@ export type Changed = {
 // Where the run is. Sent after the frames of the same number, and whenever something changes.
 //
 // `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as possible); `abstract` time
-// counts 1 unit as 1 ms. `busy` says in words what is being made; `failure` why the run stopped; `world` what the sensors read.
+// counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and will catch up, `worst` the largest lag since it was played,
+// `lost` what was given up; `overruns` counts how often it fell behind. `longest` is the step up to which it may grow to keep up (None: it
+// stays), and `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
+// stopped; `world` what the sensors read.
 export type Clock = {
   type: "clock";
   frame: number;
@@ -77,6 +80,12 @@ export type Clock = {
   speed: number | null;
   factor: number;
   steps: number;
+  lag: number;
+  worst: number;
+  lost: number;
+  overruns: number;
+  longest: number | null;
+  lengthened: number;
   busy: string;
   failure: Problem[];
   world: string;
@@ -98,6 +107,26 @@ export type ConnectionView = {
   target: string;
   target_port: string;
   reads: string;
+};
+
+// What an element costs: microseconds of a step. `alike` elements are computed together and share the time; `once`: it stands still and is
+// computed once a chunk. What a connection resamples or delays has a path but is no element of the document.
+export type CostView = {
+  element: string;
+  path: string;
+  kind: string;
+  us: number;
+  alike: number;
+  once: boolean;
+};
+
+// What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in microseconds, 0 before it was measured.
+export type Costs = {
+  type: "costs";
+  measuring: boolean;
+  step: number;
+  elements: CostView[];
+  problems: Problem[];
 };
 
 // Change general properties of the document; what is None stays.
@@ -205,6 +234,13 @@ export type KnobView = {
   links: LinkView[];
 };
 
+// Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run falls behind.
+export type Lengthen = {
+  type: "lengthen";
+  request?: number;
+  longest: number | null;
+};
+
 // Let a document parameter drive a parameter of an element.
 export type Link = {
   type: "link";
@@ -232,6 +268,12 @@ export type Lost = {
   type: "lost";
   stream: number;
   problem: Problem;
+};
+
+// Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is done.
+export type MeasureCosts = {
+  type: "measure_costs";
+  request?: number;
 };
 
 // Open one of the examples, as a document without a file.
@@ -401,6 +443,7 @@ export type ToPage =
   | Trouble
   | Changed
   | Clock
+  | Costs
   | Announced
   | Lost
   | Folder
@@ -429,6 +472,8 @@ export type ToServer =
   | Step
   | Reset
   | Speed
+  | Lengthen
+  | MeasureCosts
   | Push
   | Release
   | UseWorld

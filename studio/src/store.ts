@@ -1,7 +1,7 @@
 // What the server last said, and what the person looks at. Live arrays do not pass through here: see streams.ts.
 
 import { create } from "zustand";
-import type { Changed, Clock, DocumentView, ElementView, Gallery, Kind, Problem, ToPage, Trouble, Welcome } from "./protocol";
+import type { Changed, Clock, Costs, DocumentView, ElementView, Gallery, Kind, Problem, ToPage, Trouble, Welcome } from "./protocol";
 import { replaced } from "./values";
 
 export type Connection = "connecting" | "open" | "lost";
@@ -20,6 +20,7 @@ export type Studio = {
   elements: Map<string, ElementView>;
   trouble: Trouble | null;
   clock: Clock | null;
+  costs: Costs | null;
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -43,6 +44,7 @@ export const useStudio = create<Studio>((set) => ({
   elements: new Map(),
   trouble: null,
   clock: null,
+  costs: null,
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -76,6 +78,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { trouble: message.problems.length > 0 ? message : null };
     case "clock":
       return { clock: message };
+    case "costs":
+      return { costs: message };
     default:
       return {};
   }

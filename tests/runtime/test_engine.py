@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import ParameterError, TimeError
+from deodar.errors import ModelError, ParameterError, TimeError
 from deodar.model import edit
 from deodar.runtime.engine import Engine, Hand
-from deodar.runtime.pace import Pace, unit_seconds
+from deodar.runtime.pace import Pace
 from deodar.runtime.trace import CAPACITY, Trace, Wish
+from deodar.runtime.unit import unit_seconds
 
 X = dd.Axis("x", 0, 100, samples=101)
 WAIT = 60.0
@@ -126,6 +127,14 @@ def test_as_fast_as_possible_is_faster(driven: Driven) -> None:
     assert engine.pace.speed is None
 
 
+def test_what_needs_a_session_says_that_there_is_none(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.load(None))
+    for function in (engine.measure, lambda: engine.lengthen(2.0)):
+        with pytest.raises(ModelError, match="no model runs yet"):
+            driven.do(function)
+
+
 def test_nobody_looking_means_no_shots(driven: Driven) -> None:
     engine = driven.engine
     driven.until(lambda: engine.shot.number > 0)
@@ -215,6 +224,6 @@ def test_a_machine_that_is_too_slow_does_not_pile_up_steps() -> None:
     session = dd.Session(model())
     pace = Pace()
     pace.go(1.0)
-    pace.took(session, 1, 0.004)  # 4 ms a step, where 1 ms is asked for
+    pace.took(session, 1, 1.0, 0.004)  # 4 ms a step, where 1 ms is asked for
     time.sleep(0.05)
     assert pace.due(session) <= pace.most() <= 3

@@ -12,7 +12,7 @@ import deodar as dd
 from deodar.elements.sensor import Sensor
 from deodar.numerics.axes import Axes
 from deodar.numerics.sigmoids.linear import Linear
-from deodar.worlds._base import World
+from deodar.worlds._base import Signal, World
 from deodar.worlds.picture import Picture
 
 x = dd.Axis("x", 0, 20, samples=21)
@@ -157,7 +157,7 @@ def test_ctrl_c_hands_over_what_was_recorded(monkeypatch: pytest.MonkeyPatch) ->
 class Ramp(World):
     """A world that shows its time, renewed every 4 units."""
 
-    sensors: ClassVar[Mapping[str, str]] = {"clock": "time"}
+    sensors: ClassVar[Mapping[str, Signal]] = {"clock": Signal("time")}
     period = 4.0
 
     def __init__(self) -> None:

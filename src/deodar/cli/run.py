@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar.cli import _options
+from deodar.cli import _live, _options
 
 if TYPE_CHECKING:
     import xarray
@@ -20,7 +20,7 @@ HELP = "run a model and record it, or run a record again and compare"
 EPILOG = """FILE is a document (.json). RECORD is a record (.zarr, .nc) or a folder that an earlier run wrote: it is run again as it was,
 and compared. Both write a new folder with the record and the model that made it. Look at it with: deodar plot FOLDER"""
 
-OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision")
+OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision", "workers")
 """What a record settles itself."""
 
 
@@ -35,12 +35,14 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--every", type=float, metavar="T", help="time between records (default: every step)")
     parser.add_argument("--trials", type=_options.whole, metavar="N", help="number of trials; they differ in their noise")
+    parser.add_argument("--workers", type=_options.whole, metavar="N", help="share trials and sweep points among N processes of one core each")
     parser.add_argument("--sweep", type=_options.values, action="append", metavar="PATH=V1,V2,...", help="run at each value; several make a grid")
     parser.add_argument("--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first")
     parser.add_argument("--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)")
     parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write (default: NAME-001, NAME-002, ... here)")
     _options.add_run(parser)
     _options.add_world(parser)
+    _live.add(parser)
     _options.add_force(parser)
     _options.add_json(parser)
     _options.wrong(parser)
@@ -48,6 +50,11 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if the run was stopped, or if a repetition differs without a reason."""
+    if not _is_record(args.file):
+        _options.use_cores(args.cores)
+    if args.live or args.cost:
+        return _live.run(args)
+    _live.refuse_alone(args)
     return _repeat(args) if _is_record(args.file) else _simulate(args)
 
 
@@ -61,7 +68,7 @@ def _is_record(path: Path) -> bool:
 
 def _simulate(args: argparse.Namespace) -> int:
     from deodar.errors import Interrupted
-    from deodar.model.model import load
+    from deodar.importers.opening import load
     from deodar.runtime.simulate import simulate
 
     if args.duration is None and args.file.is_file():
@@ -77,7 +84,7 @@ def _simulate(args: argparse.Namespace) -> int:
         data = simulate(
             model, args.duration or 0.0, dt=args.dt, seed=args.seed or 0, record=args.record, every=args.every, trials=args.trials,
             sweep=dict(args.sweep) if args.sweep else None, precision=args.precision or "float32", world=_options.world(args.world),
-            progress=False if args.no_progress or args.json else None,
+            progress=False if args.no_progress or args.json else None, workers=args.workers, device=args.device,
         )  # fmt: skip
     except Interrupted as error:
         data, stopped = error.data, str(error)
@@ -95,10 +102,11 @@ def _repeat(args: argparse.Namespace) -> int:
     if given:
         args.wrong(f"a record is run again as it was, so {', '.join(given)} cannot be given; run its model.json instead")
     old = files.load(args.file)
+    _options.use_cores(args.cores, provenance.cores_of(about(old)))
     place = _Place(args, str(old.attrs.get("title") or "record"))
     stopped = ""
     try:
-        done = repeat(old, simulate, _options.world(args.world), args.trust, False if args.no_progress or args.json else None)
+        done = repeat(old, simulate, _options.world(args.world), args.trust, False if args.no_progress or args.json else None, args.device)
     except Interrupted as error:
         done, stopped = compare(old, error.data), str(error)
     return _finish(args, place, done.data, provenance.document(about(old)), stopped, done)

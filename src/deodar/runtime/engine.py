@@ -18,11 +18,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from deodar.compiler.executable import executable
-from deodar.errors import DeodarError, NotFinite, Problem
+from deodar.errors import ModelError, NotFinite, Problem
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar.runtime.bill import Bill, said
+from deodar.runtime.cost import Costs, costs
 from deodar.runtime.look import Look, Place, look
-from deodar.runtime.pace import Pace
+from deodar.runtime.pace import Pace, require_longest
 from deodar.runtime.run import require_step
 from deodar.runtime.session import Session
 from deodar.runtime.trace import Trace, Wish
@@ -65,6 +67,7 @@ class Engine:
         failure: why it stopped, and the paths of the elements concerned.
         busy: what is being compiled, in words.
         pace: how fast it is to go, and how fast it goes.
+        bill: what elements cost, as far as somebody asked.
         traces: time courses by wish; the engine alone adds samples.
     """
 
@@ -83,7 +86,7 @@ class Engine:
         self._target: tuple[Model, Document] | None = None
         self._making: Future[Any] | None = None
         self._steps = 0
-        self._compiler = ThreadPoolExecutor(1, "deodar-compiler")
+        self._compiler = ThreadPoolExecutor(2, "deodar-compiler")  # one to compile, one to measure
         self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
         self.session: Session | None = None
         self.hand: Hand | None = None
@@ -93,6 +96,7 @@ class Engine:
         self.failure: tuple[tuple[Problem, ...], tuple[str, ...]] = ((), ())
         self.busy = ""
         self.pace = Pace()
+        self.bill = Bill()
         self._thread.start()
 
     # -------------------------------------------------------------------------------- from other threads
@@ -125,6 +129,8 @@ class Engine:
         self.session, self.hand, self._target = session, None, None
         self.failure, self._look, self._sample = ((), ()), None, None
         self._looks.clear()
+        speed, self.pace, self.bill = self.pace.speed, Pace(), Bill()
+        self.pace.speed = speed
         self.restart()
         self._make()
 
@@ -132,6 +138,7 @@ class Engine:
         """Let time go on, or stand still."""
         self.running = running
         self._steps, self.failure = 0, ((), ()) if running else self.failure
+        self._keep_step()
         self.pace.restart()
         self._stale = True
 
@@ -160,6 +167,7 @@ class Engine:
         session = self.session
         if session is None:
             return "recompile"
+        self._keep_step()
         session.require(document)
         require_step(document, document.step)
         cost = session.cost(document)
@@ -173,6 +181,21 @@ class Engine:
             session.dt = document.step
         self._stale = True
         return cost
+
+    def lengthen(self, longest: float | None) -> None:
+        """Let the step grow up to this where time is short; None: it stays."""
+        session = self._require()
+        self._keep_step()
+        self.pace.longest = require_longest(session, longest)
+
+    def measure(self) -> None:
+        """Measure in the second thread what elements cost at this moment; the run goes on. The `bill` tells."""
+        session = self._require()
+        if self.bill.measuring:
+            return
+        self.bill, at = Bill(True, self.bill.costs), session.moment()
+        found = self._compiler.submit(lambda: costs(at))
+        found.add_done_callback(lambda future: self._closed or self.call(lambda: self._billed(session, future)))
 
     def see(self, world: World) -> None:
         """Let the sensors read another world."""
@@ -228,11 +251,13 @@ class Engine:
         if n == 0:
             return self.pace.rest(session)
         parts = max(1, min(n, SAMPLES)) if self.traces else 1
-        began = time.perf_counter()
+        before, began = session.time, time.perf_counter()
         for k in range(parts):
             self._advance(session, n * (k + 1) // parts - n * k // parts)
             self._take_samples(session)
-        self.pace.took(session, n, time.perf_counter() - began)
+        self.pace.took(session, n, session.time - before, time.perf_counter() - began)
+        if self.running:
+            self.pace.lengthen(session)
         self._steps = max(0, self._steps - n)
         self._stale = True
         return 0.0
@@ -244,6 +269,16 @@ class Engine:
             session.push(entry.path, hand.amount, n)
         else:
             session.step(n)
+
+    def _require(self) -> Session:
+        if self.session is None:
+            raise ModelError("no model runs yet", fix="Wait until it is compiled")
+        return self.session
+
+    def _keep_step(self) -> None:
+        """A step that was lengthened to keep up is no reason to refuse an edit: the planned one again."""
+        if self.session is not None:
+            self.pace.shorten(self.session)
 
     def _take_samples(self, session: Session) -> None:
         sample = self._sample
@@ -287,9 +322,13 @@ class Engine:
     def _fail(self, error: Exception) -> None:
         self.running, self._steps, self.hand = False, 0, None
         paths = error.paths if isinstance(error, NotFinite) else ()
-        problems = error.problems if isinstance(error, DeodarError) else (Problem("", f"{type(error).__name__}: {error}"),)
-        self.failure, self._stale = (problems, paths), True
+        self.failure, self._stale = (said(error), paths), True
         self._changed()
+
+    def _billed(self, session: Session, future: Future[Costs]) -> None:
+        if session is self.session:
+            error = future.exception()
+            self.bill = Bill(costs=future.result()) if error is None else Bill(problems=said(error))
 
     # -------------------------------------------------------------------------------- compiling beside the run
 
@@ -305,7 +344,7 @@ class Engine:
         def make() -> tuple[Any, list[Look]]:
             made = program
             if model is not None:
-                made = executable(model, document, session.precision)
+                made = executable(model, document, session.precision, device=session.device)
                 made.chunk(())
             return made, [_found(known, made, places) or look(made, places) for places in wanted]
 
@@ -322,6 +361,7 @@ class Engine:
         self._making, self.busy, self._stale = None, "", True
         if session is not self.session:
             return self._make()
+        self._keep_step()
         try:
             program, (at_shown, at_sampled) = future.result()
             self._looks = [*(known for known in self._looks if known not in (at_shown, at_sampled)), at_shown, at_sampled][-MOST_LOOKS:]

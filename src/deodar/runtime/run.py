@@ -13,15 +13,14 @@ import numpy as np
 
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
-from deodar.elements.sensor import Sensor
-from deodar.errors import NotFinite, TimeError, WorldError
+from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
 from deodar.parameters import parameters, real, show
+from deodar.runtime.exchange import Exchange, Moment
+from deodar.runtime.unit import unit_seconds
 from deodar.worlds._base import World
 
 Tree = Any
-NEVER = 2**62
-"""A tick that no run reaches."""
 CHUNK_SECONDS = 0.2
 """Wall time between two looks at the outside: progress, Ctrl-C, values that are not finite."""
 
@@ -60,9 +59,9 @@ class Run:
     ) -> None:
         self.seed = seed
         self.trials = tuple(trials)
-        self.world = world
         self.swept = swept
         self.clock = Clock(0, doc.t0, 0, dt)
+        self.exchange = Exchange(doc, world)
         self.load(program, doc)
         self.pace = 0.0
         self.reset()
@@ -72,7 +71,7 @@ class Run:
     def load(self, program: Executable, doc: Document) -> None:
         """Take a program and the parameters of a document; the state stays what it is. What is refused changes nothing."""
         require_step(doc, self.clock.dt)
-        self.sensors = provided(doc, self.world)
+        self.exchange.take(doc)
         self.program, self.doc = program, doc
         self.values = program.values(doc, self.swept)
         self.constants = program.prepare(self.values)
@@ -81,10 +80,18 @@ class Run:
         """State, time, noise and world back to the start; parameters stay."""
         self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
         self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
-        if self.world is not None:
-            self.world.reset(self.seed)
+        self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
+        self.forget()
+
+    def forget(self) -> None:
+        """Read all sensors anew before the next step: another program, or another moment."""
         self.sensed = self.program.blind()
-        self.sense_at = 0
+        self.exchange.unread = True
+
+    @property
+    def world(self) -> World | None:
+        """What the sensors read and the motors move."""
+        return self.exchange.world
 
     # -------------------------------------------------------------------------------- running
 
@@ -140,6 +147,8 @@ class Run:
 
     def _chunk(self, chunk: Any, counts: dict[str, int], used: int) -> tuple[Any, ...]:
         self._sense()
+        if used:
+            self.exchange.tell(self.clock.tick, self._period(), self._commands)
         began = time.perf_counter()
         before = self.state
         state, seen, finite = self._call(chunk, before, counts)
@@ -182,11 +191,9 @@ class Run:
 
     def see(self, world: World | None) -> None:
         """Another world from now on. What is refused changes nothing."""
-        self.sensors = provided(self.doc, world)
-        self.world = world
-        if world is not None:
-            world.reset(self.seed)
-        self.sensed, self.sense_at = self.program.blind(), 0
+        self.exchange = Exchange(self.doc, world)
+        self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
+        self.forget()
 
     def _now(self) -> dict[str, Any]:
         dtype = self.program.program.dtype
@@ -201,43 +208,26 @@ class Run:
     # -------------------------------------------------------------------------------- worlds
 
     def _period(self) -> int:
-        """Ticks between two readings of the world; 0 where it never changes."""
+        """Ticks between two exchanges with the world; 0 where it never changes."""
         if self.world is None or self.world.period is None:
             return 0
-        return whole(self.world.period, self.clock.dt, "the world's period")
+        return whole(self.world.period / self._unit(), self.clock.dt, "the world's period")
+
+    def _unit(self) -> float:
+        """Milliseconds in a unit of document time."""
+        return unit_seconds(self.doc.time_unit) * 1e3
 
     def _until_sensing(self) -> int:
         """Steps until the world is to be read again."""
-        if not self.sensors:
-            return NEVER
-        if self.sense_at > self.clock.tick:
-            return self.sense_at - self.clock.tick
-        period = self._period()
-        return period - self.clock.tick % period if period else NEVER
+        return self.exchange.steps(self.clock.tick, self._period() if self.exchange.live else 0)
 
     def _sense(self) -> None:
-        if not self.sensors or self.world is None:
-            return
-        if self.clock.tick < self.sense_at:
-            return
-        period = self._period()
-        late = self.clock.tick % period if period else 0  # after going back to a snapshot, inside a period
-        moment = self.clock.time - late * self.clock.dt
-        self.sense_at = self.clock.tick - late + period if period else NEVER
-        for ident, sensor in self.sensors.items():
-            axes = tuple(sensor.axes)
-            given = self.world.sense(sensor.sensor, axes, moment)
-            try:
-                reading = np.asarray(given, self.program.program.dtype)
-            except (TypeError, ValueError):  # no numbers
-                reading = np.asarray(np.nan)
-            if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
-                raise WorldError(
-                    f"the world gave an array of shape {list(reading.shape)}, finite: {bool(np.isfinite(reading).all())}; it needs"
-                    f" {[a.samples for a in axes]}, finite",
-                    where=sensor.sensor,
-                )
-            self.sensed[ident] = reading
+        if self.exchange.live:
+            now = Moment(self.clock.tick, self.clock.time, self._unit())
+            self.exchange.read(now, self._period(), self.clock.dt, self.program.program.dtype, self.sensed)
+
+    def _commands(self, motors: Sequence[str]) -> list[np.ndarray]:
+        return self.read([self.program.port(ident, "output") for ident in motors]) if motors else []
 
     # -------------------------------------------------------------------------------- values that are not finite
 
@@ -297,32 +287,16 @@ def _not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
     )
 
 
-def provided(doc: Document, world: World | None) -> dict[str, Sensor]:
-    """The sensors of a document by id, each of which the world must have."""
-    if world is not None and not isinstance(world, World):
-        raise WorldError(f"{show(world)} is no world", fix="For a picture: world=Picture('photo.jpg') from deodar.worlds.picture")
-    sensors: dict[str, Sensor] = {}
-    for e in doc.entries:
-        if isinstance(e.element, Sensor):
-            if world is None:
-                raise WorldError(
-                    f"reads the sensor {e.element.sensor!r}, and no world was given that provides it",
-                    where=e.path,
-                    fix="Give one: world=Picture('photo.jpg') from deodar.worlds.picture, on the command line --world picture:photo.jpg",
-                )
-            world.require(e.element.sensor)
-            sensors[e.id] = e.element
-    return sensors
-
-
 def require_step(doc: Document, dt: float) -> None:
     """Refuse a step longer than a time constant: the Euler method would not follow, or diverge."""
     if not 0 < (real(dt) or 0) < math.inf:
         raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
     for e in doc.entries:
         tau = getattr(e.element, "tau", None)
+        if not isinstance(tau, float) or dt * e.every <= tau * (1 + 1e-9):
+            continue
         declared = next((p for p in parameters(type(e.element)) if p.name == "tau"), None)
-        if isinstance(tau, float) and declared is not None and declared.unit == "time" and dt * e.every > tau * (1 + 1e-9):
+        if declared is not None and declared.unit == "time":
             raise TimeError(
                 f"the step of {dt * e.every:g} {doc.time_unit} is longer than the time constant tau = {tau:g}",
                 where=e.path,

@@ -5,49 +5,34 @@ from __future__ import annotations
 import dataclasses as dc
 import html
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from deodar.compiler.executable import Executable, executable, require_range
-from deodar.compiler.plan import cost
+from deodar.compiler.plan import cost, ways_of
 from deodar.compiler.program import Port, array_key
+from deodar.compiler.ways import widths
+from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
 from deodar.leaves import get, leaves, structure
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
-from deodar.parameters import FrozenArray, show
+from deodar.parameters import FrozenArray, parameters, show
 from deodar.runtime import memory
+from deodar.runtime.cost import SECONDS, Costs, Moment, costs, moment
+from deodar.runtime.exchange import used
+from deodar.runtime.live import run_live
 from deodar.runtime.look import Look, Place
-from deodar.runtime.run import Clock, Run, host, provided, require_duration, require_step, whole
+from deodar.runtime.meter import Meter
+from deodar.runtime.run import Run, require_duration, require_step, whole
+from deodar.runtime.snapshot import Snapshot, fill, rows
 from deodar.worlds._base import World
 
-Tree = Any
-Row = Mapping[str, np.ndarray]
-"""The state of one element: its arrays by name."""
 LARGEST_SEED = 2**32 - 1
-
-
-@dc.dataclass(frozen=True)
-class Snapshot:
-    """The whole state of a session at one moment.
-
-    Attributes:
-        document: the document with its parameters.
-        states: for each element by id its state, and the one that is not yet visible (of parts with a step of their own).
-        clock: tick, time and dt.
-        seed: seed of the noise; with the tick it says all about it.
-        precision: float32 or float64.
-    """
-
-    document: Document
-    states: Mapping[str, tuple[Row, Row]]
-    clock: Clock
-    seed: int
-    precision: str
 
 
 @dc.dataclass(frozen=True)
@@ -69,16 +54,26 @@ class Session:
         precision: float32 or float64.
         world: what provides the sensors that the model names.
         trial: which trial of the seed this is; a single run is trial 0.
+        device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
 
     Attributes:
+        device: where it runs, as it was given.
         journal: every change of a parameter or of dt, every reset and restore, with its tick; with seed and document it repeats the
             session.
     """
 
     def __init__(
-        self, model: Model, dt: float | None = None, seed: int = 0, precision: str = "float32", world: World | None = None, trial: int = 0
+        self,
+        model: Model,
+        dt: float | None = None,
+        seed: int = 0,
+        precision: str = "float32",
+        world: World | None = None,
+        trial: int = 0,
+        device: str | None = None,
     ) -> None:
         self._model = model
+        self.device = device
         self._precision = precision
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
@@ -87,7 +82,7 @@ class Session:
         memory.require(resolve(doc)[0], precision, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
-        self._run = Run(executable(model, doc, precision), doc, float(step), require_seed(seed), [require_seed(trial)], world)
+        self._run = Run(executable(model, doc, precision, device=device), doc, float(step), require_seed(seed), [require_seed(trial)], world)
 
     # -------------------------------------------------------------------------------- running
 
@@ -108,7 +103,21 @@ class Session:
         if self._coming_dt is not None:  # up to the tick common to all parts the old step still counts
             waiting = min(-self.tick % self._run.program.plan.ticks, math.floor(rest / self.dt + 1e-9))
             rest -= waiting * self.dt
-        self.step(waiting + whole(rest, self._coming_dt or self.dt, "a duration"))
+        self.step(waiting + whole(rest, self.next_dt, "a duration"))
+
+    def run_live(
+        self, duration: float, speed: float | None = 1.0, longest_step: float | None = None, between: Callable[[], object] | None = None
+    ) -> Meter:
+        """So much document time, paced to the clock on the wall; see `deodar.runtime.live.run_live`."""
+        return run_live(self, duration, speed, longest_step, between)
+
+    def costs(self, seconds: float = SECONDS) -> Costs:
+        """What each element costs in a step, measured now; see `deodar.runtime.cost.costs`. The run is not touched."""
+        return costs(self.moment(), seconds)
+
+    def moment(self) -> Moment:
+        """What costs are measured at: it may be handed to another thread."""
+        return moment(self._run)
 
     def reset(self, seed: int | None = None) -> None:
         """State, time and noise back to the start, with another seed if one is given; parameters stay."""
@@ -143,6 +152,7 @@ class Session:
         if taken:
             self._run.advance(taken)
         if taken == wait:
+            self._run.exchange.restep(self.tick, self.dt / self._coming_dt)
             self._run.clock = self._run.clock.at(self._coming_dt)
             self._coming_dt = None
         return taken
@@ -164,16 +174,21 @@ class Session:
 
     def require(self, document: Document) -> None:
         """Refuse a document that could not go on here: a step too long for a time constant, a sensor that the world does not have."""
-        for step in {self.dt, self._coming_dt or self.dt}:
+        for step in {self.dt, self.next_dt}:
             require_step(document, step)
-        provided(document, self.world)
+        used(document, self.world)
 
     def cost(self, document: Document) -> str:
         """What going on with another document would cost: live, rebuild or recompile."""
-        changed = _changed(self.document, document)
+        return self._cost(document, _changed(self.document, document))
+
+    def _cost(self, document: Document, changed: Sequence[Changed] | None) -> str:
         if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
             return "recompile"
-        return "rebuild" if "rebuild" in {cost for _, _, cost, _ in changed} else "live"
+        if "rebuild" not in {cost for _, _, cost, _ in changed}:
+            return "live"
+        exact, old = self._precision == "float64", self.document
+        return "rebuild" if exact or widths(old) == widths(document) or ways_of(old) == ways_of(document) else "recompile"
 
     def read(self, path: str | Handle) -> np.ndarray:
         """What a port holds now: an array over the port's axes in their order, of shape () for a node."""
@@ -203,7 +218,7 @@ class Session:
     def snapshot(self) -> Snapshot:
         """The whole state, to go back to."""
         run = self._run
-        return Snapshot(self.document, _rows(run.program, run.state), run.clock, run.seed, self._precision)
+        return Snapshot(self.document, rows(run.program, run.state), run.clock, run.seed, self._precision, run.exchange.keep())
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a snapshot, of this session or of another one of the same model."""
@@ -218,11 +233,12 @@ class Session:
         try:
             run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
             if snapshot.document != self.document:
-                run.load(executable(self._model, snapshot.document, self._precision), snapshot.document)
+                run.load(executable(self._model, snapshot.document, self._precision, device=self.device), snapshot.document)
         except BaseException:
             run.clock, run.seed = clock, seed
             raise
-        self._fill(snapshot.states)
+        fill(run, snapshot.states)
+        run.exchange.put(snapshot.world)
 
     # -------------------------------------------------------------------------------- properties
 
@@ -257,6 +273,11 @@ class Session:
         self._coming_dt = float(value)
         self.journal.append(Change(self.tick, "dt", float(value)))
         self._to_new_dt(0)
+
+    @property
+    def next_dt(self) -> float:
+        """The Euler step that was set last: `dt`, once it has taken effect."""
+        return self._coming_dt or self.dt
 
     @property
     def time(self) -> float:
@@ -297,11 +318,11 @@ class Session:
         run = self._run
         self.require(doc)
         changed = _changed(run.doc, doc)
-        if changed is not None and self.cost(doc) != "recompile":
+        if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
-        states = _rows(run.program, run.state)
-        run.load(executable(self._model, doc, self._precision), doc)
-        self._fill(states)
+        states = rows(run.program, run.state)
+        run.load(executable(self._model, doc, self._precision, device=self.device), doc)
+        fill(run, states)
         return "recompile"
 
     def _change(self, doc: Document, changed: Sequence[Changed]) -> str:
@@ -324,37 +345,6 @@ class Session:
         run.values, run.doc = values, doc
         return "rebuild" if "rebuild" in costs else "live"
 
-    def _fill(self, states: Mapping[str, tuple[Row, Row]]) -> None:
-        """States by id into the present program, where their shapes are the same; others start anew. Noise follows from seed and tick."""
-        run = self._run
-        fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
-        state = host(fresh)
-        for ident, (g, r) in run.program.plan.row.items():
-            if ident in states:
-                shown, held = states[ident]
-                _copy_row(shown, state["groups"][g], r)
-                if str(g) in state["held"]:
-                    _copy_row(held, state["held"][str(g)], r)
-        run.state = state
-        run.sensed, run.sense_at = run.program.blind(), 0
-
-
-def _rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
-    """The state of every element by id: what is shown, and what is held until it is due (the same where nothing is held)."""
-    here = host(state)
-    out: dict[str, tuple[Row, Row]] = {}
-    for ident, (g, r) in program.plan.row.items():
-        shown = {name: values[r] for name, values in here["groups"][g].items()}
-        held = {name: values[r] for name, values in here["held"].get(str(g), here["groups"][g]).items()}
-        out[ident] = (shown, held)
-    return out
-
-
-def _copy_row(source: Row, target: Tree, row: int) -> None:
-    for name, values in source.items():
-        if name in target and target[name].shape[1:] == values.shape:
-            target[name][row] = values
-
 
 Changed = tuple[tuple[str, str], Any, str, bool]
 """A leaf with another value: (id, path), value, cost, and whether that value switches something off."""
@@ -362,19 +352,33 @@ Changed = tuple[tuple[str, str], Any, str, bool]
 
 def _changed(old: Document, new: Document) -> list[Changed] | None:
     """Leaves with another value, and what each costs; None where more than leaves changed."""
-    if old.connections != new.connections or [(e.id, e.every) for e in old.entries] != [(e.id, e.every) for e in new.entries]:
+    if old.connections != new.connections or len(old.entries) != len(new.entries):
         return None
     out: list[Changed] = []
     for before, after in zip(old.entries, new.entries, strict=True):
-        if before.element is after.element:
+        if before is after:
             continue
-        if structure(before.element) != structure(after.element):
+        if (before.id, before.every) != (after.id, after.every):
             return None
-        was = {path: value for path, value, _ in leaves(before.element)}
-        out += [
-            ((after.id, path), value, cost(p), p.off and value == p.neutral) for path, value, p in leaves(after.element) if np.any(value != was[path])
-        ]
+        if before.element is not after.element:
+            changed = _changed_leaves(before.element, after.element)
+            if changed is None:
+                return None
+            out += [((after.id, path), value, cost, off) for path, value, cost, off in changed]
     return out
+
+
+def _changed_leaves(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] | None:
+    """The same of one element; parameters that are the same objects are not looked into."""
+    if type(old) is not type(new):
+        return None
+    moved = {p.name: p for p in parameters(type(old)) if getattr(old, p.name) is not getattr(new, p.name)}
+    plain = all(p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float) for name, p in moved.items())
+    if not plain and structure(old) != structure(new):
+        return None
+    was = {path: value for path, value, _ in leaves(old) if path.partition(".")[0] in moved}
+    now = [(path, value, p) for path, value, p in leaves(new) if path in was]
+    return [(path, value, cost(p), p.off and value == p.neutral) for path, value, p in now if value is not was[path] and np.any(value != was[path])]
 
 
 def require_model(model: Any) -> Model:

@@ -1,4 +1,4 @@
-"""`simulate`: one call, one labelled record; trials and sweeps as one batched program."""
+"""`simulate`: one call, one labelled record; trials and sweeps as one batched program, or as several beside each other."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar.compiler import device as devices
 from deodar.compiler.executable import Batch, Executable, executable
 from deodar.compiler.plan import Leaf, cost
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
-from deodar.errors import Interrupted, ParameterError, TimeError
+from deodar.errors import Interrupted, ParameterError, TimeError, WorkerError
 from deodar.leaves import get, leaves
 from deodar.model import edit, find
 from deodar.model.document import Document
@@ -23,7 +24,7 @@ from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import real, show
 from deodar.recording.provenance import provenance
-from deodar.runtime import memory
+from deodar.runtime import memory, pieces
 from deodar.runtime.interrupt import stoppable
 from deodar.runtime.run import Run, require_step, whole
 from deodar.runtime.session import LARGEST_SEED, require_model, require_seed
@@ -34,6 +35,9 @@ if TYPE_CHECKING:
 
 SHOW_AFTER = 1.0
 """Seconds after which a run shows a progress bar, if it writes to a terminal."""
+
+Shown = bool | Callable[[int], None] | None
+"""Whether to show a bar (None: where it makes sense), or what is told how many steps are done."""
 
 
 def simulate(
@@ -47,9 +51,16 @@ def simulate(
     sweep: Mapping[str, Sequence[float]] | None = None,
     precision: str = "float32",
     world: World | None = None,
-    progress: bool | None = None,
+    progress: Shown = None,
+    workers: int | None = None,
+    batch: int | None = None,
+    device: str | None = None,
 ) -> xarray.Dataset:
     """Run a model and return what was recorded.
+
+    Trials and points of a sweep are copies of the model in one batch. A batch that would outgrow the processor's cache is cut into pieces, along
+    the longest of these dimensions; `workers` runs the pieces in processes of one core each. The noise is the same bits however it is cut, and
+    float64 results agree to 1e-10. A worker takes one to two seconds to start, so a short run is done sooner without.
 
     Args:
         model: the model, as it now is.
@@ -62,13 +73,18 @@ def simulate(
         sweep: for each parameter path its values; several entries form a grid. All points share the noise.
         precision: float32 or float64.
         world: what provides the sensors that the model names.
-        progress: show a bar; none: on a terminal, if the run takes longer than a second.
+        progress: show a bar; none: on a terminal, if the run takes longer than a second. A function is told how many steps are done.
+        workers: share the copies among so many processes; one for each core is best.
+        batch: copies that run at once in one process; none: as many as fit into the cache, all where there is no cache to fit into.
+        device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
 
     Returns:
         A Dataset with one variable for each path; dimensions: sweep paths, `trial` (where given), `time`, axes.
 
     Raises:
-        Interrupted: on Ctrl-C; its `data` holds what was recorded until then.
+        Interrupted: on Ctrl-C; its `data` holds what was recorded until then; of a run in pieces those that are complete, if there are any.
+        DeviceError: there is no such device.
+        WorkerError: something cannot be handed to another process, or a process has died.
     """
     doc = require_model(model).document
     model.require()
@@ -88,20 +104,31 @@ def simulate(
     ports = _ports(doc, record)
     start, gap = (steps, steps + 1) if record is None else (0, gap)
     count = 0 if start > steps else 1 + (steps - start) // gap
-    batch = Batch(points.size if sweep else None, len(numbers) if names else None)
+    copies = Batch(points.size if sweep else None, len(numbers) if names else None)
     nodes, _ = resolve(doc)
-    cells = sum(_cells(nodes, entry, port) for entry, port in ports)
-    memory.require(nodes, precision, batch.size, cells * count * batch.size, points.rebuilt(), points.size)
+    cut = _cut(memory.copy_bytes(nodes, precision), names, points, workers, batch, device)
+    recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * count * copies.size
+    beside = min(workers or 0, cut.count) if cut.count > 1 else 0
+    memory.require(
+        nodes, precision, cut.batch, recorded * (2 if cut.count > 1 else 1), points.rebuilt(), min(points.size, cut.batch), beside
+    )  # fmt: skip
+    settings = {"duration": float(duration), "seed": seed, "every": every, "record": None if record is None else _list(record)}
+    labels, grid = list(numbers) if names else None, points.by_path
+    asked = {"trials": labels, "sweep": grid, "workers": workers, "device": device}
+    if cut.count > 1:
+        settings |= {"dt": float(step), "precision": precision, "device": device}
+        parts = _in_pieces(model, [settings | own for own in cut.settings(labels, grid)], workers, world, steps, progress)
+        data, complete = pieces.joined(cut, parts, asked), sum(part is not None and part[1] for part in parts)
+        if complete < len(parts):
+            raise Interrupted(f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data)
+        return data
     stopped = False
     with stoppable() as check:
-        program = executable(model, doc, precision, batch, points.leaves if sweep else ())
+        program = executable(model, doc, precision, copies, points.leaves if sweep else (), device)
         run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
         found = [program.port(i, port) for i, port in ports]
-        store = _Store(program, found, batch, count)
-        about = provenance(
-            model, doc, run, duration=float(duration), seed=seed, every=every, record=None if record is None else _list(record),
-            trials=list(numbers) if names else None, sweep=points.by_path,
-        )  # fmt: skip
+        store = _Store(program, found, copies, count)
+        about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)
         try:
             with _bar(steps, progress) as shown:
 
@@ -129,6 +156,42 @@ def simulate(
     if stopped:
         raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
     return data
+
+
+def _in_pieces(
+    model: Model, jobs: Sequence[Mapping[str, Any]], count: int | None, world: World | None, steps: int, progress: Shown
+) -> list[pieces.Part | None]:
+    """The pieces one after another, or in so many worker processes."""
+    parts: list[pieces.Part | None] = [None] * len(jobs)
+    with stoppable() as check, _bar(steps * len(jobs), progress) as shown:
+
+        def between(done: int) -> None:
+            check()
+            shown(done)
+
+        if count is not None:
+            from deodar.runtime import workers
+
+            return workers.run(model, world, jobs, count, between)
+        for k, job in enumerate(jobs):
+            try:
+                parts[k] = simulate(model, world=world, progress=lambda done, k=k: between(k * steps + done), **job), True
+            except Interrupted as error:
+                parts[k] = error.data, False
+                break
+    return parts
+
+
+def _cut(
+    bytes_a_copy: int, trials: Sequence[int] | None, points: _Points, workers: int | None, batch: int | None, device: str | None
+) -> pieces.Pieces:
+    from deodar.runtime.workers import require_workers
+
+    lengths = ({} if trials is None else {"trial": len(trials)}) | {path: len(values) for path, values in points.by_path.items()}
+    on_cpu = device is None or devices.find(device).platform == devices.DEFAULT
+    if workers is not None and not on_cpu:
+        raise WorkerError(f"worker processes run on the cores of the CPU, not on {device!r}", fix="Leave out workers, or device")
+    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, 1 if workers is None else require_workers(workers), batch)
 
 
 class _Points:
@@ -257,8 +320,11 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, S
 
 
 @contextlib.contextmanager
-def _bar(steps: int, progress: bool | None) -> Generator[Callable[[int], None]]:
+def _bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
     """A progress bar that appears once the run takes longer than SHOW_AFTER."""
+    if callable(progress):
+        yield progress
+        return
     if progress is False or (progress is None and not sys.stderr.isatty()):
         yield lambda done: None
         return

@@ -20,7 +20,7 @@ from deodar.errors import DeodarError
 from deodar.server import requests, view
 from deodar.server.project import Asks
 from deodar.server.stream import Stream
-from deodar.server.to_page import Answer, Clock, Folder, Gallery, Opened, Problem, ToPage, Trouble
+from deodar.server.to_page import Answer, Clock, Costs, Folder, Gallery, Opened, Problem, ToPage, Trouble
 from deodar.server.to_server import Drawn, ToServer
 
 if TYPE_CHECKING:
@@ -186,9 +186,10 @@ class Connection:
             self._session, self._version = project.session, project.version
             file, problems = project.trouble
             self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
+        self._new("costs", self.hub.costs(), out)
         return out
 
-    def _new(self, what: str, message: Gallery | Trouble | Clock, out: list[ToPage]) -> None:
+    def _new(self, what: str, message: Gallery | Trouble | Clock | Costs, out: list[ToPage]) -> None:
         if self._known.get(what) != message:
             self._known[what] = message
             out.append(message)

@@ -1,4 +1,4 @@
-"""Which world the sensors of the open document read."""
+"""Which world the sensors of the open document read, and its motors move."""
 
 from __future__ import annotations
 
@@ -8,16 +8,18 @@ import tempfile
 from pathlib import Path
 
 from deodar import registry
+from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError, did_you_mean
 from deodar.model.document import Document
+from deodar.recording.opened import opened
 from deodar.worlds._base import World
 
 MOST_BYTES = 32 * 2**20
 
 
 class Embodiment:
-    """The world that was chosen; where none was, or it lacks a sensor, an example of a kind that has them all.
+    """The world that was chosen; where none was, or it lacks a sensor or motor, an example of a kind that has them all.
 
     Attributes:
         label: the world that is read, in a few words.
@@ -30,12 +32,12 @@ class Embodiment:
 
     def world(self, doc: Document) -> World | None:
         """The world for a document; None where it senses nothing, or nothing fits (then running says so)."""
-        wanted = sensors(doc)
+        wanted = signals(doc)
         self.label = ""
         if not wanted:
             return None
-        if self.chosen is None or not wanted <= set(self.chosen.sensors):
-            fitting = [cls for cls in registry.kinds("worlds").values() if wanted <= set(cls.sensors)]
+        if self.chosen is None or not wanted <= {*self.chosen.sensors, *self.chosen.motors}:
+            fitting = [cls for cls in registry.kinds("worlds").values() if wanted <= {*cls.sensors, *cls.motors}]
             if fitting:
                 self.label = _named(fitting[0].__name__, "an example")
                 return fitting[0].example()
@@ -48,7 +50,7 @@ class Embodiment:
         if kind not in kinds:
             raise WorldError(f"there is no world {kind!r}", fix=did_you_mean(kind, kinds))
         try:
-            self.chosen = kinds[kind].open(str(path))
+            self.chosen = opened(kinds[kind], str(path))
         except WorldError as error:
             raise WorldError(error.problems[0].what, where=name, fix=error.problems[0].fix) from None
         self.label = self._name = _named(kind, name)
@@ -68,9 +70,10 @@ class Embodiment:
             return self.open(kind, path, name)
 
 
-def sensors(doc: Document) -> set[str]:
-    """Names of the sensors that a document reads."""
-    return {e.element.sensor for e in doc.entries if isinstance(e.element, Sensor)}
+def signals(doc: Document) -> set[str]:
+    """Names of the sensors that a document reads and of the motors that it drives."""
+    sensors = {e.element.sensor for e in doc.entries if isinstance(e.element, Sensor)}
+    return sensors | {e.element.motor for e in doc.entries if isinstance(e.element, Motor)}
 
 
 def _named(kind: str, name: str) -> str:

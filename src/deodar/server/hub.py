@@ -7,13 +7,15 @@ import contextlib
 from pathlib import Path
 
 from deodar import __version__
+from deodar.runtime.bill import Bill
 from deodar.runtime.engine import Engine
-from deodar.server import gallery, kinds
+from deodar.runtime.meter import Meter
+from deodar.server import gallery, kinds, view
 from deodar.server.connection import Connection
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
 from deodar.server.project import Project
-from deodar.server.to_page import Clock, Gallery, Welcome
+from deodar.server.to_page import Clock, Costs, CostView, Gallery, Welcome
 from deodar.server.workspace import Workspace
 from deodar.worlds._base import World
 
@@ -27,6 +29,7 @@ class Hub:
     def __init__(self, root: Path, trust: bool, world: World | None) -> None:
         self._loop = asyncio.get_running_loop()
         self._told = False
+        self._told_costs: tuple[Bill, Costs] | None = None
         self.connections: set[Connection] = set()
         self.workspace = Workspace(root)
         self.keeper = Keeper(state_folder())
@@ -59,7 +62,7 @@ class Hub:
     def clock(self, frame: int) -> Clock:
         """Where the run is."""
         engine, shot, session = self.engine, self.engine.shot, self.engine.session
-        hand = engine.hand
+        hand, meter = engine.hand, Meter() if session is None else engine.pace.meter(session)
         return Clock(
             frame=frame,
             running=engine.running,
@@ -70,12 +73,30 @@ class Hub:
             speed=engine.pace.speed,
             factor=engine.pace.factor if engine.running else 0.0,
             steps=engine.pace.steps if engine.running else 0.0,
+            lag=meter.lag,
+            worst=meter.worst,
+            lost=meter.lost,
+            overruns=meter.overruns,
+            longest=engine.pace.longest,
+            lengthened=meter.lengthened,
             busy=self.project.busy or engine.busy,
             failure=self.project.failures(),
             world=self.embodiment.label,
             senses=session is not None and bool(session.program.plan.sensors),
             pushing="" if hand is None else hand.element,
         )
+
+    def costs(self) -> Costs:
+        """What elements cost, as far as it was measured."""
+        bill = self.engine.bill
+        if self._told_costs is None or self._told_costs[0] is not bill:
+            found = bill.costs
+            listed = () if found is None else found.elements
+            elements = [CostView(element=c.id, path=c.path, kind=c.kind, us=c.us, alike=c.alike, once=c.once) for c in listed]
+            problems = view.problems(bill.problems, None)
+            step = 0.0 if found is None else found.step
+            self._told_costs = bill, Costs(measuring=bill.measuring, step=step, elements=elements, problems=problems)
+        return self._told_costs[1]
 
     # -------------------------------------------------------------------------------- watching
 

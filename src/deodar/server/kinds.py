@@ -76,9 +76,9 @@ def _example(cls: type[Any]) -> Any:
 
 
 def _ports(cls: type[Any], says: Docstring, example: Any) -> dict[str, str]:
-    """Ports and what they carry, those that the docstring leaves out without words; of a world its sensors."""
+    """Ports and what they carry, those that the docstring leaves out without words; of a world its sensors and motors."""
     if issubclass(cls, World):
-        return dict(cls.sensors)
+        return {name: str(signal) for name, signal in {**cls.sensors, **cls.motors}.items()}
     if not issubclass(cls, Element):
         return {}
     inputs, outputs = list(cls.inputs), list[str]()

@@ -14,6 +14,7 @@ from typing import Any, Literal
 
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
+from deodar.importers import opening
 from deodar.leaves import get
 from deodar.model import edit, files
 from deodar.model.check import check
@@ -108,8 +109,9 @@ class Project:
     # -------------------------------------------------------------------------------- opening and closing
 
     async def open_file(self, path: Path, discard: bool) -> None:
-        """Open a document; what is wrong with it becomes the trouble that the page shows."""
-        await self._open(lambda: files.load(path), path, str(path), discard)
+        """Open a document, or a file of another tool as a document without a file; what is wrong with it becomes the trouble that the page shows."""
+        foreign = opening.tool_of(path) is not None
+        await self._open(lambda: opening.load(path).document, None if foreign else path, str(path), discard)
 
     async def open_copy(self, path: Path, title: str, discard: bool) -> None:
         """Open a document as one without a file: an example."""
@@ -119,6 +121,9 @@ class Project:
         """Open a document given as text."""
 
         def read() -> Document:
+            tool = opening.tool_for(text.encode())
+            if tool is not None:
+                return tool.read(text.encode(), title).model.document
             data = files.parse(text)
             if isinstance(data, dict) and "arrays" in data:
                 fix = "Put both files below the studio's folder and open the document by its name"
@@ -202,8 +207,10 @@ class Project:
                 self._changed()
             return
         if number == self.session:
-            self.busy = ""
             await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(session)))
+            if number != self.session:
+                return
+            self.busy = ""  # only now: who sees it may ask for what needs a session
             if model.document is not doc:
                 await self._adopt(model.document)
             self._changed()

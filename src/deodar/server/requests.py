@@ -149,6 +149,16 @@ async def _speed(page: Connection, m: to_server.Speed) -> None:
     await _engine(page, lambda: page.hub.engine.pace.go(m.factor))
 
 
+async def _lengthen(page: Connection, m: to_server.Lengthen) -> None:
+    page.hub.project.require_run()
+    await _engine(page, lambda: page.hub.engine.lengthen(m.longest))
+
+
+async def _measure_costs(page: Connection, m: to_server.MeasureCosts) -> None:
+    page.hub.project.require_run()
+    await _engine(page, page.hub.engine.measure)
+
+
 async def _push(page: Connection, m: to_server.Push) -> None:
     engine = page.hub.engine
     session = engine.session
@@ -223,7 +233,8 @@ _DO: dict[type[Any], Callable[[Connection, Any], Awaitable[Any]]] = {
     to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save, to_server.ListFolder: _list_folder, to_server.Set: _set,
     to_server.Describe: _describe, to_server.AddKnob: _add_knob, to_server.Link: _link, to_server.Unlink: _unlink,
     to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.Undo: _undo, to_server.Redo: _redo, to_server.Play: _play,
-    to_server.Pause: _pause, to_server.Step: _step, to_server.Reset: _reset, to_server.Speed: _speed, to_server.Push: _push,
+    to_server.Pause: _pause, to_server.Step: _step, to_server.Reset: _reset, to_server.Speed: _speed,
+    to_server.Lengthen: _lengthen, to_server.MeasureCosts: _measure_costs, to_server.Push: _push,
     to_server.Release: _release, to_server.UseWorld: _use_world, to_server.UseWorldContent: _use_world_content, to_server.Watch: _watch,
     to_server.Trace: _trace, to_server.Unwatch: _unwatch,
 }  # fmt: skip

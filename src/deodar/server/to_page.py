@@ -194,7 +194,10 @@ class Clock(Message, frozen=True, tag="clock"):
     """Where the run is. Sent after the frames of the same number, and whenever something changes.
 
     `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as possible); `abstract` time
-    counts 1 unit as 1 ms. `busy` says in words what is being made; `failure` why the run stopped; `world` what the sensors read.
+    counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and will catch up, `worst` the largest lag since it was played,
+    `lost` what was given up; `overruns` counts how often it fell behind. `longest` is the step up to which it may grow to keep up (None: it
+    stays), and `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
+    stopped; `world` what the sensors read.
     """
 
     frame: int
@@ -206,11 +209,39 @@ class Clock(Message, frozen=True, tag="clock"):
     speed: float | None
     factor: float
     steps: float
+    lag: float
+    worst: float
+    lost: float
+    overruns: int
+    longest: float | None
+    lengthened: int
     busy: str
     failure: list[Problem]
     world: str
     senses: bool
     pushing: Id
+
+
+class CostView(Data, frozen=True):
+    """What an element costs: microseconds of a step. `alike` elements are computed together and share the time; `once`: it stands still and is
+    computed once a chunk. What a connection resamples or delays has a path but is no element of the document.
+    """
+
+    element: Id
+    path: str
+    kind: str
+    us: float
+    alike: int
+    once: bool
+
+
+class Costs(Message, frozen=True, tag="costs"):
+    """What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in microseconds, 0 before it was measured."""
+
+    measuring: bool
+    step: float
+    elements: list[CostView]
+    problems: list[Problem]
 
 
 class Announced(Message, frozen=True, tag="announced"):
@@ -254,4 +285,4 @@ class Answer(Message, frozen=True, tag="answer"):
     file: str = ""
 
 
-ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Announced | Lost | Folder | Answer
+ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Costs | Announced | Lost | Folder | Answer

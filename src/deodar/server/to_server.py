@@ -166,6 +166,16 @@ class Speed(Request, frozen=True, kw_only=True, tag="speed"):
     factor: Annotated[float, msgspec.Meta(gt=0, le=1e6)] | None
 
 
+class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
+    """Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run falls behind."""
+
+    longest: Annotated[float, msgspec.Meta(gt=0)] | None
+
+
+class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
+    """Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is done."""
+
+
 class Push(Request, frozen=True, kw_only=True, tag="push"):
     """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same where it is None."""
 
@@ -227,5 +237,6 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 ToServer = (
     OpenFile | OpenExample | OpenText | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink | RemoveKnob
-    | Arrange | Undo | Redo | Play | Pause | Step | Reset | Speed | Push | Release | UseWorld | UseWorldContent | Watch | Trace | Unwatch | Drawn
+    | Arrange | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
+    | Release | UseWorld | UseWorldContent | Watch | Trace | Unwatch | Drawn
 )  # fmt: skip

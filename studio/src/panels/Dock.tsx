@@ -3,6 +3,7 @@
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
 import { useEffect, useRef, useState } from "react";
+import { Costs } from "../costs/Costs";
 import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
 import { Pins } from "../pins/Pins";
@@ -18,6 +19,7 @@ const COMPONENTS = {
   graph: () => <Graph />,
   inspector: () => <Inspector />,
   pins: () => <Pins />,
+  costs: () => <Costs />,
   plot: PlotPanel,
 };
 

@@ -4,6 +4,7 @@ import { Tooltip } from "@mantine/core";
 
 import { type Studio, useStudio } from "../store";
 import { countText, factorText, timeText, unitText } from "./format";
+import { lateText, meterLines } from "./meter";
 import { useThrottled } from "./throttled";
 import classes from "./Readout.module.css";
 
@@ -18,6 +19,7 @@ export function Readout() {
   const factor = clock === null || !running ? "×–" : factorText(clock.factor);
   const dt = clock === null ? "" : `Simulated time, in steps of ${Number(clock.dt.toPrecision(6))} ${unitText(unit)}`.trimEnd();
   const pace = unit === "abstract" ? "Simulated time over real time, 1 unit taken as 1 ms" : "Simulated time over real time, measured";
+  const late = clock === null ? "" : lateText(clock);
   return (
     <div className={`${classes.readout} numbers`}>
       <Tooltip label={dt}>
@@ -26,12 +28,22 @@ export function Readout() {
           <div className={classes.under}>{tick}</div>
         </div>
       </Tooltip>
-      <Tooltip label={running && clock !== null ? `${pace}: ${countText(clock.steps)} steps in a second` : pace}>
+      <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>
         <div className={classes.factor} data-still={!running || undefined} aria-label="Speed measured">
           <div className={classes.number}>{factor}</div>
-          <div className={classes.under}>real time</div>
+          <div className={classes.under} data-late={late !== "" || undefined}>{late || "real time"}</div>
         </div>
       </Tooltip>
     </div>
+  );
+}
+
+function Lines({ lines }: { lines: string[] }) {
+  return (
+    <>
+      {lines.map((line) => (
+        <div key={line}>{line}</div>
+      ))}
+    </>
   );
 }

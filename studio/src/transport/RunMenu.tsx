@@ -26,6 +26,7 @@ export function RunMenu() {
         <Stack gap="sm">
           <Seed />
           <TimeStep />
+          <LongestStep />
           <Steps />
         </Stack>
       </Popover.Dropdown>
@@ -88,6 +89,29 @@ function TimeStep() {
       <NumberInput label="Time step dt" size="xs" value={value} onChange={setValue} onBlur={() => void send()} min={0} hideControls
         onKeyDown={(event) => event.key === "Enter" && void send()} suffix={unit === "" ? "" : ` ${unit}`} />
       <Hint>Small beside every time constant. The state is kept.</Hint>
+    </div>
+  );
+}
+
+function LongestStep() {
+  const longest = useStudio((state) => state.clock?.longest ?? null);
+  const unit = useStudio((state) => unitText(state.document?.time_unit ?? ""));
+  const [value, setValue] = useState<number | string>(longest ?? "");
+  useEffect(() => setValue(longest ?? ""), [longest]);
+  const send = async () => {
+    const wanted = typeof value === "number" ? value : null;
+    if (wanted !== longest) {
+      const answer = await request({ type: "lengthen", longest: wanted });
+      if ((answer.problems ?? []).length > 0) {
+        setValue(longest ?? "");
+      }
+    }
+  };
+  return (
+    <div>
+      <NumberInput label="Longest step, where time is short" size="xs" value={value} onChange={setValue} onBlur={() => void send()} min={0} hideControls
+        placeholder="dt stays" onKeyDown={(event) => event.key === "Enter" && void send()} suffix={unit === "" ? "" : ` ${unit}`} />
+      <Hint>Empty: steps stay as they are, and a slow computer falls behind.</Hint>
     </div>
   );
 }

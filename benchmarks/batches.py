@@ -1,0 +1,106 @@
+"""What cores and batches bring: `python benchmarks/batches.py [cores] [sizes] [workers]`.
+
+`cores`: wall and CPU time of a step of one run on one core and on all, each in a process of its own. `sizes`: CPU time of a step for each copy
+over the number of copies in one batch, on one core. `workers`: wall time of 64 trials in this process, and shared among as many
+workers as there are cores, their start included. Medians of three; nothing is asserted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import deodar as dd
+import workloads
+from deodar.compiler.device import available
+
+SINGLE = {"W1_100": 40_000, "W1_200": 40_000, "W2_50": 4_000, "W2_100": 1_000, "W2_200": 250, "W3": 100, "W4a": 2_000, "W4b": 200}
+BATCHED = {"W1_200": 1.0, "W2_50": 9.0, "W2_100": 40.0, "W2_200": 160.0, "W4a": 12.0, "W4b": 210.0}
+"""Workloads, and about how many microseconds a step of one copy takes."""
+
+SIZES = (1, 2, 4, 8, 16, 24, 32, 48, 64, 100, 200, 400)
+MOST_CELLS = 12_000_000
+TRIALS, LONG = 64, {"W1_200": 40_000, "W2_50": 4_000}
+
+
+def step(run: Callable[[int], Any], n: int) -> tuple[float, float]:
+    """Wall and CPU microseconds a step."""
+
+    def times(n: int) -> tuple[float, float]:
+        wall, cpu = time.perf_counter(), time.process_time()
+        run(n)
+        return time.perf_counter() - wall, time.process_time() - cpu
+
+    run(n)
+    rounds = [(times(n), times(2 * n)) for _ in range(3)]
+    wall, cpu = (statistics.median(b[k] - a[k] for a, b in rounds) / n * 1e6 for k in (0, 1))
+    return wall, cpu
+
+
+def one_run(cores: int) -> None:
+    """In a process of its own: a step of each workload."""
+    dd.use_cores(cores)
+    for name, n in SINGLE.items():
+        model = workloads.WORKLOADS[name].model()
+        wall, cpu = step(lambda n, model=model: dd.simulate(model, n, progress=False), n)
+        print(f"{name:8} {cores:3} cores: wall {wall:9.2f} us, CPU {cpu:9.2f} us", flush=True)
+
+
+def cores() -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "NPROC"}
+    for n in dict.fromkeys((1, available())):
+        subprocess.run([sys.executable, __file__, "--one-run", str(n)], check=True, env=environment)
+
+
+def sizes() -> None:
+    from deodar.model.resolve import resolve
+    from deodar.runtime.memory import copy_bytes
+
+    for name, us in BATCHED.items():
+        model = workloads.WORKLOADS[name].model()
+        size = copy_bytes(resolve(model.document)[0], "float32")
+        shown: list[str] = []
+        for copies in SIZES:
+            if size * copies <= 4 * MOST_CELLS:
+                n = max(4, int(150_000 / (us * copies)))
+                run = lambda n, model=model, copies=copies: dd.simulate(model, n, trials=copies, batch=copies, progress=False)  # noqa: E731
+                shown.append(f"{copies}: {step(run, n)[1] / copies:.2f}")
+        print(f"{name:8} {size / 1024:7.1f} KiB a copy; us a step and copy  {'  '.join(shown)}", flush=True)
+
+
+def workers() -> None:
+    for name, n in LONG.items():
+        model = workloads.WORKLOADS[name].model()
+        for count in (None, available()):
+            for _ in range(2):  # the second time no program is compiled anew
+                began = time.perf_counter()
+                dd.simulate(model, n, trials=TRIALS, workers=count, progress=False)
+                seconds = time.perf_counter() - began
+            print(f"{name:8} {TRIALS} trials of {n} steps, {f'{count} workers' if count else 'one batch here'}: {seconds:.2f} s", flush=True)
+
+
+PARTS: dict[str, Callable[[], None]] = {"cores": cores, "sizes": sizes, "workers": workers}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("names", nargs="*", choices=[*PARTS, []], metavar="NAME", help=f"all of them, or some of: {', '.join(PARTS)}")
+    parser.add_argument("--one-run", type=int, metavar="CORES", help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.one_run:
+        return one_run(given.one_run)
+    dd.use_cores(1)
+    for name, part in PARTS.items():
+        if not given.names or name in given.names:
+            part()
+    return None
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""`deodar run FILE --live` and `deodar run FILE --cost`: a session in place of a record."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from typing import TYPE_CHECKING
+
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    from deodar.runtime.session import Session
+
+OF_A_RECORD = ("record", "every", "trials", "workers", "sweep", "out", "force")
+"""What a run that writes no record cannot do."""
+
+OF_A_LIVE_RUN = ("speed", "longest_step")
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """`--live`, `--speed`, `--longest-step` and `--cost`."""
+    parser.add_argument(
+        "--live", action="store_true", help="pace the run to the clock on the wall and print how well it kept to it; writes no record"
+    )
+    parser.add_argument("--speed", type=_speed, metavar="S", help="with --live: document time over wall time, or max (default 1: real time)")
+    parser.add_argument("--longest-step", type=float, metavar="DT", help="with --live: let the step grow up to this where time is short")
+    parser.add_argument("--cost", action="store_true", help="print what each element costs in a step, measured at the end; writes no record")
+
+
+def refuse_alone(args: argparse.Namespace) -> None:
+    """Refuse what means something with `--live` only."""
+    given = [name for name in OF_A_LIVE_RUN if getattr(args, name) is not None]
+    if given:
+        args.wrong(f"{_flags(given)} needs --live")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the session and print the meter, the costs, or both. Status 1 if it was stopped."""
+    given = [name for name in OF_A_RECORD if getattr(args, name)]
+    if given:
+        args.wrong(f"--{'live' if args.live else 'cost'} writes no record, so {_flags(given)} cannot be given; leave the one or the other out")
+    if not args.live:
+        refuse_alone(args)
+    elif args.duration is None and args.file.is_file():
+        args.wrong("a live run needs --duration, for example --duration 5000")
+    session, duration = _session(args), args.duration or 0.0
+    speed = 1.0 if args.speed is None else None if args.speed == "max" else args.speed
+    answer: dict[str, object] = {}
+    stopped = ""
+    if args.live:
+        from deodar.runtime.live import run_live
+        from deodar.runtime.pace import Pace
+
+        pace = Pace()
+        try:
+            meter = run_live(session, duration, speed, args.longest_step, pace=pace)
+        except KeyboardInterrupt:  # a usual end of a live run: what was measured counts
+            meter, unit = pace.meter(session), session.document.time_unit
+            stopped = f"stopped at {session.time:g} of {duration:g} {unit}"
+        answer["meter"] = meter.data() | {"complete": not stopped}
+        if not args.json:
+            print(_options.paragraph([str(meter)]))
+    else:
+        session.run(duration)
+    if args.cost and not stopped:
+        costs = session.costs()
+        answer["cost"] = costs.data()
+        if not args.json:
+            print(costs)
+    if args.json:
+        print(json.dumps(answer, indent=2, ensure_ascii=False))
+    if stopped:
+        print(f"deodar run: {_options.paragraph([stopped])}", file=sys.stderr)
+    return 1 if stopped else 0
+
+
+def _session(args: argparse.Namespace) -> Session:
+    from deodar.model.model import load
+    from deodar.runtime.session import Session
+
+    model = load(args.file, trust=args.trust)
+    for path, value in args.set or ():
+        model.set(path, value)
+    return Session(model, args.dt, args.seed or 0, args.precision or "float32", _options.world(args.world), device=args.device)
+
+
+def _speed(text: str) -> float | str:
+    """A number, or max."""
+    return text if text == "max" else float(text)
+
+
+_speed.__name__ = "speed"
+
+
+def _flags(names: list[str]) -> str:
+    return ", ".join(f"--{name.replace('_', '-')}" for name in names)

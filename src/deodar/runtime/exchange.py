@@ -1,0 +1,204 @@
+"""Between a model and its world: at each multiple of the world's period sensors are read and motors told, whatever the chunks are."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.compiler.executable import Batch
+from deodar.elements.motor import Motor
+from deodar.elements.sensor import Sensor
+from deodar.errors import NotFinite, WorldError
+from deodar.model.document import Document
+from deodar.numerics.axes import shape
+from deodar.parameters import show
+from deodar.worlds._base import Signal, World, fitting
+
+NEVER = 2**62
+"""A tick that no run reaches."""
+
+Told = Callable[[Sequence[str]], Sequence[np.ndarray]]
+"""What gives the commands of motors (by id) in the present state of the model."""
+
+
+@dc.dataclass(frozen=True)
+class Moment:
+    """When it is: tick, document time, and how many ms a unit of document time lasts."""
+
+    tick: int
+    time: float
+    unit: float
+
+
+@dc.dataclass(frozen=True)
+class Kept:
+    """Where a world stands: what it keeps itself, the ticks of this exchange and the next, the tick from which periods count,
+    and what its motors were told at this exchange.
+    """
+
+    kind: type[World]
+    world: Any
+    last: float
+    due: int
+    origin: int
+    told: Mapping[str, np.ndarray] | None
+
+
+class Exchange:
+    """A world, what a model uses of it, and when.
+
+    The motors are read at t, and what they do to the sensors shows at t + period: the rule of every part with a step of its own, so that the
+    same run results wherever the world is computed.
+
+    Attributes:
+        world: the world, or None.
+        sensors, motors: what the model uses, by id.
+    """
+
+    def __init__(self, doc: Document, world: World | None) -> None:
+        self.sensors, self.motors = used(doc, world)
+        self.world = world
+        self.unread = True
+        self._last: float = 0
+        self._due = self._origin = 0
+        self._told: Mapping[str, np.ndarray] | None = None
+
+    def take(self, doc: Document) -> None:
+        """Go on with another document. What is refused changes nothing."""
+        self.sensors, self.motors = used(doc, self.world)
+        self.unread = True
+
+    def reset(self, seed: int, trials: Sequence[int], batch: Batch, precision: str) -> None:
+        """The world back to its start, for a batch of copies."""
+        if self.world is not None:
+            copies = [t for _ in range(batch.points or 1) for t in trials]
+            if batch.shape and (each := [s.sensor for s in self.sensors.values() if self.world.sensors[s.sensor].each]):
+                raise WorldError(f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot be run in this world")
+            self.world.reset(seed, copies, precision)
+        self.unread, self._told = True, None
+        self._last = 0
+        self._due = self._origin = 0
+
+    @property
+    def live(self) -> bool:
+        """Whether there is anything to exchange."""
+        return self.world is not None and bool(self.sensors or self.motors)
+
+    def steps(self, tick: int, period: int) -> int:
+        """Steps until the next exchange; `period` in ticks, 0 where the world never changes."""
+        if not self.live or not period:
+            return NEVER
+        if self.unread or tick < self._last or tick >= self._due:
+            return period - (tick - self._origin) % period
+        return self._due - tick
+
+    def read(self, now: Moment, period: int, dt: float, dtype: Any, sensed: dict[str, np.ndarray]) -> None:
+        """Bring the world to the present, and what is sensed with it."""
+        if self.world is None or not self.live:
+            return
+        back = now.tick < self._last  # to a snapshot
+        if not self.unread and not back and (not period or now.tick < self._due):
+            return
+        if period and (back or now.tick >= self._due):
+            late = (now.tick - self._origin) % period
+            if not back and self._told is not None:
+                self.world.act(self._told, (now.time - (now.tick - self._last) * dt) * now.unit)
+            self._told = None
+            self._last, self._due = now.tick - late, now.tick - late + period
+        moment = (now.time - (now.tick - self._last) * dt) * now.unit
+        for ident, sensor in self.sensors.items():
+            sensed[ident] = self._reading(sensor, moment, dtype)
+        self.unread = False
+
+    def tell(self, tick: int, period: int, told: Told) -> None:
+        """Before steps are taken from the tick of an exchange: take down what the motors are told there."""
+        if self.world is None or not self.live or not period or tick != self._last or self._told is not None:
+            return
+        found = told(list(self.motors))
+        commands: dict[str, np.ndarray] = {}
+        for motor, command in zip(self.motors.values(), found, strict=True):
+            if not np.isfinite(command).all():
+                raise NotFinite(f"the motor {motor.motor!r} was told {show(command.ravel()[0])}", [motor.name], fix="Look for what drives it")
+            commands[motor.motor] = command.reshape(-1, *shape(tuple(motor.axes)))
+        self._told = commands
+
+    def restep(self, tick: int, factor: float) -> None:
+        """The step is another one from this tick on, `factor` the old over the new: what is due stays where it is in time, to a step."""
+        self._last = tick - (tick - self._last) * factor
+        self._due = self._origin = tick + math.ceil(max(0, self._due - tick) * factor - 1e-6)
+
+    def keep(self) -> Kept | None:
+        """What `put` needs to go back to this moment."""
+        return None if self.world is None else Kept(type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told)
+
+    def put(self, kept: Kept | None) -> None:
+        """Back to a moment; the sensors are read anew."""
+        self.unread = True
+        if kept is not None and self.world is not None and isinstance(self.world, kept.kind):
+            self.world.put(kept.world)
+            self._last, self._due, self._origin, self._told = kept.last, kept.due, kept.origin, kept.told
+
+    def _reading(self, sensor: Sensor, moment: float, dtype: Any) -> np.ndarray:
+        assert self.world is not None
+        axes = tuple(sensor.axes)
+        each = self.world.sensors[sensor.sensor].each if sensor.sensor in self.world.sensors else False
+        given = self.world.sense(sensor.sensor, axes, moment)
+        try:
+            reading = np.asarray(given, dtype)
+        except (TypeError, ValueError):  # no numbers
+            reading = np.asarray(np.nan)
+        if each and reading.ndim:
+            reading = reading[0]
+        if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
+            raise WorldError(
+                f"the world gave an array of shape {list(reading.shape)}, finite: {bool(np.isfinite(reading).all())}; it needs"
+                f" {[a.samples for a in axes]}, finite",
+                where=sensor.sensor,
+            )
+        return reading
+
+
+def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[str, Motor]]:
+    """The sensors and motors of a document by id, each of which the world must have. A motor without a world moves nothing.
+
+    Raises:
+        WorldError: there is no world, or it lacks one of them, or has it over other axes; or two elements drive one motor.
+    """
+    if world is not None and not isinstance(world, World):
+        raise WorldError(f"{show(world)} is no world", fix="For a picture: world=Picture('photo.jpg') from deodar.worlds.picture")
+    sensors: dict[str, Sensor] = {}
+    motors: dict[str, Motor] = {}
+    driven: dict[str, str] = {}
+    for e in doc.entries:
+        if isinstance(e.element, Sensor):
+            if world is None:
+                raise WorldError(
+                    f"reads the sensor {e.element.sensor!r}, and no world was given that provides it",
+                    where=e.path,
+                    fix="Give one: world=Picture('photo.jpg') from deodar.worlds.picture, on the command line --world picture:photo.jpg",
+                )
+            world.require(e.element.sensor)
+            _fit(e.path, e.element.sensor, world.sensors, tuple(e.element.axes))
+            sensors[e.id] = e.element
+        if isinstance(e.element, Motor):
+            name = e.element.motor
+            if name in driven:
+                raise WorldError(f"drives the motor {name!r}, which {driven[name]} drives", where=e.path, fix="Connect both to one Motor: it adds up")
+            driven[name] = e.path
+            if world is not None:
+                world.require_motor(name)
+                _fit(e.path, name, world.motors, tuple(e.element.axes))
+                motors[e.id] = e.element
+    return sensors, motors
+
+
+def _fit(path: str, name: str, known: Mapping[str, Signal], axes: Any) -> None:
+    try:
+        if name in known:  # a world of one's own may take any name
+            fitting(name, known[name], axes)
+    except WorldError as error:
+        raise WorldError(error.problems[0].what, where=path) from None

@@ -1,0 +1,97 @@
+"""Where programs run: the device that is named, in full precision, and an error where there is none."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import jax
+import pytest
+
+import deodar as dd
+from deodar.compiler import cache, device
+from deodar.recording.record import about
+from deodar.recording.repeat import repeat
+
+
+def model() -> dd.Model:
+    made = dd.Model("small")
+    axes = [dd.Axis("x", 0, 30, samples=31), dd.Axis("y", 0, 30, samples=31)]
+    made.add(dd.Field("u", axes, kernel=[dd.Gaussian(2.0, 4, normalized=True)], noise=0.3))
+    return made
+
+
+SECOND = """
+import jax, numpy as np, deodar as dd
+from tests.runtime.test_device import model
+from deodar.recording.record import about
+from deodar.compiler import device
+assert device.names() == ["cpu:0", "cpu:1"], device.names()
+seen = {}
+for name in (None, "cpu", "cpu:1"):
+    data = dd.simulate(model(), 50, trials=2, device=name)
+    seen[name] = data["u.activation"].values
+    session = dd.Session(model(), device=name)
+    session.step(50)
+    places = {d for leaf in jax.tree.leaves(session._run.state) for d in leaf.devices()}
+    assert places == {jax.devices()[1 if name == "cpu:1" else 0]}, (name, places)
+    session.set("u.kernel.0.sigma", 9.0)  # compiles anew, in the same place
+    session.step(1)
+    assert {d for leaf in jax.tree.leaves(session._run.state) for d in leaf.devices()} == places
+assert np.array_equal(seen[None], seen["cpu:1"]) and np.array_equal(seen[None], seen["cpu"])
+assert about(data)["device"] == "cpu:1"
+print("good")
+"""
+
+
+def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a process whose CPU counts as two devices; the second time the programs come from the disk."""
+    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=2")
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", SECOND], capture_output=True, text=True, timeout=120)
+        assert done.stdout == "good\n", done.stderr
+
+
+@pytest.mark.parametrize("name", ["gpu:99", "cpu:1000", "cpu:x", "cpu:", "quantum", "", 3])
+def test_one_that_is_not_there_is_an_error_that_says_which_are(name: str) -> None:
+    for call in (lambda: dd.simulate(model(), 10, device=name), lambda: dd.Session(model(), device=name)):
+        with pytest.raises(dd.errors.DeviceError, match=r"there is: .*cpu:0" if isinstance(name, str) else "named by a text"):
+            call()
+
+
+def test_how_to_get_one_is_said_where_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(device, "_of", lambda kind: jax.devices("cpu") if kind == "cpu" else [])
+    with pytest.raises(dd.errors.DeviceError, match=r"there is no device 'gpu' here; there is: cpu:0\. .*pip install 'jax\[cuda12\]'"):
+        device.find("gpu")
+
+
+def test_the_record_names_it_and_is_repeated_there() -> None:
+    old = dd.simulate(model(), 20, device="cpu:0")
+    assert about(old)["device"] == "cpu:0" and about(old)["made_by"]["device"].startswith("cpu")
+    assert repeat(old, dd.simulate).same_bits and repeat(old, dd.simulate, device="cpu").same_bits
+
+
+def test_workers_and_another_device_exclude_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Other:
+        platform = "gpu"
+
+    monkeypatch.setattr(device, "find", lambda name: Other)
+    with pytest.raises(dd.errors.WorkerError, match="cores of the CPU"):
+        dd.simulate(model(), 10, trials=2, workers=2, device="gpu")
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_products_take_all_digits(precision: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is left to a device's own choice, which may be TF32: each product of each program says so."""
+    texts: list[str] = []
+    compile_ = cache.compile
+
+    def listen(lowered: jax.stages.Lowered, options: dict[str, object] | None, place: object) -> tuple[object, bool]:
+        texts.append(lowered.as_text())
+        return compile_(lowered, options, place)
+
+    monkeypatch.setattr(cache, "compile", listen)
+    dd.simulate(model(), 5, precision=precision, trials=3)
+    products = [line for text in texts for line in text.splitlines() if "dot_general" in line or "stablehlo.convolution" in line]
+    assert products and all("HIGHEST" in line and "DEFAULT" not in line for line in products)
+    assert jax.config.jax_default_matmul_precision is None  # said for our programs alone

@@ -1,0 +1,233 @@
+"""Worker processes: the same noise, the same results, whatever the split; what goes wrong in them is told here."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+
+import deodar as dd
+from deodar.elements.noise import Noise
+from deodar.recording.record import about
+from deodar.recording.repeat import repeat
+from deodar.worlds._base import World
+
+RECORD = ["u.activation", "u.output", "xi.output"]
+
+
+def small() -> dd.Model:
+    model = dd.Model("small")
+    u = model.add(dd.Field("u", [dd.Axis("x", 0, 60, samples=31)], tau=10, kernel=[dd.Gaussian(1.0, 4)], global_inhibition=0.1, noise=0.3))
+    model.add(dd.GaussianStimulus("s", u.element.axes, center=30, sigma=4, amplitude=8)) >> u
+    model.add(Noise("xi", u.element.axes, amplitude=0.2), every=2) >> u
+    return model
+
+
+def children() -> list[psutil.Process]:
+    """Worker processes of this one."""
+    found = []
+    for child in psutil.Process().children():
+        try:
+            if "spawn_main" in " ".join(child.cmdline()):
+                found.append(child)
+        except psutil.NoSuchProcess:
+            continue
+    return found
+
+
+def gone() -> bool:
+    """Whether all workers end; the system may take a moment for one that is killed."""
+    deadline = time.monotonic() + 20
+    while children() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return not children()
+
+
+def test_the_same_results_whatever_the_split() -> None:
+    model = small()
+
+    def run(**split: int) -> dict[str, np.ndarray]:
+        data = dd.simulate(model, 60, record=RECORD, every=20, seed=4, trials=5, precision="float64", **split)
+        assert data.sizes["trial"] == 5 and about(data)["complete"] and about(data)["trials"] == [0, 1, 2, 3, 4]
+        return {path: data[path].values for path in RECORD}
+
+    whole = run()
+    for split in ({"batch": 2}, {"workers": 2}):
+        other = run(**split)
+        for path in RECORD:
+            assert np.abs(other[path] - whole[path]).max() <= 1e-10 * max(1.0, np.abs(whole[path]).max()), (split, path)
+        assert np.array_equal(other["xi.output"], whole["xi.output"]), split  # the same noise, to the last bit
+    assert np.abs(whole["u.activation"][0] - whole["u.activation"][1]).max() > 0.1
+    assert not children()
+
+
+def test_a_sweep_is_split_along_its_longest_entry_and_repeated_to_the_bit() -> None:
+    model, sweep = small(), {"s.amplitude": [4.0, 8.0], "u.tau": [10.0, 15.0, 20.0]}
+    whole = dd.simulate(model, 40, sweep=sweep, trials=[3, 1])
+    split = dd.simulate(model, 40, sweep=sweep, trials=[3, 1], workers=2)
+    assert split["u.activation"].dims == whole["u.activation"].dims and split.drop_attrs().coords.identical(whole.drop_attrs().coords)
+    assert np.abs(split["u.activation"] - whole["u.activation"]).max() <= 1e-4
+    made = about(split)
+    assert made["batch"] == 8 and made["sweep"] == sweep  # pieces of 2 values and of 1, times 4
+    assert made["workers"] == 2 and made["made_by"]["cores"] == "1"
+    done = repeat(split, dd.simulate)
+    assert done.same_bits and not done.differences
+
+
+def test_an_incomplete_record_is_compared_as_far_as_it_goes() -> None:
+    whole = dd.simulate(small(), 50, trials=6, batch=2)
+    some = whole.isel(trial=[0, 1, 4, 5])
+    some.attrs["deodar"] = some.attrs["deodar"].replace('"complete": true', '"complete": false')
+    assert repeat(some, dd.simulate).same_bits
+    assert not repeat(some.assign(**{"u.activation": some["u.activation"] + 1}), dd.simulate).same_bits
+
+
+def test_the_main_script_is_not_run_again(tmp_path: Path) -> None:
+    """No guard is needed around a script."""
+    code = """
+import deodar as dd
+print("begun", flush=True)
+model = dd.Model("m")
+model.add(dd.Field("u", [dd.Axis("x", 0, 1, samples=11)], noise=0.1))
+print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
+"""
+    script = tmp_path / "script.py"
+    script.write_text(code)
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120, cwd=tmp_path)
+    assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["begun", "2"], "")
+
+
+def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
+    model = small()
+
+    def press() -> None:
+        seen.wait(60)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    seen, presser = threading.Event(), threading.Thread(target=press)
+    presser.start()
+    steps, most = 20_000, 400
+
+    def told(done: int) -> None:
+        if done >= steps:  # at least two of the pieces are more than half way, so the first of them soon complete
+            seen.set()
+
+    with pytest.raises(dd.errors.Interrupted, match="pieces of the batch were complete") as caught:
+        dd.simulate(model, steps, trials=most, record=["u.activation"], every=steps // 10, workers=2, batch=1, progress=told)
+    presser.join()
+    data = caught.value.data
+    assert 1 <= data.sizes["trial"] < most and about(data)["complete"] is False and about(data)["trials"] == [*range(most)]
+    assert not children() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_a_second_ctrl_c_ends_them_at_once() -> None:
+    def press() -> None:
+        while len(children()) < 2:
+            time.sleep(0.05)
+        time.sleep(0.1)  # the handler is back once both have started
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.3)  # the workers have not come far enough to see the first
+        os.kill(os.getpid(), signal.SIGINT)
+
+    presser = threading.Thread(target=press)
+    with pytest.raises(KeyboardInterrupt):
+        presser.start()
+        dd.simulate(small(), 1000, trials=2, workers=2)
+    presser.join()
+    assert gone() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_without_workers_too() -> None:
+    def told(done: int) -> None:
+        if done > 3 * 1000:
+            raise KeyboardInterrupt
+
+    with pytest.raises(dd.errors.Interrupted, match="3 of 10 pieces") as caught:
+        dd.simulate(small(), 1000, trials=10, batch=1, progress=told)
+    assert caught.value.data["trial"].values.tolist() == [0, 1, 2]
+
+
+def test_a_worker_that_dies_is_a_named_error() -> None:
+    def kill() -> None:
+        while not (found := children()):
+            time.sleep(0.05)
+        found[0].kill()
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    with pytest.raises(dd.errors.WorkerError, match="has died"):
+        dd.simulate(small(), 50_000_000, trials=2, workers=2)
+    killer.join()
+    assert gone()
+
+
+def test_an_error_in_a_worker_is_raised_here_whole() -> None:
+    model = small()
+    model["u"] >> model.add(dd.Gain(1e30, name="g")) >> model.add(dd.Gain(1e30, name="h")) >> model["u"]
+    with pytest.raises(dd.errors.NotFinite, match="became infinite") as caught:
+        dd.simulate(model, 100, trials=2, workers=2)
+    assert caught.value.paths and caught.value.problems[0].fix
+
+
+class Locked(World):
+    """A world that stays where it is."""
+
+    def __reduce__(self) -> str:
+        raise TypeError("it is bolted to the floor")
+
+
+def test_what_cannot_be_handed_over_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(dd.errors.WorkerError, match=r"the world Locked cannot be handed .*bolted"):
+        dd.simulate(small(), 10, trials=2, workers=2, world=Locked())
+    monkeypatch.setattr(World, "__module__", "__main__")
+    with pytest.raises(dd.errors.WorkerError, match="World is written in the script itself"):
+        dd.simulate(small(), 10, trials=2, workers=2, world=World())
+    with pytest.raises(dd.errors.ParameterError, match="workers is 0"):
+        dd.simulate(small(), 10, trials=2, workers=0)
+
+
+def test_kinds_of_other_modules_are_imported_there(tmp_path: Path) -> None:
+    """An element of one's own, from a module beside the script; the same in the script itself is refused by its name."""
+    element = """
+import dataclasses
+from deodar.elements.boost import Boost
+from deodar.registry import register
+
+@register
+@dataclasses.dataclass(frozen=True)
+class Lift(Boost):
+    "A boost by another name."
+"""
+    script = """
+import deodar as dd
+model = dd.Model("m")
+model.add(Lift("s", amplitude=2.0)) >> model.add(dd.Field("u", [], noise=0.1))
+try:
+    print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
+except dd.errors.WorkerError as error:
+    print(error)
+"""
+    (tmp_path / "own.py").write_text(element)
+    (tmp_path / "apart.py").write_text("from own import Lift\n" + script)
+    (tmp_path / "inside.py").write_text(element + script)
+    for name, says in (("apart", "2\n"), ("inside", "Lift is written in the script itself")):
+        done = subprocess.run([sys.executable, str(tmp_path / f"{name}.py")], capture_output=True, text=True, timeout=120, cwd=tmp_path)
+        assert done.stdout.startswith(says), done.stdout + done.stderr
+
+
+def test_memory_counts_all_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Little:
+        available = 500 * 2**20
+
+    monkeypatch.setattr(psutil, "virtual_memory", lambda: Little)
+    dd.simulate(small(), 5, trials=4, batch=1)
+    with pytest.raises(dd.errors.TooLarge, match="fewer workers"):
+        dd.simulate(small(), 5, trials=4, workers=4)
