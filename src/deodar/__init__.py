@@ -17,13 +17,14 @@ if TYPE_CHECKING:
     from deodar.couplings.project import Project as Project
     from deodar.elements.field import Field as Field
     from deodar.elements.gaussian_stimulus import GaussianStimulus as GaussianStimulus
+    from deodar.importers.opening import load as load
     from deodar.model.model import Model as Model
-    from deodar.model.model import load as load
     from deodar.model.model import save as save
     from deodar.model.paths import quote as quote
     from deodar.numerics.axes import Axis as Axis
     from deodar.numerics.kernels.gaussian import Gaussian as Gaussian
     from deodar.numerics.sigmoids.logistic import Logistic as Logistic
+    from deodar.runtime.cores import use_cores as use_cores
     from deodar.runtime.session import Session as Session
     from deodar.runtime.simulate import simulate as simulate
 
@@ -40,10 +41,11 @@ _HOMES = {
     "Project": "couplings.project",
     "Session": "runtime.session",
     "errors": "errors",
-    "load": "model.model",
+    "load": "importers.opening",
     "quote": "model.paths",
     "save": "model.model",
     "simulate": "runtime.simulate",
+    "use_cores": "runtime.cores",
 }
 
 __all__ = sorted(_HOMES)  # pyright: ignore[reportUnsupportedDunderAll]

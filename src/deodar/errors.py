@@ -35,6 +35,10 @@ class DeodarError(Exception):
             self.problems = tuple(what)
         super().__init__(self._text())
 
+    def __reduce__(self) -> Any:
+        """An error crosses from one process to another whole, whatever its class takes."""
+        return _again, (type(self), self.args, self.__dict__)
+
     def _text(self) -> str:
         if len(self.problems) == 1:
             return str(self.problems[0])
@@ -87,6 +91,18 @@ class TooLarge(DeodarError):
     """Raised before allocating what would not fit into memory."""
 
 
+class CoresError(DeodarError):
+    """Raised when the number of cores is to be changed after JAX has started."""
+
+
+class DeviceError(DeodarError):
+    """Raised when a device is asked for that is not there."""
+
+
+class WorkerError(DeodarError):
+    """Raised when worker processes cannot do a run: something cannot be handed to them, or one of them has died."""
+
+
 class OutputExists(DeodarError):
     """Raised before writing over something that this run did not write."""
 
@@ -119,6 +135,12 @@ class Interrupted(DeodarError):
     def __init__(self, what: str, data: Any) -> None:
         self.data = data
         super().__init__(what)
+
+
+def _again(kind: type[DeodarError], args: tuple[Any, ...], state: dict[str, Any]) -> DeodarError:
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(state)
+    return error
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -17,6 +17,7 @@ import deodar as dd
 from deodar.cli import main
 from deodar.recording import files
 from deodar.recording.record import about
+from deodar.runtime.pace import Pace
 from tests.recording.models import model
 
 
@@ -118,3 +119,55 @@ def test_ctrl_c_writes_what_was_recorded(here: Path) -> None:
     assert "incomplete" in error, error
     data = files.load(here / "cut")
     assert about(data)["complete"] is False and 1 <= data.sizes["time"] < 1001 and np.isfinite(data["n.activation"].values).all()
+
+
+def test_a_live_run_keeps_to_the_wall_and_prints_its_meter(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    began = time.perf_counter()
+    assert main(["run", "small.json", "--live", "--duration", "100", "--speed", "0.5", "--json"]) == 0
+    meter = json.loads(capsys.readouterr().out)["meter"]
+    assert time.perf_counter() - began > 0.2 and meter["wall"] >= 0.2 and meter["time"] == 100 and meter["factor"] <= 0.5
+    assert main(["run", "small.json", "--live", "--duration", "100", "--speed", "max", "--longest-step", "2"]) == 0
+    assert "as fast as possible" in capsys.readouterr().out
+    assert sorted(p.name for p in here.iterdir()) == ["small.json"], "nothing is recorded"
+
+
+def test_ctrl_c_ends_a_live_run_with_its_meter(here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    due, calls = Pace.due, iter(range(20))
+
+    def pressed(self: Pace, session: dd.Session) -> int:
+        if next(calls, None) is None:
+            raise KeyboardInterrupt
+        return due(self, session)
+
+    monkeypatch.setattr(Pace, "due", pressed)
+    assert main(["run", "small.json", "--live", "--duration", "1000000", "--json"]) == 1
+    said = capsys.readouterr()
+    meter = json.loads(said.out)["meter"]
+    assert meter["complete"] is False and 0 < meter["steps"] < 1000000 and "stopped at" in said.err
+
+
+def test_the_cost_of_elements(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "small.json", "--cost", "--duration", "10", "--json"]) == 0
+    cost = json.loads(capsys.readouterr().out)["cost"]
+    assert {"u", "n", "s"} <= {row["path"] for row in cost["elements"]} and cost["step_us"] > 0
+    assert main(["run", "small.json", "--cost"]) == 0
+    assert "the whole step takes" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "says"),
+    [
+        (["--live"], 2, "needs --duration"),
+        (["--speed", "2", "--duration", "10"], 2, "--speed needs --live"),
+        (["--cost", "--longest-step", "2"], 2, "--longest-step needs --live"),
+        (["--live", "--duration", "10", "--trials", "2", "--out", "o"], 2, "--trials, --out cannot be given"),
+        (["--live", "--duration", "10", "--speed", "0"], 1, "above 0"),
+        (["--live", "--duration", "10", "--longest-step", "0.1"], 1, "not below the planned step"),
+    ],
+)
+def test_what_a_live_run_cannot_do(here: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str) -> None:
+    try:
+        got = main(["run", "small.json", *arguments])
+    except SystemExit as end:
+        got = int(str(end.code))
+    assert got == status and says in capsys.readouterr().err

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import itertools
+import json
 
 import jax
 import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler.executable import executable
+from deodar.errors import ParameterError
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axis
 from deodar.numerics.choice import Choice, bounds, bucket, choose
@@ -103,6 +106,19 @@ def test_default_plans_stay_near_exact_ones() -> None:
     exact = dd.simulate(made, 400, precision="float64")["u.activation"].values
     default = dd.simulate(made, 400)["u.activation"].values
     assert exact.max() > 3 and np.abs(default - exact).max() < 1e-4
+
+
+def test_exact_accuracy_takes_matrices_and_a_record_says_so() -> None:
+    made = model()
+    exact = dd.simulate(made, 100, precision="float64")["u.activation"].values
+    asked = dd.simulate(made, 100, accuracy="exact")
+    assert np.abs(asked["u.activation"].values - exact).max() < 2e-5
+    assert executable(made, accuracy="exact").plan.describe().count("waves") == 0 < executable(made).plan.describe().count("waves")
+    assert json.loads(asked.attrs["deodar"])["accuracy"] == "exact"
+    session = dd.Session(made, accuracy="exact")
+    assert session.set("u.kernel.0.sigma", 2.0) == "rebuild", "matrices hold at any width"
+    with pytest.raises(ParameterError, match="default or exact"):
+        dd.simulate(made, 1, accuracy="high")
 
 
 def test_widths_change_inside_a_bucket_without_compiling_and_outside_it_with() -> None:

@@ -82,7 +82,15 @@ def _session(args: argparse.Namespace) -> Session:
     model = load(args.file, trust=args.trust)
     for path, value in args.set or ():
         model.set(path, value)
-    return Session(model, args.dt, args.seed or 0, args.precision or "float32", _options.world(args.world), device=args.device)
+    return Session(
+        model,
+        args.dt,
+        args.seed or 0,
+        args.precision or "float32",
+        _options.world(args.world),
+        device=args.device,
+        accuracy=args.accuracy or "default",
+    )
 
 
 def _speed(text: str) -> float | str:

@@ -28,10 +28,30 @@ def add_world(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--trust", action="store_true", help="allow functions that the document names to be imported and run")
 
 
+def add_cores(parser: argparse.ArgumentParser) -> None:
+    """`--cores`."""
+    parser.add_argument("--cores", type=whole, metavar="N", help="cores that a program uses (default 1, the quickest for most models)")
+
+
+def use_cores(cores: int | None, wanted: int = 1) -> None:
+    """As many as `--cores` says; without it as many as wanted, unless the environment (NPROC) says otherwise or JAX has started."""
+    from deodar.runtime import cores as setting
+
+    if cores is not None:
+        setting.use_cores(cores)
+    elif not setting.settled():
+        setting.use_cores(wanted)
+
+
 def add_run(parser: argparse.ArgumentParser) -> None:
-    """`--seed`, `--precision` and `--no-progress`."""
+    """`--seed`, `--precision`, `--device`, `--cores` and `--no-progress`."""
     parser.add_argument("--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)")
     parser.add_argument("--precision", choices=("float32", "float64"), help="of all numbers (default float32)")
+    parser.add_argument("--accuracy", choices=("default", "exact"), help="of convolutions: default is within 1e-4, exact takes longer")
+    parser.add_argument(
+        "--device", metavar="NAME", help="where to run: cpu, gpu, or one of several as gpu:1 (default cpu, the quickest for small models)"
+    )
+    add_cores(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
 
 
@@ -81,6 +101,7 @@ def world(text: str | None) -> World | None:
     """The world that `--world KIND:ARGUMENT` names, opened."""
     from deodar import registry
     from deodar.errors import WorldError, did_you_mean
+    from deodar.recording.opened import opened
 
     if text is None:
         return None
@@ -91,7 +112,7 @@ def world(text: str | None) -> World | None:
         raise WorldError(f"there is no world {name!r}", where=f"--world {text}", fix=did_you_mean(name.casefold(), kinds))
     if not argument:
         raise WorldError("needs to know what to open", where=f"--world {text}", fix=f"For example --world {name.lower()}:photo.jpg")
-    return found.open(argument)
+    return opened(found, argument)
 
 
 def shown(path: Path) -> str:

@@ -56,7 +56,7 @@ def _plans(as_json: bool) -> int:
     Console().print(table)
     lost = [m.measured_us / min(o.measured_us for o in found if o.case == m.case) for m in found if m.chosen]
     right = sum(ratio <= 1.25 for ratio in lost)
-    print(f"The way that is taken is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst it takes {max(lost):.2f} times as long.")
+    print(f"What is taken is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst it takes {max(lost):.2f} times as long")
     return 0
 
 

@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from deodar.cli import _options
+
 if TYPE_CHECKING:
     from deodar.analysis.peaks import Peak
     from deodar.analysis.regimes import Regimes
@@ -22,14 +24,16 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--force", action="store_true", help="replace the figure if it exists")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
     parser.add_argument("--precision", choices=("float32", "float64"), default="float32", help="of the computation (default: float32)")
+    _options.add_cores(parser)
     parser.add_argument("--sigma", type=float, nargs="+", metavar="WIDTH", help="width of the localised input (default: that of the kernel)")
     parser.add_argument("--input", nargs="+", default=[], metavar="PATH", help="stimuli (and couplings) of the document to keep as constant input")
 
 
 def run(args: argparse.Namespace) -> int:
     """The table, and the figure."""
-    from deodar.model.model import load
+    from deodar.importers.opening import load
 
+    _options.use_cores(args.cores)
     model = load(args.file)
     target = _target(args)
     from rich.console import Console

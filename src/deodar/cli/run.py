@@ -20,7 +20,7 @@ HELP = "run a model and record it, or run a record again and compare"
 EPILOG = """FILE is a document (.json). RECORD is a record (.zarr, .nc) or a folder that an earlier run wrote: it is run again as it was,
 and compared. Both write a new folder with the record and the model that made it. Look at it with: deodar plot FOLDER"""
 
-OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision", "workers")
+OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision", "workers", "accuracy")
 """What a record settles itself."""
 
 
@@ -85,6 +85,7 @@ def _simulate(args: argparse.Namespace) -> int:
             model, args.duration or 0.0, dt=args.dt, seed=args.seed or 0, record=args.record, every=args.every, trials=args.trials,
             sweep=dict(args.sweep) if args.sweep else None, precision=args.precision or "float32", world=_options.world(args.world),
             progress=False if args.no_progress or args.json else None, workers=args.workers, device=args.device,
+            accuracy=args.accuracy or "default",
         )  # fmt: skip
     except Interrupted as error:
         data, stopped = error.data, str(error)

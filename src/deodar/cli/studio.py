@@ -20,6 +20,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--host", default="127.0.0.1", metavar="H", help="address to listen on (default 127.0.0.1: this machine only)")
     parser.add_argument("--no-browser", action="store_true", help="do not open the browser, only print the address")
     _options.add_world(parser)
+    _options.add_cores(parser)
     _options.wrong(parser)
 
 
@@ -32,6 +33,8 @@ def run(args: argparse.Namespace) -> int:
     root = Path.cwd() if args.file is None else args.file.resolve().parent
     if not root.is_dir():
         args.wrong(f"there is no folder {root}")
+
+    _options.use_cores(args.cores)
 
     def say(address: str) -> None:
         print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)

@@ -29,6 +29,7 @@ from deodar.numerics.axes import Axes, shape
 
 Tree = Any
 PRECISIONS = ("float32", "float64")
+ACCURACIES = ("default", "exact")
 MOST_KEPT = 16
 """Executable sets that one model keeps; the oldest go first."""
 
@@ -66,19 +67,20 @@ class Executable:
     Attributes:
         plan: the plan they compute.
         device: where they run.
+        exact: whether every kernel is applied by its matrix, by choice or because of double precision.
         traced: how many functions were traced so far; running does not change it.
         compiled: how many of them were not found in the cache.
         seconds: CPU time spent on planning, tracing and compiling.
     """
 
-    def __init__(self, doc: Document, precision: str, batch: Batch, sweep: Sequence[Sequence[Leaf]], device: Any = None) -> None:
+    def __init__(self, doc: Document, precision: str, batch: Batch, sweep: Sequence[Sequence[Leaf]], device: Any = None, exact: bool = False) -> None:
         began = time.process_time()
         self.device: Any = device or devices.find()
-        self.precision = precision
+        self.precision, self.exact = precision, exact
         self.batch = batch
         self.sweep = tuple(tuple(s) for s in sweep)
         lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
-        self.plan: Plan = plan(doc, lifted, precision == "float64", batch.size)
+        self.plan: Plan = plan(doc, lifted, exact or precision == "float64", batch.size)
         self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep])
         self.traced = 0
         self.compiled = 0
@@ -310,22 +312,30 @@ def executable(
     batch: Batch | None = None,
     sweep: Sequence[Sequence[Leaf]] = (),
     device: str | None = None,
+    accuracy: str = "default",
 ) -> Executable:
-    """The executable of a document, by default the model's present one, for the CPU or a device; kept by the model, so that it compiles once."""
+    """The executable of a document, by default the model's present one, for the CPU or a device; kept by the model, so that it compiles once.
+
+    `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may take what is cheaper and errs by less
+    than 1e-4 in activation.
+    """
     batch, doc, place = batch or Batch(), doc or model.document, devices.find(device)
     if precision not in PRECISIONS:
         raise ParameterError(f"precision is {precision!r}; it is float32 or float64")
+    if accuracy not in ACCURACIES:
+        raise ParameterError(f"accuracy is {accuracy!r}; it is default or exact")
+    exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
     lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.outside())
-    ways = () if precision == "float64" else tuple(ways_of(doc, lifted, batch.size).items())
-    key = (signature(doc), ways, outside, precision, batch, tuple(map(tuple, sweep)), neutral, devices.name(place))
+    ways = () if exact else tuple(ways_of(doc, lifted, batch.size).items())
+    key = (signature(doc), ways, outside, precision, exact, batch, tuple(map(tuple, sweep)), neutral, devices.name(place))
     if key not in model.programs:
         problems = model.check() if doc is model.document else check(doc)
         if problems:
             raise ModelError(problems)
-        made = Executable(doc, precision, batch, sweep, place)
+        made = Executable(doc, precision, batch, sweep, place, exact)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]
         model.programs[key] = made

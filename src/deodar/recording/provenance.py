@@ -8,8 +8,7 @@ import platform
 from collections.abc import Mapping
 from typing import Any
 
-import jax
-
+from deodar.compiler.device import cores
 from deodar.model import files
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -29,15 +28,21 @@ def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[s
         "precision": run.program.precision,
         "world": run.world.describe() if run.world is not None else None,
         **settings,
-        "made_by": made_by(),
+        "made_by": made_by(run.program.device),
     }
 
 
-def made_by() -> dict[str, str]:
-    """Versions and machine."""
-    device = jax.devices()[0]
+def made_by(device: Any) -> dict[str, str]:
+    """Versions, device and machine; and the cores, because a program for several adds in another order."""
     versions = {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
-    return versions | {"python": platform.python_version(), "device": f"{device.platform} {device.device_kind}", "machine": machine()}
+    where = {"device": f"{device.platform} {device.device_kind}"} | ({"cores": str(cores())} if device.platform == "cpu" else {})
+    return versions | {"python": platform.python_version(), **where, "machine": machine()}
+
+
+def cores_of(about: Mapping[str, Any]) -> int:
+    """Cores that a record was made with; 1 where it does not say."""
+    told = str((about.get("made_by") or {}).get("cores", ""))
+    return max(1, int(told)) if told.isdecimal() else 1
 
 
 def machine() -> str:

@@ -13,6 +13,7 @@ from deodar import registry
 from deodar.errors import DeodarError, RecordError, WorldError
 from deodar.model.model import Model
 from deodar.recording import provenance
+from deodar.recording.opened import again
 from deodar.recording.record import about
 from deodar.worlds._base import World
 
@@ -67,7 +68,14 @@ class Repetition:
         return f"The repetition differs from the record, and {same}. Largest differences: {worst}"
 
 
-def repeat(data: xarray.Dataset, simulate: Simulate, world: World | None = None, trust: bool = False, progress: bool | None = None) -> Repetition:
+def repeat(
+    data: xarray.Dataset,
+    simulate: Simulate,
+    world: World | None = None,
+    trust: bool = False,
+    progress: bool | None = None,
+    device: str | None = None,
+) -> Repetition:
     """Run a record again and compare.
 
     Args:
@@ -76,6 +84,7 @@ def repeat(data: xarray.Dataset, simulate: Simulate, world: World | None = None,
         world: the world to run it in; None: the one it was made with, opened again.
         trust: whether functions that its document names may be imported and run.
         progress: show a bar.
+        device: where to run it; None: where the record was made.
 
     Raises:
         RecordError: the record does not say what made it.
@@ -86,6 +95,8 @@ def repeat(data: xarray.Dataset, simulate: Simulate, world: World | None = None,
         model = Model(document=provenance.document(made), trusted=trust)
         settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
         settings |= {"record": made["record"], "sweep": made["sweep"] or None}
+        settings |= {"workers": made.get("workers"), "batch": made.get("batch"), "device": device or made.get("device")}
+        settings |= {"accuracy": made.get("accuracy", "default")}
     except (KeyError, TypeError, ValueError) as error:
         raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None
     world = world or _world(made.get("world"))
@@ -98,11 +109,19 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     before, after = _made(old), _made(new)
     times = min(old.sizes.get("time", 0), new.sizes.get("time", 0))
     whole = before.get("complete", True) and after.get("complete", True)
-    a, b = (old, new) if whole else (old.isel(time=slice(times)), new.isel(time=slice(times)))
+    a, b = (old, new) if whole else _common(old, new)
     largest = {str(name): _largest(a.get(name), b.get(name)) for name in {**a.variables, **b.variables}}
     same = all(name in a.variables and name in b.variables and _same(a[name].values, b[name].values) for name in {**a.variables, **b.variables})
     shown = {name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value}
     return Repetition(new, _differences(before, after), shown, same, times)
+
+
+def _common(old: xarray.Dataset, new: xarray.Dataset) -> tuple[xarray.Dataset, xarray.Dataset]:
+    """What both have come to: the times, and the trials or points of a sweep."""
+    for dim in [d for d in old.sizes if d in new.sizes and d in old.coords and d in new.coords]:
+        shared = np.intersect1d(old[dim].values, new[dim].values)
+        old, new = (data.isel({dim: np.isin(data[dim].values, shared)}) for data in (old, new))
+    return old, new
 
 
 def _made(data: xarray.Dataset) -> dict[str, Any]:
@@ -146,19 +165,19 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
     """The world that a record was made with, opened again from the file it names."""
     if described is None:
         return None
-    kind, file = str(described.get("world")), described.get("file")
+    kind = str(described.get("world"))
     found = registry.kinds("worlds").get(kind)
     give = f"Give it: --world {kind.lower()}:FILE"
-    if found is None or not isinstance(file, str) or file == "array":
-        raise WorldError(f"the record was made with the world {_shown(described)}, which was not opened from a file", fix=give)
+    if found is None:
+        raise WorldError(f"the record was made with the world {_shown(described)}, which is not known here", fix=give)
     try:
-        world: World = found.open(file)
+        world = again(found, described)
     except DeodarError as error:
         raise WorldError(f"the record was made with the world {_shown(described)}, and it cannot be opened: {error.problems[0]}", fix=give) from None
     if _identity(world.describe()) != _identity(described):
         raise WorldError(
             f"the record was made with the world {_shown(described)}, and this file now holds something else",
-            fix=f"Give the file that it was made with, or this one to compare all the same: --world {kind.lower()}:{file}",
+            fix=f"Give the file that it was made with, or this one to compare all the same: --world {kind.lower()}:{described.get('file', 'FILE')}",
         )
     return world
 

@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from deodar.compiler.executable import executable
 from deodar.errors import ModelError, NotFinite, Problem
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -344,7 +343,7 @@ class Engine:
         def make() -> tuple[Any, list[Look]]:
             made = program
             if model is not None:
-                made = executable(model, document, session.precision, device=session.device)
+                made = session.compiled(document, model)
                 made.chunk(())
             return made, [_found(known, made, places) or look(made, places) for places in wanted]
 

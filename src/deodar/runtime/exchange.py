@@ -67,6 +67,10 @@ class Exchange:
         self._due = self._origin = 0
         self._told: Mapping[str, np.ndarray] | None = None
 
+    def require(self, doc: Document) -> None:
+        """Refuse a document with a sensor or motor that the world does not have."""
+        used(doc, self.world)
+
     def take(self, doc: Document) -> None:
         """Go on with another document. What is refused changes nothing."""
         self.sensors, self.motors = used(doc, self.world)
@@ -76,7 +80,7 @@ class Exchange:
         """The world back to its start, for a batch of copies."""
         if self.world is not None:
             copies = [t for _ in range(batch.points or 1) for t in trials]
-            if batch.shape and (each := [s.sensor for s in self.sensors.values() if self.world.sensors[s.sensor].each]):
+            if batch.shape and (each := [s.sensor for s in self.sensors.values() if self._each(s)]):
                 raise WorldError(f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot be run in this world")
             self.world.reset(seed, copies, precision)
         self.unread, self._told = True, None
@@ -142,16 +146,19 @@ class Exchange:
             self.world.put(kept.world)
             self._last, self._due, self._origin, self._told = kept.last, kept.due, kept.origin, kept.told
 
+    def _each(self, sensor: Sensor) -> bool:
+        known = {} if self.world is None else self.world.sensors  # a world of one's own may take any name
+        return sensor.sensor in known and known[sensor.sensor].each
+
     def _reading(self, sensor: Sensor, moment: float, dtype: Any) -> np.ndarray:
         assert self.world is not None
         axes = tuple(sensor.axes)
-        each = self.world.sensors[sensor.sensor].each if sensor.sensor in self.world.sensors else False
         given = self.world.sense(sensor.sensor, axes, moment)
         try:
             reading = np.asarray(given, dtype)
         except (TypeError, ValueError):  # no numbers
             reading = np.asarray(np.nan)
-        if each and reading.ndim:
+        if self._each(sensor) and reading.ndim:
             reading = reading[0]
         if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
             raise WorldError(

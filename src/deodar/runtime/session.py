@@ -11,20 +11,19 @@ from typing import Any
 import numpy as np
 
 from deodar.compiler.executable import Executable, executable, require_range
-from deodar.compiler.plan import cost, ways_of
+from deodar.compiler.plan import ways_of
 from deodar.compiler.program import Port, array_key
 from deodar.compiler.ways import widths
-from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
-from deodar.leaves import get, leaves, structure
+from deodar.leaves import get
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
-from deodar.parameters import FrozenArray, parameters, show
+from deodar.parameters import FrozenArray, show
 from deodar.runtime import memory
+from deodar.runtime.changes import Changed, changed_leaves
 from deodar.runtime.cost import SECONDS, Costs, Moment, costs, moment
-from deodar.runtime.exchange import used
 from deodar.runtime.live import run_live
 from deodar.runtime.look import Look, Place
 from deodar.runtime.meter import Meter
@@ -55,6 +54,7 @@ class Session:
         world: what provides the sensors that the model names.
         trial: which trial of the seed this is; a single run is trial 0.
         device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
+        accuracy: default, or exact: every kernel by its matrix, however much longer that takes (double precision always is).
 
     Attributes:
         device: where it runs, as it was given.
@@ -71,9 +71,10 @@ class Session:
         world: World | None = None,
         trial: int = 0,
         device: str | None = None,
+        accuracy: str = "default",
     ) -> None:
         self._model = model
-        self.device = device
+        self.device, self._accuracy = device, accuracy
         self._precision = precision
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
@@ -82,7 +83,7 @@ class Session:
         memory.require(resolve(doc)[0], precision, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
-        self._run = Run(executable(model, doc, precision, device=device), doc, float(step), require_seed(seed), [require_seed(trial)], world)
+        self._run = Run(self.compiled(doc), doc, float(step), require_seed(seed), [require_seed(trial)], world)
 
     # -------------------------------------------------------------------------------- running
 
@@ -176,18 +177,22 @@ class Session:
         """Refuse a document that could not go on here: a step too long for a time constant, a sensor that the world does not have."""
         for step in {self.dt, self.next_dt}:
             require_step(document, step)
-        used(document, self.world)
+        self._run.exchange.require(document)
+
+    def compiled(self, document: Document, model: Model | None = None) -> Executable:
+        """The program that this session would run a document with; `model`: which keeps it."""
+        return executable(model or self._model, document, self._precision, device=self.device, accuracy=self._accuracy)
 
     def cost(self, document: Document) -> str:
         """What going on with another document would cost: live, rebuild or recompile."""
-        return self._cost(document, _changed(self.document, document))
+        return self._cost(document, changed_leaves(self.document, document))
 
     def _cost(self, document: Document, changed: Sequence[Changed] | None) -> str:
         if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
             return "recompile"
         if "rebuild" not in {cost for _, _, cost, _ in changed}:
             return "live"
-        exact, old = self._precision == "float64", self.document
+        exact, old = self._accuracy == "exact" or self._precision == "float64", self.document
         return "rebuild" if exact or widths(old) == widths(document) or ways_of(old) == ways_of(document) else "recompile"
 
     def read(self, path: str | Handle) -> np.ndarray:
@@ -233,7 +238,7 @@ class Session:
         try:
             run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
             if snapshot.document != self.document:
-                run.load(executable(self._model, snapshot.document, self._precision, device=self.device), snapshot.document)
+                run.load(self.compiled(snapshot.document), snapshot.document)
         except BaseException:
             run.clock, run.seed = clock, seed
             raise
@@ -317,11 +322,11 @@ class Session:
     def _adopt(self, doc: Document) -> str:
         run = self._run
         self.require(doc)
-        changed = _changed(run.doc, doc)
+        changed = changed_leaves(run.doc, doc)
         if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
         states = rows(run.program, run.state)
-        run.load(executable(self._model, doc, self._precision, device=self.device), doc)
+        run.load(self.compiled(doc), doc)
         fill(run, states)
         return "recompile"
 
@@ -344,41 +349,6 @@ class Session:
             run.constants = run.program.prepare(values)
         run.values, run.doc = values, doc
         return "rebuild" if "rebuild" in costs else "live"
-
-
-Changed = tuple[tuple[str, str], Any, str, bool]
-"""A leaf with another value: (id, path), value, cost, and whether that value switches something off."""
-
-
-def _changed(old: Document, new: Document) -> list[Changed] | None:
-    """Leaves with another value, and what each costs; None where more than leaves changed."""
-    if old.connections != new.connections or len(old.entries) != len(new.entries):
-        return None
-    out: list[Changed] = []
-    for before, after in zip(old.entries, new.entries, strict=True):
-        if before is after:
-            continue
-        if (before.id, before.every) != (after.id, after.every):
-            return None
-        if before.element is not after.element:
-            changed = _changed_leaves(before.element, after.element)
-            if changed is None:
-                return None
-            out += [((after.id, path), value, cost, off) for path, value, cost, off in changed]
-    return out
-
-
-def _changed_leaves(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] | None:
-    """The same of one element; parameters that are the same objects are not looked into."""
-    if type(old) is not type(new):
-        return None
-    moved = {p.name: p for p in parameters(type(old)) if getattr(old, p.name) is not getattr(new, p.name)}
-    plain = all(p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float) for name, p in moved.items())
-    if not plain and structure(old) != structure(new):
-        return None
-    was = {path: value for path, value, _ in leaves(old) if path.partition(".")[0] in moved}
-    now = [(path, value, p) for path, value, p in leaves(new) if path in was]
-    return [(path, value, cost(p), p.off and value == p.neutral) for path, value, p in now if value is not was[path] and np.any(value != was[path])]
 
 
 def require_model(model: Any) -> Model:

@@ -55,6 +55,7 @@ def simulate(
     workers: int | None = None,
     batch: int | None = None,
     device: str | None = None,
+    accuracy: str = "default",
 ) -> xarray.Dataset:
     """Run a model and return what was recorded.
 
@@ -77,6 +78,8 @@ def simulate(
         workers: share the copies among so many processes; one for each core is best.
         batch: copies that run at once in one process; none: as many as fit into the cache, all where there is no cache to fit into.
         device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
+        accuracy: default (at most 1e-4 off in activation), or exact: every kernel by its matrix, however much longer that takes. Double precision
+            always is, and so are elements of which a width is swept.
 
     Returns:
         A Dataset with one variable for each path; dimensions: sweep paths, `trial` (where given), `time`, axes.
@@ -112,7 +115,7 @@ def simulate(
     memory.require(
         nodes, precision, cut.batch, recorded * (2 if cut.count > 1 else 1), points.rebuilt(), min(points.size, cut.batch), beside
     )  # fmt: skip
-    settings = {"duration": float(duration), "seed": seed, "every": every, "record": None if record is None else _list(record)}
+    settings = {"duration": float(duration), "seed": seed, "every": every, "accuracy": accuracy, "record": None if record is None else _list(record)}
     labels, grid = list(numbers) if names else None, points.by_path
     asked = {"trials": labels, "sweep": grid, "workers": workers, "device": device}
     if cut.count > 1:
@@ -124,7 +127,7 @@ def simulate(
         return data
     stopped = False
     with stoppable() as check:
-        program = executable(model, doc, precision, copies, points.leaves if sweep else (), device)
+        program = executable(model, doc, precision, copies, points.leaves if sweep else (), device, accuracy)
         run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
         found = [program.port(i, port) for i, port in ports]
         store = _Store(program, found, copies, count)

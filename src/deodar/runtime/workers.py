@@ -106,6 +106,8 @@ def run(model: Model, world: World | None, pieces: Sequence[Mapping[str, Any]], 
                 process.kill()
             raise
         except BrokenProcessPool:
+            for process in started():  # one that was just being started is not ended with the others, and would be waited for
+                process.kill()
             raise WorkerError(
                 "a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers, or a smaller batch"
             ) from None

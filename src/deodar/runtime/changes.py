@@ -1,0 +1,47 @@
+"""What differs between two documents of one structure: leaves with other values, and what taking them over costs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from deodar.compiler.plan import cost
+from deodar.element import Element
+from deodar.leaves import leaves, structure
+from deodar.model.document import Document
+from deodar.parameters import parameters
+
+Changed = tuple[tuple[str, str], Any, str, bool]
+"""A leaf with another value: (id, path), value, cost, and whether that value switches something off."""
+
+
+def changed_leaves(old: Document, new: Document) -> list[Changed] | None:
+    """Leaves with another value, and what each costs; None where more than leaves changed."""
+    if old.connections != new.connections or len(old.entries) != len(new.entries):
+        return None
+    out: list[Changed] = []
+    for before, after in zip(old.entries, new.entries, strict=True):
+        if before is after:
+            continue
+        if (before.id, before.every) != (after.id, after.every):
+            return None
+        if before.element is not after.element:
+            changed = _of_element(before.element, after.element)
+            if changed is None:
+                return None
+            out += [((after.id, path), value, cost, off) for path, value, cost, off in changed]
+    return out
+
+
+def _of_element(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] | None:
+    """The same of one element; parameters that are the same objects are not looked into."""
+    if type(old) is not type(new):
+        return None
+    moved = {p.name: p for p in parameters(type(old)) if getattr(old, p.name) is not getattr(new, p.name)}
+    plain = all(p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float) for name, p in moved.items())
+    if not plain and structure(old) != structure(new):
+        return None
+    was = {path: value for path, value, _ in leaves(old) if path.partition(".")[0] in moved}
+    now = [(path, value, p) for path, value, p in leaves(new) if path in was]
+    return [(path, value, cost(p), p.off and value == p.neutral) for path, value, p in now if value is not was[path] and np.any(value != was[path])]

@@ -1,0 +1,23 @@
+"""Errors cross from one process to another whole."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+from deodar import errors
+
+MADE = [
+    errors.ParameterError("is wrong", where="u.tau", fix="Take another"),
+    errors.ModelError([errors.Problem("a", "one"), errors.Problem("b", "two", "Do this")]),
+    errors.NotFinite("became infinite", ["u", "v"], fix="Take a smaller dt"),
+    errors.MissingExtra("dask", "cluster", "running on many machines"),
+    errors.Interrupted("stopped", {"kept": 1}),
+]
+
+
+@pytest.mark.parametrize("error", MADE, ids=lambda e: type(e).__name__)
+def test_nothing_is_lost(error: errors.DeodarError) -> None:
+    there = pickle.loads(pickle.dumps(error))
+    assert type(there) is type(error) and str(there) == str(error) and there.problems == error.problems and vars(there) == vars(error)
