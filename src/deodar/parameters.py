@@ -140,8 +140,7 @@ class Part:
         problems: list[Problem] = []
         for p in parameters(type(self)):
             try:
-                stored = normal(p, given := getattr(self, p.name))
-                if not _same(stored, given):  # what is stored stays the same object, by which a change is told quickly
+                if not _same(stored := normal(p, given := getattr(self, p.name)), given):  # one object stays one: so changes are told quickly
                     object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
@@ -248,13 +247,12 @@ def normal(p: Parameter, value: Any) -> Any:
 
 
 def _same(a: Any, b: Any) -> bool:
-    """Whether two values in stored form are made of the same objects."""
     return a is b or (type(a) is type(b) is tuple and len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True)))
 
 
 def real(value: Any) -> float | None:
     """The number that a value is, or None if it is none; true and false are not, nor is text that looks like one."""
-    if isinstance(value, (np.ndarray, np.generic)) or (hasattr(value, "item") and np.ndim(value) == 0):
+    if hasattr(value, "item"):  # of NumPy or JAX
         value = value.item() if np.ndim(value) == 0 else None
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return None

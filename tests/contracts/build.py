@@ -34,6 +34,9 @@ class Anything(World):
     def require(self, sensor: str) -> None:
         """Every sensor is here."""
 
+    def require_motor(self, motor: str) -> None:
+        """Every motor is here."""
+
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         return np.random.default_rng(len(sensor)).random(shape(axes))
 

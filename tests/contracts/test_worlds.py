@@ -9,35 +9,132 @@ import pytest
 
 import deodar as dd
 from deodar import registry
+from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError
-from deodar.numerics.axes import shape
+from deodar.numerics.axes import Axis, shape
+from deodar.worlds._pure import PureWorld
 
 WORLDS = registry.kinds("worlds")
+
+
+def example_axes(kind, sensor):
+    return WORLDS[kind].example_axes(sensor)
+
+
+def everything(kind):
+    """A model with every sensor of a world, and its motors driven by a constant."""
+    model, world = dd.Model("embodied"), WORLDS[kind].example()
+    for sensor in world.sensors:
+        model.add(Sensor(f"see {sensor}", example_axes(kind, sensor), sensor))
+    for k, (motor, signal) in enumerate(world.motors.items()):
+        axes = [Axis(f"a{d}", 0, n - 1, n) for d, n in enumerate(signal.shape or ())]
+        push = model.add(dd.GaussianStimulus(f"push {motor}", axes, center=0, sigma=1, amplitude=300.0 + 100 * k) if axes else _constant(motor, k))
+        model.connect(push, model.add(Motor(f"move {motor}", axes, motor)))
+    return model
+
+
+def _constant(motor, k):
+    from deodar.elements.boost import Boost
+
+    return Boost(f"push {motor}", [], 300.0 + 100 * k)
+
+
+def step_of(kind):
+    """Half the period of a world, so that it takes two steps; 1 where it never changes."""
+    period = WORLDS[kind].example().period
+    return 1.0 if period is None else period / 2
 
 
 @pytest.mark.parametrize("kind", WORLDS)
 def test_every_sensor_reads_its_axes(kind):
     world = WORLDS[kind].example()
-    axes = WORLDS[kind].example_axes()
     assert world.sensors
-    for sensor in world.sensors:
-        world.reset(3)
+    for sensor, signal in world.sensors.items():
+        axes = example_axes(kind, sensor)
+        world.reset(3, [0, 5])
         first = np.asarray(world.sense(sensor, axes, 0.0))
-        assert first.shape == shape(axes) and np.isfinite(first).all() and np.ptp(first) > 0
-        world.reset(3)
+        assert first.shape == ((2,) if signal.each else ()) + shape(axes) and np.isfinite(first).all()
+        assert signal.shape is None or shape(axes) == signal.shape
+        world.reset(3, [0, 5])
         assert np.array_equal(world.sense(sensor, axes, 0.0), first)
 
 
 @pytest.mark.parametrize("kind", WORLDS)
+def test_some_sensor_of_the_example_shows_something(kind):
+    world = WORLDS[kind].example()
+    world.reset(3)
+    assert any(np.ptp(world.sense(s, example_axes(kind, s), 0.0)) > 0 for s in world.sensors)
+
+
+@pytest.mark.parametrize("kind", WORLDS)
 def test_a_sensor_in_a_model_shows_what_the_world_reads(kind):
-    world, axes = WORLDS[kind].example(), WORLDS[kind].example_axes()
-    for sensor in world.sensors:
+    for sensor, signal in WORLDS[kind].example().sensors.items():
+        world, axes = WORLDS[kind].example(), example_axes(kind, sensor)
         model = dd.Model("sensing")
         model.add(Sensor("eye", axes, sensor))
         session = dd.Session(model, world=world)
-        session.step(2)
-        np.testing.assert_allclose(session.read("eye"), world.sense(sensor, axes, 0.0), rtol=1e-6)
+        shown = session.read("eye")
+        read = np.asarray(world.sense(sensor, axes, 0.0))
+        np.testing.assert_allclose(shown, read[0] if signal.each else read, rtol=1e-6)
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("kind", WORLDS)
+def test_the_same_run_however_it_is_cut_and_again_after_a_reset(kind, precision):
+    """The exchange is the world's: neither chunks nor looking at the model change anything."""
+    model, dt = everything(kind), step_of(kind)
+    paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
+    whole = dd.simulate(model, 24 * dt, dt=dt, record=paths, world=WORLDS[kind].example(), precision=precision)
+    cut = dd.Session(model, dt=dt, world=WORLDS[kind].example(), precision=precision)
+    for _ in range(2):
+        seen = {path: [cut.read(path)] for path in paths}
+        for n in [1, 2, 3, 1, 5, 12]:
+            cut.step(n)
+            for path in paths:
+                seen[path].append(cut.read(path))
+        at = np.cumsum([0, 1, 2, 3, 1, 5, 12])
+        for path, variable in zip(paths, whole.data_vars.values(), strict=True):
+            assert np.array_equal(variable.values[at], seen[path]), path
+        cut.reset()
+
+
+@pytest.mark.parametrize(("precision", "tolerance"), [("float32", 1e-4), ("float64", 1e-10)])
+@pytest.mark.parametrize("kind", [kind for kind, cls in WORLDS.items() if issubclass(cls, PureWorld)])
+def test_the_same_run_inside_the_step_and_beside_it(kind, precision, tolerance):
+    model, dt = everything(kind), step_of(kind)
+    paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
+    inside, beside = WORLDS[kind].example(), WORLDS[kind].example()
+    beside.inside = False
+    options = dict(dt=dt, record=paths, precision=precision, seed=4)
+    a, b = (dd.simulate(model, 40 * dt, world=world, **options) for world in (inside, beside))
+    for path in a.data_vars:
+        np.testing.assert_allclose(a[path].values, b[path].values, atol=tolerance, rtol=tolerance)
+    batch = dd.simulate(model, 40 * dt, world=WORLDS[kind].example(), trials=[0, 3], **options)
+    for path in a.data_vars:
+        np.testing.assert_allclose(batch[path].values[0], b[path].values, atol=tolerance, rtol=tolerance)
+        if "infrared" in path:
+            assert np.abs(batch[path].values[0] - batch[path].values[1]).max() > 1e-3
+
+
+@pytest.mark.parametrize("kind", WORLDS)
+def test_back_to_a_snapshot_inside_a_period(kind):
+    model, dt = everything(kind), step_of(kind)
+    paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries if isinstance(e.element, Sensor)]
+    session = dd.Session(model, dt=dt, world=WORLDS[kind].example())
+    session.step(5)
+    kept = session.snapshot()
+
+    def onward():
+        out = []
+        for _ in range(9):
+            out.append([session.read(path).tolist() for path in paths])
+            session.step()
+        return out
+
+    first = onward()
+    session.restore(kept)
+    assert onward() == first
 
 
 @pytest.mark.parametrize("kind", WORLDS)
@@ -47,14 +144,39 @@ def test_a_record_can_keep_a_description(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
-def test_unknown_sensors_are_refused_by_name(kind):
+def test_unknown_sensors_and_motors_are_refused_by_name(kind):
     world = WORLDS[kind].example()
     name = next(iter(world.sensors))
     with pytest.raises(WorldError, match=f"{name}x"):
         world.require(f"{name}x")
     model = dd.Model("sensing")
-    model.add(Sensor("eye", WORLDS[kind].example_axes(), f"{name}x"))
+    model.add(Sensor("eye", example_axes(kind, name), f"{name}x"))
     with pytest.raises(WorldError, match=name):
         dd.Session(model, world=world)
     with pytest.raises(WorldError, match="eye"):
+        dd.Session(model)
+    moving = dd.Model("moving")
+    moving.add(Motor("leg", [], "no such motor"))
+    with pytest.raises(WorldError, match="has no motor 'no such motor'") as caught:
+        dd.Session(moving, world=world)
+    assert all(motor in str(caught.value) for motor in world.motors)
+
+
+@pytest.mark.parametrize("kind", WORLDS)
+def test_axes_that_a_sensor_does_not_have_are_refused(kind):
+    world = WORLDS[kind].example()
+    wrong = [Axis("strange", 0, 1, 17)]
+    for sensor, signal in world.sensors.items():
+        if signal.shape is not None:
+            model = dd.Model("sensing")
+            model.add(Sensor("eye", wrong, sensor))
+            with pytest.raises(WorldError, match=f"eye: '{sensor}' has .* the model gives it \\[17\\]"):
+                dd.Session(model, world=world)
+
+
+def test_two_elements_cannot_drive_one_motor():
+    model = dd.Model("moving")
+    model.add(Motor("one", [], "left"))
+    model.add(Motor("other", [], "left"))
+    with pytest.raises(WorldError, match=r"drives the motor 'left', which (one|other) drives"):
         dd.Session(model)

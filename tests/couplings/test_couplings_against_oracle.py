@@ -164,13 +164,13 @@ def test_peak_position_on_a_line_and_on_a_ring():
 
 def test_color_space_of_a_picture():
     from deodar.elements.sensor import Sensor
-    from deodar.worlds._base import World
+    from deodar.worlds._base import Signal, World
 
     pixels = np.random.default_rng(5).random((12, 10, 3))
     pixels[:3] *= 0.1
 
     class Still(World):
-        sensors = {"picture": "random colours"}
+        sensors = {"picture": Signal("random colours")}
 
         def sense(self, sensor, axes, time):
             return pixels

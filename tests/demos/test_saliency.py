@@ -13,7 +13,9 @@ from PIL import Image
 
 import deodar as dd
 from deodar.demos import saliency
-from deodar.demos.saliency import Cue, claims, look, own, photographs, sentence
+from deodar.demos.saliency import Cue, claims, filmed, look, own, photographs, sentence, watched
+from deodar.worlds import _capture
+from deodar.worlds.camera import Camera
 
 
 def test_the_command_makes_good_every_claim(tmp_path: Path) -> None:
@@ -49,6 +51,25 @@ def test_a_picture_of_ones_own(tmp_path: Path) -> None:
     assert len(blue.places) == 1 and 60 <= blue.places[0][0] <= 80 and 20 <= blue.places[0][1] <= 40
     assert not red.places and abs(blue.motor[0] - blue.places[0][0]) < 3
     assert all(c.holds is None for c in claims(result)[1:])
+
+
+@pytest.mark.parametrize("way", ["film", "camera"])
+def test_a_film_and_a_camera(way: str) -> None:
+    """A red square crosses the film in its first second and stays where it is then, at columns 48 to 63."""
+    film = _capture.example()
+    scene = filmed(film, [0.0, 240.0]) if way == "film" else watched(Camera(str(film), period=saliency.PERIOD, patience=60.0), [0.0, 240.0])
+    red, blue = look(scene).outcomes
+    assert len(red.places) == 1 and 46 <= red.places[0][0] <= 64 and 14 <= red.places[0][1] <= 34
+    assert not blue.places and abs(red.motor[0] - red.places[0][0]) < 4
+
+
+def test_a_film_or_camera_that_is_not_there(tmp_path: Path) -> None:
+    for options, says in ((["--video", "none.mp4"], "there is no such video"), (["--camera", "77"], "there is no camera")):
+        done = subprocess.run(
+            [sys.executable, "-m", "deodar", "demo", "saliency", *options], cwd=tmp_path, capture_output=True, text=True, timeout=60
+        )
+        assert done.returncode == 1 and says in " ".join(done.stderr.split()) and "Traceback" not in done.stderr, done.stderr
+    assert not list(tmp_path.iterdir())
 
 
 def test_bad_input(tmp_path: Path) -> None:

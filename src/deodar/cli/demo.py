@@ -6,44 +6,90 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-HELP = "run a demonstration on real input: saliency"
+if TYPE_CHECKING:
+    from deodar.analysis.claims import Claim
+    from deodar.demos import saliency
+
+HELP = "run a demonstration: saliency on photographs, or spa, a robot that plans and drives"
+ON_PICTURES = ("image", "video", "camera", "cue")
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     from deodar.cli import _options
 
-    parser.add_argument("name", choices=("saliency",), metavar="NAME", help="saliency: a colour cue selects an object in a photograph")
-    parser.add_argument("--image", type=Path, metavar="FILE", help="a photograph of your own instead of the three that come with deodar")
+    about = "saliency: a colour cue selects an object in a photograph; spa: a robot plans its way through a maze while it drives"
+    parser.add_argument("name", choices=("saliency", "spa"), metavar="NAME", help=about)
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument("--image", type=Path, metavar="FILE", help="a photograph of your own instead of the three that come with deodar")
+    source.add_argument("--video", type=Path, metavar="FILE", help="a film of your own, from its beginning (extra vision)")
+    source.add_argument("--camera", type=_options.whole, metavar="N", help="what a camera sees now, 0 for the first (extra vision)")
     parser.add_argument(
-        "--cue", type=float, action="append", metavar="HUE", help="with --image: a hue to cue, in degrees (0 red, 120 green); may be repeated"
+        "--cue",
+        type=float,
+        action="append",
+        metavar="HUE",
+        help="with --image, --video, --camera: a hue to cue, in degrees (0 red, 120 green); may be repeated",
     )
     parser.add_argument("--seed", type=_options.whole, default=0, metavar="N", help="seed of all noise (default 0)")
     parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder for what is written (default: a new one in the working folder)")
     parser.add_argument("--force", action="store_true", help="replace the folder --out that an earlier demo wrote")
     parser.add_argument("--json", action="store_true", help="print the claims as JSON")
+    _options.add_cores(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
 
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if a required claim is false."""
+    from deodar.cli._options import use_cores
+    from deodar.errors import DeodarError
+    from deodar.recording import places
+
+    strange = [name for name in ON_PICTURES if args.name != "saliency" and getattr(args, name) is not None]
+    if strange:
+        raise DeodarError(f"--{strange[0]} belongs to the demo saliency", where=f"demo {args.name}", fix=f"Leave out --{strange[0]}")
+    out = args.out or places.free(Path.cwd(), f"demo-{args.name}")
+    claim(out, args.force)
+    use_cores(args.cores)
+    if args.name == "spa":
+        from deodar.cli import _demo_spa
+
+        return _tell(args, out, *_demo_spa.run(args, out))
+    return _tell(args, out, *_saliency(args, out))
+
+
+Told = tuple["list[Claim]", dict[str, Any], str, str]
+"""What a demo found: claims, settings, the names of what it wrote, and a sentence."""
+
+
+def _tell(args: argparse.Namespace, out: Path, claims: list[Claim], settings: dict[str, Any], written: str, sentence: str) -> int:
+    from deodar.analysis.claims import failed, results
+    from deodar.cli._options import shown
+
+    if args.json:
+        print(json.dumps({"out": str(out), "claims": json.loads(results(claims, settings))["claims"]}, indent=2, ensure_ascii=False))
+    else:
+        for c in claims:
+            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
+            print(f"  {mark:4}{c.name}" + (f" -> {c.value}" if c.holds is not True or isinstance(c.value, int) else ""))
+        print(f"Written to {shown(out)}: {written} and results.json.")
+        print(sentence)
+    return 1 if failed(claims) else 0
+
+
+def _saliency(args: argparse.Namespace, out: Path) -> Told:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
-    from deodar.cli._options import shown
-    from deodar.recording import places
-
-    out = args.out or places.free(Path.cwd(), f"demo-{args.name}")
-    claim(out, args.force)
-
-    from deodar.analysis.claims import failed, results
+    from deodar.analysis.claims import results
     from deodar.demos import saliency
     from deodar.demos.saliency_figure import figure
     from deodar.figures._files import save as save_figure
-    from deodar.recording import files
+    from deodar.recording import files, places
 
-    scenes = [saliency.own(args.image, args.cue or ())] if args.image else saliency.photographs()
+    scenes = _scenes(args)
     console = Console(file=sys.stderr)
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
     done: list[saliency.Result] = []
@@ -66,17 +112,20 @@ def run(args: argparse.Namespace) -> int:
         claims = [c for result in done for c in saliency.claims(result)]
         settings = {"demo": args.name, "seed": args.seed, "duration": saliency.DURATION, "cue_at": saliency.CUE_AT}
         places.write_folder(out, fill, replace=args.force)
-    wrong = failed(claims)
-    if args.json:
-        print(json.dumps({"out": str(out), "claims": json.loads(results(claims, settings))["claims"]}, indent=2, ensure_ascii=False))
-    else:
-        for c in claims:
-            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
-            print(f"  {mark:4}{c.name}" + (f" -> {c.value}" if c.holds is not True else ""))
-        names = ", ".join(f"{r.scene.name}.png" for r in done)
-        print(f"Written to {shown(out)}: {names}, the records (*.zarr) and results.json.")
-        print(saliency.sentence(done))
-    return 1 if wrong else 0
+    names = ", ".join(f"{r.scene.name}.png" for r in done)
+    return claims, settings, f"{names}, the records (*.zarr)", saliency.sentence(done)
+
+
+def _scenes(args: argparse.Namespace) -> list[saliency.Scene]:
+    from deodar.demos import saliency
+    from deodar.worlds.camera import Camera
+
+    cues = args.cue or ()
+    if args.image:
+        return [saliency.own(args.image, cues)]
+    if args.video:
+        return [saliency.filmed(args.video, cues)]
+    return saliency.photographs() if args.camera is None else [saliency.watched(Camera(args.camera, period=saliency.PERIOD), cues)]
 
 
 def claim(out: Path, force: bool) -> None:

@@ -22,7 +22,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = EPILOG
     parser.add_argument("record", type=Path, metavar="RECORD", help="a record (.zarr, .nc), or a folder that deodar run wrote")
     parser.add_argument("variables", nargs="*", metavar="VARIABLE", help="paths of variables, for example u.activation (default: all)")
-    parser.add_argument("--kind", metavar="K", help="time_course, space_time, snapshot, snapshots or projection")
+    parser.add_argument("--kind", metavar="K", help="time_course, space_time, snapshot, snapshots, projection or path")
     parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
     parser.add_argument("--trial", type=_options.whole, metavar="N", help="trial to draw (default: all as lines; the first as a map)")
     parser.add_argument("--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw")

@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import time
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
 import jax
@@ -18,6 +18,7 @@ from jax import lax
 
 from deodar.compiler import cache
 from deodar.compiler import device as devices
+from deodar.compiler.body import Body, batched
 from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Port, Program, array_key, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
@@ -26,6 +27,7 @@ from deodar.model.check import check
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
+from deodar.worlds._pure import PureWorld
 
 Tree = Any
 PRECISIONS = ("float32", "float64")
@@ -38,6 +40,9 @@ PAIRS_FROM = 1000
 
 MOST_COPIED = 12
 """Calls of a step beyond which three copies of it would compile for seconds."""
+
+RARELY = {"xla_backend_optimization_level": 0}
+"""For what runs once, or when a width changes: it compiles in half the time."""
 
 BUFFER_BYTES = 16 * 2**20
 """Size of the buffer in which a chunk records."""
@@ -73,24 +78,38 @@ class Executable:
         seconds: CPU time spent on planning, tracing and compiling.
     """
 
-    def __init__(self, doc: Document, precision: str, batch: Batch, sweep: Sequence[Sequence[Leaf]], device: Any = None, exact: bool = False) -> None:
+    def __init__(
+        self,
+        doc: Document,
+        precision: str,
+        batch: Batch,
+        sweep: Sequence[Sequence[Leaf]],
+        device: Any = None,
+        exact: bool = False,
+        body: Body | None = None,
+    ) -> None:
         began = time.process_time()
         self.device: Any = device or devices.find()
         self.precision, self.exact = precision, exact
         self.batch = batch
         self.sweep = tuple(tuple(s) for s in sweep)
         lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
-        self.plan: Plan = plan(doc, lifted, exact or precision == "float64", batch.size)
-        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep])
+        self.plan: Plan = plan(doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None)
+        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep], body)
+        self.body = body
         self.traced = 0
         self.compiled = 0
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
         values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.trials or 1, np.uint32)
-        self._prepare, constants = self.compile(self.program.prepare, values)
-        self._init, (state, keys) = self.compile(self._start, values, seed, trials)
+        self._prepare, constants = self.compile(self.program.prepare, values, options=RARELY)
+        self._init, (state, keys) = self.compile(self._start, values, seed, trials, options=RARELY)
         zero, count = np.zeros((), self.program.dtype), np.int32(0)
-        clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero}
+        clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero, "period": np.uint32(1)}
+        if body is not None:
+            body.world.reset(0, [0] * batch.size, precision)
+            shared, state, keys = self.embodied(body.world, state, keys)
+            values = {**values, "world": shared}
         counts = {"head": count, "every": count, "records": count}
         self._example = (values, constants, state, keys, self.blind(), clock, counts)
         self.seconds = time.process_time() - began
@@ -132,6 +151,13 @@ class Executable:
     def prepare(self, values: Tree) -> Tree:
         """Constants of the groups."""
         return self.call(self._prepare, values)
+
+    def embodied(self, world: Any, state: Tree, keys: Tree) -> tuple[Tree, Tree, Tree]:
+        """What all copies share of a world inside the step, which has begun, and state and keys with what each has of it."""
+        assert self.body is not None and isinstance(world, PureWorld)
+        shared, own, now = world.parts()
+        joined = world.call("begin", jax.vmap(self.body.begin, in_axes=(None, 0, 0)), shared, own, now)
+        return shared, {**state, "world": batched(joined, self.batch.shape)}, {**keys, "world": batched(own, self.batch.shape)}
 
     def init(self, values: Tree, seed: int, trials: Sequence[int]) -> tuple[Tree, Tree]:
         """State at the start and noise keys, for the given trials of a seed."""
@@ -219,7 +245,7 @@ class Executable:
         return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(values, constants, state, keys)
 
     def _swept_axes(self, values: Tree) -> Tree:
-        return {"vector": None, "arrays": None, "swept": tuple(0 for _ in values["swept"])}
+        return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
     def _run(
         self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree, counts: Any
@@ -283,14 +309,14 @@ class Executable:
 
     # -------------------------------------------------------------------------------- compiling
 
-    def compile(self, function: Any, *args: Any) -> tuple[Any, Tree]:
+    def compile(self, function: Any, *args: Any, options: Mapping[str, Any] | None = None) -> tuple[Any, Tree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
         # full products everywhere: processors that multiply in fewer digits (TF32) would do so otherwise
         with precision_context(self.precision), jax.default_device(self.device), jax.default_matmul_precision("highest"):
             # unused arguments stay: two programs that differ in which argument they use must not look alike to the cache
             lowered = jax.jit(function, keep_unused=True).lower(*args)
-            executable, fresh = cache.compile(lowered, cache.options(self.device), self.device)
+            executable, fresh = cache.compile(lowered, {**cache.options(self.device), **(options or {})}, self.device)
         self.traced += 1
         self.compiled += fresh
         self.seconds += time.process_time() - began
@@ -313,6 +339,7 @@ def executable(
     sweep: Sequence[Sequence[Leaf]] = (),
     device: str | None = None,
     accuracy: str = "default",
+    body: Body | None = None,
 ) -> Executable:
     """The executable of a document, by default the model's present one, for the CPU or a device; kept by the model, so that it compiles once.
 
@@ -329,13 +356,13 @@ def executable(
     lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.outside())
-    ways = () if exact else tuple(ways_of(doc, lifted, batch.size).items())
-    key = (signature(doc), ways, outside, precision, exact, batch, tuple(map(tuple, sweep)), neutral, devices.name(place))
+    ways = () if exact else tuple(ways_of(doc, lifted, batch.size, body is not None).items())
+    key = (signature(doc), ways, outside, precision, exact, batch, tuple(map(tuple, sweep)), neutral, devices.name(place), body and body.key)
     if key not in model.programs:
         problems = model.check() if doc is model.document else check(doc)
         if problems:
             raise ModelError(problems)
-        made = Executable(doc, precision, batch, sweep, place, exact)
+        made = Executable(doc, precision, batch, sweep, place, exact, body)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]
         model.programs[key] = made

@@ -142,6 +142,7 @@ def plan(
     exact: bool = False,
     copies: int = 1,
     partition: Partition | None = None,
+    embodied: bool = False,
 ) -> Plan:
     """The plan of a document.
 
@@ -151,13 +152,14 @@ def plan(
         exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
         copies: how many copies of the model run at once.
         partition: which nodes share a group; none: `by_structure`.
+        embodied: whether the world is inside the step, so that sensors do not stand still.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
     if problems or loops:
         raise ModelError([*problems, *loops])
     neutral = {n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes}
-    still = _still(nodes)
+    still = _still(nodes, embodied)
     found = ways(nodes, still, {n.id for n in nodes} if exact else _swept(nodes, lifted), copies)
     nodes = shared(nodes, found)
     groups, row = _groups(nodes, neutral, still, found, partition or by_structure)
@@ -168,16 +170,16 @@ def plan(
     return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
 
 
-def ways_of(doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1) -> dict[str, Way]:
+def ways_of(doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False) -> dict[str, Way]:
     """How each element would apply its kernels, where not by matrices."""
     nodes, problems = resolve(doc)
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
         return {}
-    found = ways(nodes, _still(nodes), _swept(nodes, lifted), copies)
+    found = ways(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies)
     return {i: way for i, way in sorted(found.items()) if way != EXACT}
 
 
-def _still(nodes: Sequence[Node]) -> dict[str, bool]:
+def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:
     by = {n.id: n for n in nodes}
     known: dict[str, bool] = {}
 
@@ -185,6 +187,7 @@ def _still(nodes: Sequence[Node]) -> dict[str, bool]:
         if n.id not in known:
             known[n.id] = False
             alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
+            alone = alone and not (embodied and isinstance(n.element, Sensor))
             known[n.id] = alone and all(still(by[s[0]]) for slots in n.reads.values() for s in slots)
         return known[n.id]
 

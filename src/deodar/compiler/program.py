@@ -16,6 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
+from deodar.compiler.body import Body
 from deodar.compiler.plan import Call, Group, Plan, Read
 from deodar.element import Setting, Time
 from deodar.leaves import bind
@@ -60,13 +61,14 @@ class Program:
         values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value for each sweep).
         constants: what `prepare` made of them, one entry a group.
         state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible).
-        keys: noise keys of the noisy groups.
-        sensed: readings of the sensors.
-        clock: `tick` (uint32), `start` and `rest` (document time at the tick, in two parts), `dt`.
+        keys: noise keys of the noisy groups; of a world inside the step its own arrays, under `world`.
+        sensed: readings of the sensors; of a world inside the step they are in the state.
+        clock: `tick` (uint32), `start` and `rest` (document time at the tick, in two parts), `dt`, `period` (of a world inside, in ticks).
     """
 
-    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = ()) -> None:
+    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = (), body: Body | None = None) -> None:
         self.plan = plan
+        self.body = body
         self.precision = precision
         self.dtype: Any = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
@@ -123,6 +125,7 @@ class Program:
 
     def step(self, values: Tree, constants: Tree, state: Tree, keys: Tree, drawn: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any) -> Tree:
         """The state at tick + 1: every output at t is read, then all new states are committed together. `drawn`: noise of the fast groups."""
+        sensed = self._seen(state, sensed)
         buffers, old = dict(still), state["groups"]
         new, held = list(old), dict(state["held"])
         for call in self.moving:
@@ -139,13 +142,20 @@ class Program:
                     return self._advance(g, values, constants, old[g], inputs, noise, time)
 
                 new[call.group] = self._gated(call.group, run, old, held, tick)
-        return {"groups": new, "held": held}
+        if self.body is None:
+            return {"groups": new, "held": held}
+        told = {ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]}
+        world = self.body.step(values["world"], keys["world"], state["world"], told, tick, clock["period"])
+        return {"groups": new, "held": held, "world": world}
+
+    def _seen(self, state: Tree, sensed: Tree) -> Tree:
+        return sensed if self.body is None else {**sensed, **self.body.sensed(state["world"])}
 
     def observe(
         self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any
     ) -> tuple[Array, ...]:
         """Ports at the state's own time; connections that read `current` see that same state."""
-        buffers = dict(still)
+        buffers, sensed = dict(still), self._seen(state, sensed)
         for call in self.plan.needed([(p.group, p.name) for p in ports]):
             if not self.plan.groups[call.group].still:
                 time = self._time(clock, tick, self.plan.groups[call.group])

@@ -35,6 +35,11 @@ class Way:
 
 
 EXACT = Way()
+WORTH = 1.1
+"""How much more a step may cost for a program with fewer groups: it compiles sooner."""
+
+Circle = tuple[list[Node], str, Choice]
+"""Nodes, the kind of boundaries, and the waves that they share."""
 
 
 def widths(doc: Document) -> dict[str, Any]:
@@ -50,10 +55,7 @@ def ways(nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str
         own = {} if n.id in exact else interaction.choices(n.element.kernels(), _axes(n), copies * alike[_likeness(n)])
         out[n.id] = Way(_sorted(own))
     free = [n for n in nodes if n.element.sharing and not still[n.id] and n.id not in exact and _axes(n)]
-    for members, key in _circles(free):
-        choice = _together(members, key, out, copies * len(members))
-        if choice is None:
-            continue
+    for members, key, choice in _merged(list(_circles(free, out, copies)), free, out, copies):
         for n in members:
             out[n.id] = Way(_sorted({**dict(out[n.id].choices), key: choice}), key)
     return out
@@ -101,8 +103,27 @@ def _joined(a: Node, b: Node, found: Mapping[str, Way]) -> bool:
     return same and a.every == b.every and _axes(a) == _axes(b)
 
 
-def _circles(free: Sequence[Node]) -> Iterator[tuple[list[Node], str]]:
-    """Nodes that are linked through filters of one kind of boundaries, in the order of the nodes."""
+def _merged(circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Iterator[Circle]:
+    """Circles over the same axes with the same waves, and fields that would take waves on their own, where that costs little more: fewer groups."""
+    places: dict[Any, list[Circle]] = {}
+    for circle in circles:
+        first = circle[0][0]
+        places.setdefault((_axes(first), first.every, circle[1]), []).append(circle)
+    for (axes, every, key), found in places.items():
+        inside = {n.id for members, _, _ in found for n in members}
+        beside = [n for n in free if n.element.sharing == "ends" and n.id not in inside and (_axes(n), n.every) == (axes, every)]
+        beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "way", "") == "waves"]
+        everyone = [n for n in free if n.id in inside | {n.id for n in beside}]
+        choice = _waves_of(everyone, key, copies)
+        apart = sum(_shared_cost(members, key, own) for members, _, own in found) + sum(_alone(n, key, alone, axes, copies) for n in beside)
+        if _shared_cost(everyone, key, choice) <= WORTH * apart:
+            yield everyone, key, choice
+        else:
+            yield from found
+
+
+def _circles(free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Iterator[Circle]:
+    """Nodes that are linked through filters of one kind of boundaries, where sharing waves is cheaper for them than each on its own."""
     by = {n.id: n for n in free}
     keys = {n.id: _key(n) for n in free if n.element.sharing == "filters"}
     readers: dict[str, list[str]] = {}
@@ -122,7 +143,11 @@ def _circles(free: Sequence[Node]) -> Iterator[tuple[list[Node], str]]:
                     members.add(i)
                     todo.append(i)
         taken |= members
-        yield [n for n in free if n.id in members], key
+        found = [n for n in free if n.id in members]
+        choice = _waves_of(found, key, copies)
+        apart = sum(_alone(n, key, alone, _axes(n), copies) for n in found if n.element.sharing != "scales")
+        if any(n.element.sharing == "ends" for n in found) and _shared_cost(found, key, choice) < apart:
+            yield found, key, choice
 
 
 def _linked(a: Node, b: Node) -> bool:
@@ -130,23 +155,23 @@ def _linked(a: Node, b: Node) -> bool:
     return _axes(a) == _axes(b) and a.every == b.every and not a.element.sharing == b.element.sharing == "ends"
 
 
-def _together(members: Sequence[Node], key: str, alone: Mapping[str, Way], copies: int) -> Choice | None:
-    """The waves that all of them share, if that is cheaper than each on its own."""
-    filters = [n for n in members if n.element.sharing == "filters"]
-    if not any(n.element.sharing == "ends" for n in members):
-        return None
-    axes = _axes(filters[0])
+def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
+    """The waves that carry all kernels of these nodes."""
+    axes = _axes(members[0])
     terms = [span for n in members for span in interaction.spans(n.element.kernels(), axes).get(key, ())]
-    choice = together(axes, tuple(key.split()), interaction.covering(terms), copies)
-    there = {s[0] for n in filters for s in n.reads["input"]}
-    apart = shared = 0.0
+    return together(axes, tuple(key.split()), interaction.covering(terms), copies * len(members))
+
+
+def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:
+    """What they cost together: half of a transform for each field whose output is wanted as waves, half for each way back."""
+    axes = _axes(members[0])
+    there = {s[0] for n in members if n.element.sharing == "filters" for s in n.reads["input"]}
+    total = 0.0
     for n in members:
-        if n.element.sharing != "scales":
-            apart += _alone(n, key, alone, axes, copies)
         if n.element.sharing == "ends":
             lateral = key in interaction.spans(n.element.kernels(), axes)
-            shared += choice.nanoseconds * (0.5 * (lateral or n.id in there) + 0.5)
-    return choice if shared < apart else None
+            total += choice.nanoseconds * (0.5 * (lateral or n.id in there) + 0.5)
+    return total
 
 
 def _alone(n: Node, key: str, alone: Mapping[str, Way], axes: Axes, copies: int) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -13,11 +14,17 @@ import numpy as np
 
 from deodar.analysis.claims import Claim
 from deodar.analysis.peaks import Peaks, peaks
-from deodar.architectures.saliency import CUE_AT, saliency, scene
+from deodar.architectures.saliency import CUE_AT, retina, saliency, scene
+from deodar.elements.sensor import Sensor
 from deodar.errors import DocumentError
+from deodar.model.model import Model
 from deodar.numerics.axes import Axes
 from deodar.runtime.simulate import simulate
+from deodar.worlds._base import World
+from deodar.worlds.camera import Camera
 from deodar.worlds.picture import Picture
+from deodar.worlds.recording import Recording
+from deodar.worlds.video import Video
 
 if TYPE_CHECKING:
     import xarray
@@ -27,6 +34,9 @@ SOURCE = "Sandamirskaya (2014), Front. Neurosci. 7:276, figure 2"
 
 DURATION = 3500.0
 EVERY = 50.0
+PERIOD = 50.0
+"""ms between two pictures of a film or a camera."""
+
 LEAST = 600.0
 """Smallest volume of a peak of the colour-space field, in scene units squared times degrees: half of a typical one."""
 
@@ -54,12 +64,16 @@ class Cue:
 
 @dataclass(frozen=True)
 class Scene:
-    """A picture and the cues to be tried on it."""
+    """A picture and the cues to be tried on it.
+
+    Of a film or a camera the picture is the last one, and `world` what is sensed.
+    """
 
     name: str
     title: str
     picture: Picture
     cues: tuple[Cue, ...]
+    world: World | None = None
 
 
 @dataclass(frozen=True)
@@ -107,9 +121,37 @@ def photographs() -> list[Scene]:
 
 def own(file: Path, hues: Sequence[float]) -> Scene:
     """A picture of one's own; what is right in it nobody has marked."""
+    cues = _cues(hues)
+    return Scene(file.stem, file.name, Picture(file), cues)
+
+
+def filmed(file: Path, hues: Sequence[float]) -> Scene:
+    """A film of one's own, from its beginning; after its end its last picture stays."""
+    cues, film = _cues(hues), Video(file, period=PERIOD)
+    return Scene(file.stem, file.name, Picture(film.picture(DURATION)), cues, film)
+
+
+def watched(camera: Camera, hues: Sequence[float]) -> Scene:
+    """What a camera sees for as long as a run lasts, recorded by the clock on the wall, so that all cues are tried on the same."""
+    cues, eye = _cues(hues), Model("eye", dt=PERIOD)
+    eye.add(Sensor("eye", retina(), sensor="picture"))
+    began: list[float] = []
+
+    def wait(done: int) -> None:
+        began.append(time.monotonic() - done * PERIOD / 1000)  # the first counts: before it, programs are compiled
+        time.sleep(max(0.0, began[0] + done * PERIOD / 1000 - time.monotonic()))
+
+    try:
+        seen = simulate(eye, DURATION, record="eye.output", world=camera, progress=wait)
+        return Scene("camera", f"camera {camera.number}", Picture(camera.picture()), cues, Recording(seen))
+    finally:
+        camera.close()
+
+
+def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
     if not all(0 <= h < 360 for h in hues):
         raise DocumentError(f"a cue is a hue from 0 to 360 degrees, not {', '.join(f'{h:g}' for h in hues)}", fix="0 is red, 120 green, 240 blue")
-    return Scene(file.stem, file.name, Picture(file), tuple(Cue(h) for h in (hues or WHEEL)))
+    return tuple(Cue(h) for h in (hues or WHEEL))
 
 
 def look(scene: Scene, seed: int = 0, step: Callable[[], None] = lambda: None) -> Result:
@@ -117,9 +159,10 @@ def look(scene: Scene, seed: int = 0, step: Callable[[], None] = lambda: None) -
     model = saliency()
     sweep = {"cue.center": [c.hue for c in scene.cues]}
     paths = ["seen.output", "colour.activation", "spatial.activation", "pan.output", "tilt.output"]
-    record = simulate(model, DURATION, seed=seed, record=paths, every=EVERY, sweep=sweep, world=scene.picture, progress=False)
+    world = scene.world or scene.picture
+    record = simulate(model, DURATION, seed=seed, record=paths, every=EVERY, sweep=sweep, world=world, progress=False)
     step()
-    end = simulate(model, DURATION, seed=seed, sweep=sweep, world=scene.picture, progress=False).isel(time=-1)
+    end = simulate(model, DURATION, seed=seed, sweep=sweep, world=world, progress=False).isel(time=-1)
     step()
     before = record["seen.output"].sel(time=record["time"] < CUE_AT)
     return Result(scene, record, float(before.max()), tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues))))

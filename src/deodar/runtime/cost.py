@@ -114,7 +114,8 @@ def moment(run: Run) -> Moment:
     """The present moment of a run."""
     dtype = run.program.program.dtype
     start = dtype.type(run.clock.time)
-    clock = {"tick": np.uint32(run.clock.tick % 2**32), "start": start, "rest": dtype.type(0), "dt": dtype.type(run.clock.dt)}
+    tick = np.uint32(run.clock.tick % 2**32)
+    clock = {"tick": tick, "start": start, "rest": dtype.type(0), "dt": dtype.type(run.clock.dt), "period": np.uint32(1)}
     return Moment(run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock)
 
 

@@ -7,8 +7,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import jax
 import numpy as np
 
+from deodar.compiler.body import Body
 from deodar.compiler.executable import Batch
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
@@ -17,6 +19,7 @@ from deodar.model.document import Document
 from deodar.numerics.axes import shape
 from deodar.parameters import show
 from deodar.worlds._base import Signal, World, fitting
+from deodar.worlds._pure import PureWorld
 
 NEVER = 2**62
 """A tick that no run reaches."""
@@ -62,6 +65,7 @@ class Exchange:
     def __init__(self, doc: Document, world: World | None) -> None:
         self.sensors, self.motors = used(doc, world)
         self.world = world
+        self.body: Body | None = None
         self.unread = True
         self._last: float = 0
         self._due = self._origin = 0
@@ -70,6 +74,11 @@ class Exchange:
     def require(self, doc: Document) -> None:
         """Refuse a document with a sensor or motor that the world does not have."""
         used(doc, self.world)
+
+    @property
+    def inside(self) -> bool:
+        """Whether the world is computed inside the step, so that nothing is exchanged here."""
+        return self.body is not None
 
     def take(self, doc: Document) -> None:
         """Go on with another document. What is refused changes nothing."""
@@ -80,7 +89,7 @@ class Exchange:
         """The world back to its start, for a batch of copies."""
         if self.world is not None:
             copies = [t for _ in range(batch.points or 1) for t in trials]
-            if batch.shape and (each := [s.sensor for s in self.sensors.values() if self._each(s)]):
+            if batch.shape and not self.inside and (each := [s.sensor for s in self.sensors.values() if self._each(s)]):
                 raise WorldError(f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot be run in this world")
             self.world.reset(seed, copies, precision)
         self.unread, self._told = True, None
@@ -90,7 +99,7 @@ class Exchange:
     @property
     def live(self) -> bool:
         """Whether there is anything to exchange."""
-        return self.world is not None and bool(self.sensors or self.motors)
+        return self.world is not None and not self.inside and bool(self.sensors or self.motors)
 
     def steps(self, tick: int, period: int) -> int:
         """Steps until the next exchange; `period` in ticks, 0 where the world never changes."""
@@ -139,6 +148,11 @@ class Exchange:
         """What `put` needs to go back to this moment."""
         return None if self.world is None else Kept(type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told)
 
+    def put_now(self, now: Any) -> None:
+        """Where a world that was computed inside the step has come to: every copy, one layer (of rows) deep."""
+        if self.world is not None:
+            self.world.put(jax.tree.map(lambda a: a[:, 0], now))
+
     def put(self, kept: Kept | None) -> None:
         """Back to a moment; the sensors are read anew."""
         self.unread = True
@@ -167,6 +181,14 @@ class Exchange:
                 where=sensor.sensor,
             )
         return reading
+
+
+def embodied(doc: Document, world: World | None) -> Body | None:
+    """What computes a world inside the step: worlds of pure functions that a model uses; None: it is exchanged with beside it."""
+    if not isinstance(world, PureWorld) or not world.inside:
+        return None
+    sensors, motors = used(doc, world)
+    return Body(world, sensors, motors) if sensors or motors else None
 
 
 def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[str, Motor]]:

@@ -11,6 +11,7 @@ from typing import Any
 import jax
 import numpy as np
 
+from deodar.compiler.body import unbatched
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import NotFinite, TimeError
@@ -72,6 +73,7 @@ class Run:
         """Take a program and the parameters of a document; the state stays what it is. What is refused changes nothing."""
         require_step(doc, self.clock.dt)
         self.exchange.take(doc)
+        self.exchange.body = program.body
         self.program, self.doc = program, doc
         self.values = program.values(doc, self.swept)
         self.constants = program.prepare(self.values)
@@ -81,6 +83,9 @@ class Run:
         self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
         self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
+        self.shared: Tree = None
+        if self.exchange.inside:
+            self.shared, self.state, self.keys = self.program.embodied(self.exchange.world, self.state, self.keys)
         self.forget()
 
     def forget(self) -> None:
@@ -135,6 +140,8 @@ class Run:
             if progress is not None:
                 progress(done)
         self._steps(chunk, steps - done, 1, progress, done)
+        if self.exchange.inside:
+            self.exchange.put_now(unbatched(self.state["world"]["now"], self.program.batch.shape))
 
     def _steps(self, chunk: Any, steps: int, records: int, progress: Callable[[int], None] | None, before: int = 0) -> None:
         done = 0
@@ -164,19 +171,19 @@ class Run:
 
     def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
         given = {k: np.int32(min(v, 2**31 - 1)) for k, v in counts.items()}
-        return self.program.call(chunk, self.values, self.constants, state, self.keys, self.sensed, self._now(), given)
+        return self.program.call(chunk, self._values(), self.constants, state, self.keys, self.sensed, self._now(), given)
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
         """Ports at the present state."""
         self._sense()
         reader = self.program.reader(ports)
-        seen = self.program.call(reader, self.values, self.constants, self.state, self.keys, self.sensed, self._now())
+        seen = self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, self._now())
         return [np.asarray(a) for a in seen]
 
     def look(self, reader: Any) -> Sequence[Any]:
         """What a reader that the caller keeps sees in the present state."""
         self._sense()
-        return self.program.call(reader, self.values, self.constants, self.state, self.keys, self.sensed, self._now())
+        return self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, self._now())
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
         """The state of one element of a single run."""
@@ -199,7 +206,11 @@ class Run:
         dtype = self.program.program.dtype
         start = dtype.type(self.clock.time)
         rest = dtype.type(self.clock.time - float(start))
-        return {"tick": np.uint32(self.clock.tick % 2**32), "start": start, "rest": rest, "dt": dtype.type(self.clock.dt)}
+        period = np.uint32(self._period() if self.exchange.inside else 1)
+        return {"tick": np.uint32(self.clock.tick % 2**32), "start": start, "rest": rest, "dt": dtype.type(self.clock.dt), "period": period}
+
+    def _values(self) -> Tree:
+        return self.values if self.shared is None else {**self.values, "world": self.shared}
 
     def _chunk_steps(self) -> int:
         """Steps that take about CHUNK_SECONDS; the first chunk is a probe."""

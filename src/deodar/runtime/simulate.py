@@ -25,6 +25,7 @@ from deodar.numerics.axes import shape
 from deodar.parameters import real, show
 from deodar.recording.provenance import provenance
 from deodar.runtime import memory, pieces
+from deodar.runtime.exchange import embodied
 from deodar.runtime.interrupt import stoppable
 from deodar.runtime.run import Run, require_step, whole
 from deodar.runtime.session import LARGEST_SEED, require_model, require_seed
@@ -127,7 +128,7 @@ def simulate(
         return data
     stopped = False
     with stoppable() as check:
-        program = executable(model, doc, precision, copies, points.leaves if sweep else (), device, accuracy)
+        program = executable(model, doc, precision, copies, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
         run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
         found = [program.port(i, port) for i, port in ports]
         store = _Store(program, found, copies, count)

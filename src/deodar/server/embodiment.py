@@ -37,7 +37,7 @@ class Embodiment:
         if not wanted:
             return None
         if self.chosen is None or not wanted <= {*self.chosen.sensors, *self.chosen.motors}:
-            fitting = [cls for cls in registry.kinds("worlds").values() if wanted <= {*cls.sensors, *cls.motors}]
+            fitting = [cls for cls in registry.kinds("worlds").values() if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}]
             if fitting:
                 self.label = _named(fitting[0].__name__, "an example")
                 return fitting[0].example()

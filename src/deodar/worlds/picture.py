@@ -8,7 +8,7 @@ import struct
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +16,9 @@ from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
 from deodar.registry import register
-from deodar.worlds._base import World
+from deodar.worlds._base import Signal, World
+from deodar.worlds._image import CHANNELS, PICTURE, frame, sampled
 
-CHANNELS = 3
 MOST_PIXELS = 100_000_000
 
 
@@ -40,7 +40,7 @@ class Picture(World):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1.
     """
 
-    sensors: ClassVar[Mapping[str, str]] = {"picture": "colour over two dimensions; the last axis is red, green, blue"}
+    sensors: Mapping[str, Signal] = {"picture": PICTURE}
 
     def __init__(self, file: str | Path | np.ndarray) -> None:
         if not isinstance(file, (str, Path, np.ndarray)):
@@ -55,24 +55,11 @@ class Picture(World):
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
-        if len(axes) != 3 or axes[2].samples != CHANNELS:
-            raise WorldError(f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor)
-        from PIL import Image
-
-        across, down, scale = self._frame(axes)
-        box = (across, down, across + axes[0].samples * axes[0].step / scale, down + axes[1].samples * axes[1].step / scale)
-        canvas = Image.new("RGB", self.size)
-        canvas.paste(Image.fromarray((self.pixels * 255).round().astype(np.uint8)))
-        seen = _resized(canvas, box, (axes[0].samples, axes[1].samples))
-        return np.asarray(seen, dtype=np.float32).transpose(1, 0, 2) / 255.0
+        return sampled((self.pixels * 255).round().astype(np.uint8), axes, sensor)
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
         """Column and row of the picture that a place on the axes stands for."""
-        across, down, scale = self._frame(axes)
-        return (
-            across + (x - axes[0].lower + axes[0].step / 2) / scale,
-            down + (y - axes[1].lower + axes[1].step / 2) / scale,
-        )
+        return frame(self.size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Any]:
         digest = hashlib.sha256(self.pixels.tobytes()).hexdigest()
@@ -82,13 +69,6 @@ class Picture(World):
     def open(cls, argument: str) -> Picture:
         return cls(argument)
 
-    def _frame(self, axes: Axes) -> tuple[float, float, float]:
-        """Column and row of the outer edge of the first cell, and axis units per pixel."""
-        width, height = self.size
-        extent = [a.samples * a.step for a in axes[:2]]
-        scale = min(extent[0] / width, extent[1] / height)
-        return (width - extent[0] / scale) / 2, (height - extent[1] / scale) / 2, scale
-
     @classmethod
     def example(cls) -> Picture:
         """A small picture of four colours."""
@@ -96,22 +76,8 @@ class Picture(World):
         return cls(colours.repeat(8, axis=0).repeat(8, axis=1))
 
     @staticmethod
-    def example_axes() -> Axes:
-        """Axes over which the example can be sensed."""
+    def example_axes(sensor: str) -> Axes:
         return (Axis("x", 0, 15, 16), Axis("y", 0, 15, 16), Axis("channel", 0, 2, 3))
-
-
-def _resized(canvas: Any, box: tuple[float, float, float, float], size: tuple[int, int]) -> Any:
-    from PIL import Image
-
-    # each side is padded by whole pixels, so that the box lies inside; what is added is black
-    pad = [int(np.ceil(max(0.0, -box[0]))) + 1, int(np.ceil(max(0.0, -box[1]))) + 1]
-    wide = canvas.width + pad[0] + int(np.ceil(max(0.0, box[2] - canvas.width))) + 1
-    high = canvas.height + pad[1] + int(np.ceil(max(0.0, box[3] - canvas.height))) + 1
-    sheet = Image.new("RGB", (wide, high))
-    sheet.paste(canvas, (pad[0], pad[1]))
-    moved = (box[0] + pad[0], box[1] + pad[1], box[2] + pad[0], box[3] + pad[1])
-    return sheet.resize(size, Image.Resampling.BOX, box=moved)
 
 
 def _array(pixels: np.ndarray) -> np.ndarray:

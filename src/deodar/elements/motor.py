@@ -1,0 +1,46 @@
+"""The motor: where a model acts on a world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Motor(Element):
+    """What a world's motor is told. Which world takes it is chosen when the model is run; without a world it moves nothing.
+
+    Equation:
+        the motor of this name is told y(t) = sum of inputs, at the world's own rate; in between it does what it was told last
+
+    Parameters:
+        axes: axes of the command; none: one number.
+        motor: name of the world's motor.
+
+    Ports:
+        input: the command, over `axes`, in the motor's unit.
+        output: the same, over `axes`.
+
+    Reference:
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4, figure 4.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the command")] = ()
+    motor: Annotated[str, Recompile(meaning="name of the world's motor")] = "left"
+
+    inputs: ClassVar[tuple[str, ...]] = ("input",)
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": inputs["input"]}

@@ -1,0 +1,184 @@
+"""Where a vehicle went: an arena from above with the paths in it, as a figure or as a GIF."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.patches import Circle, Rectangle
+
+from deodar.errors import RecordError
+from deodar.figures import _style
+from deodar.figures._view import View
+from deodar.model import output
+from deodar.runtime.unit import unit_seconds
+from deodar.worlds._base import World
+from deodar.worlds._view import FLOOR
+from deodar.worlds.arena import Arena
+
+ACROSS = False
+START, GOAL = "#222222", "#009e73"
+MOST_FRAMES = 600
+FINER = 3
+"""Pixels drawn for one shown, along each side, so that edges look smooth."""
+
+
+def draw(variable: xarray.DataArray, arena: World | None = None, **view: Any) -> Figure:
+    """A figure of paths: x across, y upwards, one line for each trial and each point of a sweep.
+
+    Args:
+        variable: what a sensor `place` or `pose` showed, over time: x and y, or x, y and heading.
+        arena: the arena it was recorded in, to draw what stands there now; none: the path alone.
+        view: see `deodar.figures._view.View`: trial, where.
+    """
+    looked = View(variable, **view)
+    with _style.style():
+        figure = _style.figure(*_size(looked, arena))
+        _paint(figure.subplots(), looked, arena)
+    return figure
+
+
+def suits(view: View) -> bool:
+    """Whether this is how one would look at the variable unasked: never, since nothing says that two samples are a place."""
+    return False
+
+
+def size(view: View) -> tuple[float, float]:
+    """Width and height, inches."""
+    return _size(view, None)
+
+
+def fill(place: FigureBase, view: View) -> None:
+    """Draw into a figure, or into a part of one."""
+    _paint(place.subplots(), view, None)
+
+
+def animate(variable: xarray.DataArray, file: str | Path, arena: World, width: int = 480, every: int = 1, speed: float = 1.0, **view: Any) -> Path:
+    """Write a GIF of paths as they grow.
+
+    Args:
+        variable: what a sensor `place` or `pose` showed, over time.
+        file: where to; it ends in .gif and is not there yet.
+        arena: the arena it was recorded in.
+        width: in pixels.
+        every: records between two frames.
+        speed: time of the record over time of the film.
+        view: see `deodar.figures._view.View`: trial, where.
+    """
+    from PIL import Image, ImageDraw
+
+    path, looked = Path(file), View(variable, **view)
+    if path.suffix.lower() != ".gif":
+        raise RecordError(f"the name ends in {path.suffix!r}; a film of a path is a GIF", where=str(path), fix="End it in .gif")
+    here = _arena(arena)
+    output.claim(path, False)
+    lines, times = _lines(looked), looked.times[::every]
+    if not 2 <= len(times) <= MOST_FRAMES:
+        raise RecordError(f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}", where=looked.name, fix="Choose another every=")
+    left, low, right, high = _borders(here)
+    scale = width * FINER / (right - left)
+    height = round((high - low) * scale / FINER)
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return (x - left) * scale, (high - y) * scale
+
+    ground = Image.new("RGB", (width * FINER, height * FINER), _rgb(FLOOR))
+    pen = ImageDraw.Draw(ground)
+    for thing in here.furniture.standing():
+        x0, y0, x1, y1 = (v / here.scale for v in thing.box)
+        pen.rectangle([*at(x0, y1), *at(x1, y0)], fill=_rgb(thing.color))
+    radius = here.vehicle.radius / here.scale
+    frames: list[Image.Image] = []
+    for k in range(0, len(looked.times), every):
+        frame = ground.copy()
+        pen = ImageDraw.Draw(frame)
+        for n, line in enumerate(lines):
+            colour = _style.COLORS[n % len(_style.COLORS)]
+            if k:
+                pen.line([at(x, y) for x, y in line[: k + 1, :2]], fill=colour, width=2 * FINER, joint="curve")
+            x, y = line[k, :2]
+            pen.ellipse([*at(x - radius, y + radius), *at(x + radius, y - radius)], outline=colour, width=2 * FINER)
+            if line.shape[1] > 2:
+                ahead = x + radius * math.cos(line[k, 2]), y + radius * math.sin(line[k, 2])
+                pen.line([at(x, y), at(*ahead)], fill=colour, width=2 * FINER)
+        frames.append(frame.resize((width, height), Image.Resampling.BOX))
+    unit = str(variable["time"].attrs.get("units", "ms")) if "time" in variable.coords else "ms"
+    step = 1e3 * unit_seconds(unit) * float(np.diff(times).mean()) / speed
+    output.write(path, lambda beside: frames[0].save(beside, format="GIF", save_all=True, append_images=frames[1:], duration=max(20, step), loop=0))
+    return path
+
+
+def _size(view: View, arena: World | None) -> tuple[float, float]:
+    if arena is None:
+        return _style.SINGLE, _style.SINGLE
+    left, low, right, high = _borders(_arena(arena))
+    return _style.SINGLE, min(6.0, 0.5 + (_style.SINGLE - 0.5) * (high - low) / (right - left))
+
+
+def _paint(ax: Axes, view: View, arena: World | None) -> None:
+    if arena is not None:
+        _ground(ax, _arena(arena))
+    for k, line in enumerate(_lines(view)):
+        colour = _style.COLORS[k % len(_style.COLORS)]
+        ax.plot(line[:, 0], line[:, 1], color=colour, linewidth=1.0)
+        ax.plot(*line[0, :2], "o", color=START, markersize=2.5)
+        x, y = line[-1, :2]
+        if arena is not None:
+            here = _arena(arena)
+            radius = here.vehicle.radius / here.scale
+            ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=0.8))
+            if line.shape[1] > 2:
+                ax.plot([x, x + radius * math.cos(line[-1, 2])], [y, y + radius * math.sin(line[-1, 2])], color=colour, linewidth=0.8)
+    ax.set_aspect("equal")
+    unit = f" ({arena.unit})" if isinstance(arena, Arena) else ""
+    ax.set_xlabel(f"x{unit}")
+    ax.set_ylabel(f"y{unit}")
+    if arena is None:
+        ax.margins(0.05)
+
+
+def _ground(ax: Axes, arena: Arena) -> None:
+    left, low, right, high = _borders(arena)
+    ax.set_facecolor(FLOOR)
+    for thing in arena.furniture.standing():
+        x0, y0, x1, y1 = (v / arena.scale for v in thing.box)
+        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor=thing.color, linewidth=0))
+    if arena.goals is not None:
+        for x, y in arena.goals / arena.scale:
+            ax.plot(x, y, "+", color=GOAL, markersize=7, markeredgewidth=1.5)
+    ax.set_xlim(left, right)
+    ax.set_ylim(low, high)
+    for spine in ax.spines.values():
+        spine.set_visible(True)
+
+
+def _lines(view: View) -> list[np.ndarray]:
+    """Paths (times, 2 or 3), one for each trial and point of a sweep that is looked at."""
+    v = view.chosen()
+    if len(view.space) != 1 or v.sizes[view.space[0]] not in (2, 3) or "time" not in v.dims:
+        raise RecordError("is no path: that is x and y (and heading) over time", where=view.name, fix="Record what a sensor place or pose shows")
+    rest = [d for d in v.dims if d not in ("time", view.space[0])]
+    values = v.transpose(*rest, "time", view.space[0]).values
+    return list(values.reshape(-1, *values.shape[-2:]))
+
+
+def _arena(world: World) -> Arena:
+    if not isinstance(world, Arena):
+        raise RecordError(f"a path is drawn into an arena, not into a {type(world).__name__}")
+    return world
+
+
+def _borders(arena: Arena) -> tuple[float, float, float, float]:
+    left, low, right, high = (v / arena.scale for v in arena.layout.border)
+    return left, low, right, high
+
+
+def _rgb(colour: Sequence[float]) -> tuple[int, int, int]:
+    r, g, b = (round(255 * c) for c in colour)
+    return r, g, b

@@ -1,0 +1,166 @@
+"""Pictures from films and cameras, read by OpenCV (extra `vision`)."""
+
+from __future__ import annotations
+
+import atexit
+import shutil
+import tempfile
+import threading
+import time
+import weakref
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import MissingExtra, WorldError
+
+RATE = 5
+"""OpenCV's number for the pictures in a second (CAP_PROP_FPS)."""
+
+
+def opencv(purpose: str) -> Any:
+    """OpenCV, or an error that says how to get it."""
+    try:
+        import cv2
+    except ImportError:
+        raise MissingExtra("opencv-python-headless", "vision", purpose) from None
+    return cv2
+
+
+def capture(source: int | str, purpose: str) -> Any:
+    """A film or camera, opened; what OpenCV would print where there is none is left to our own message."""
+    cv2 = opencv(purpose)
+    log: Any = cv2.utils.logging
+    level = log.getLogLevel()
+    log.setLogLevel(log.LOG_LEVEL_SILENT)
+    try:
+        return cv2.VideoCapture(source)
+    finally:
+        log.setLogLevel(level)
+
+
+class Film:
+    """The pictures of a video file by time.
+
+    Attributes:
+        size: width and height in pixels.
+        rate: pictures in a second.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if not path.is_file():
+            raise WorldError("there is no such video", where=str(path), fix="Name a file that OpenCV can read, such as an .mp4 or .avi")
+        self.path = path
+        self._opened: Any = None
+        self.rewind()
+        self.size = (int(self._shown.shape[1]), int(self._shown.shape[0]))
+
+    def rewind(self) -> None:
+        """To the first picture."""
+        if self._opened is not None:
+            self._opened.release()
+        self._opened = capture(str(self.path), "reading a video")
+        self.rate = float(self._opened.get(RATE)) if self._opened.isOpened() else 0.0
+        first = self._next()
+        if first is None or not self.rate > 0:
+            raise WorldError("cannot be read as a video", where=str(self.path))
+        self._shown, self._number, self._end = first, 0, False
+
+    def picture(self, moment: float, again: bool) -> np.ndarray:
+        """The picture (height, width, 3) at a time in ms; after the end the last one, or from the start again."""
+        wanted = int(moment * self.rate / 1000 + 1e-6)
+        if again and self._end:
+            wanted %= self._number + 1
+        if wanted < self._number:
+            self.rewind()
+        while self._number < wanted:
+            picture = self._next()
+            if picture is None:
+                self._end = True
+                return self.picture(moment, again) if again else self._shown
+            self._shown, self._number = picture, self._number + 1
+        return self._shown
+
+    def _next(self) -> np.ndarray | None:
+        there, picture = self._opened.read()
+        return np.ascontiguousarray(picture[:, :, ::-1]) if there else None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"path": self.path}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__init__(state["path"])
+
+
+class Eye:
+    """A camera that is read in a thread of its own, so that whoever asks gets the newest picture and never waits for the next.
+
+    Attributes:
+        size: width and height in pixels.
+    """
+
+    def __init__(self, source: int | str, patience: float) -> None:
+        self.source, self.patience = source, patience
+        opened = capture(source, "a camera")
+        there, first = opened.read() if opened.isOpened() else (False, np.zeros((0, 0, 3), np.uint8))
+        if not there:
+            opened.release()
+            raise WorldError("there is no camera, or another program uses it", where=f"camera {source}", fix="Try another number: --camera 1")
+        self._stream = _Stream(opened, np.ascontiguousarray(first[:, :, ::-1]), patience)
+        self.size = (int(first.shape[1]), int(first.shape[0]))
+        self._thread = threading.Thread(target=self._stream.watch, name=f"camera {source}", daemon=True)
+        self._thread.start()
+        weakref.finalize(self, self._stream.closing.set)
+
+    def picture(self) -> np.ndarray:
+        """The newest picture (height, width, 3).
+
+        Raises:
+            WorldError: the camera has stopped.
+        """
+        silent = time.monotonic() - self._stream.since
+        if silent > self.patience:
+            raise WorldError(f"has given no picture for {silent:.1f} s", where=f"camera {self.source}", fix="Look whether it is still connected")
+        return self._stream.newest
+
+    def close(self) -> None:
+        """Give the camera back."""
+        self._stream.closing.set()
+        self._thread.join(timeout=1.0)
+
+
+class _Stream:
+    """The newest picture, and the thread's work; it does not hold the eye, so that an eye that nobody holds closes."""
+
+    def __init__(self, opened: Any, first: np.ndarray, patience: float) -> None:
+        self.opened, self.newest, self.since, self.patience = opened, first, time.monotonic(), patience
+        self.closing = threading.Event()
+
+    def watch(self) -> None:
+        """Read until closed, or until nothing has come for too long."""
+        try:
+            while not self.closing.is_set() and time.monotonic() - self.since <= self.patience:
+                there, picture = self.opened.read()
+                if there:
+                    self.newest, self.since = np.ascontiguousarray(picture[:, :, ::-1]), time.monotonic()
+                else:
+                    self.closing.wait(0.02)
+        finally:
+            self.opened.release()
+
+
+def example(moves: bool = True) -> Path:
+    """A short film in the folder of temporary files, gone at exit: a red square of 16 pixels crosses a grey ground in a second, or stands still."""
+    cv2 = opencv("writing a video")
+    folder = Path(tempfile.mkdtemp(prefix="deodar-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    file = folder / "square.avi"
+    film: Any = cv2.VideoWriter(str(file), cv2.VideoWriter_fourcc(*"MJPG"), 25.0, (64, 48))
+    for k in range(25):
+        picture = np.full((48, 64, 3), 128, np.uint8)
+        left = 2 * k if moves else 24
+        picture[16:32, left : left + 16] = (0, 0, 255)
+        film.write(picture)
+    film.release()
+    return file

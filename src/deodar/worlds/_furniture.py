@@ -1,0 +1,109 @@
+"""What stands in an arena while it runs: things that come, move and go without anything being compiled anew."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import UnknownName, WorldError, did_you_mean
+from deodar.worlds._layout import Layout, Thing, make
+from deodar.worlds._places import of, rows_of
+from deodar.worlds._view import OUTSIDE
+
+SPARE = 16
+"""Things that may be placed besides those of the file: the arrays have room for so many."""
+
+ALWAYS = (0, 2**31 - 1)
+"""Periods between which a thing stands that was given no windows."""
+
+BORDER = 4
+
+
+class Furniture:
+    """The things of a layout and those that were placed, as arrays of fixed size.
+
+    Attributes:
+        things: what stands there; None: a place that is free.
+        windows: for each the first period in which it stands and the first in which it no longer does; one row, or one for each trial.
+    """
+
+    def __init__(self, layout: Layout, period: float) -> None:
+        self.border = layout.border
+        self.period = period
+        self.room = len(layout.things) + SPARE
+        self.things: list[Thing | None] = list(layout.things) + [None] * SPARE
+        self.windows: list[np.ndarray] = [np.asarray([ALWAYS], np.int32) for _ in range(self.room)]
+
+    def place(self, thing: Thing, windows: Any) -> None:
+        """Put a thing there, or another one in the place of one of that name; windows in ms, or None."""
+        times = np.asarray([ALWAYS], np.int32)
+        if windows is not None:
+            what = f"windows of {thing.name}"
+            given = rows_of(what, windows, [1.0, 1.0])
+            if not (given[:, 0] <= given[:, 1]).all():
+                raise WorldError("begins after it ends", where=what)
+            times = np.clip(np.ceil(given / self.period - 0.5), *ALWAYS).astype(np.int32)
+        names = [t.name if t is not None else None for t in self.things]
+        if thing.name not in names and None not in names:
+            raise WorldError(f"the arena is full: {SPARE} things besides those of its file", where=thing.name, fix="Take one away with remove(name)")
+        k = names.index(thing.name if thing.name in names else None)
+        self.things[k], self.windows[k] = thing, times
+
+    def move(self, name: str, center: Sequence[float], scale: float) -> None:
+        """Put a thing elsewhere."""
+        k = self._index(name)
+        old = self.things[k]
+        assert old is not None
+        self.things[k] = dc.replace(old, center=make(name, center, (1, 1), old.color, scale).center)
+
+    def remove(self, name: str) -> None:
+        """Take a thing away."""
+        self.things[self._index(name)] = None
+
+    def standing(self) -> list[Thing]:
+        """What stands there all the time."""
+        return [t for t, w in zip(self.things, self.windows, strict=True) if t is not None and (w == ALWAYS).all()]
+
+    # -------------------------------------------------------------------------------- arrays
+
+    def boxes(self) -> np.ndarray:
+        """Things (n, 4) in metres, then the four sides of the border; a place that is free holds a box far away."""
+        left, low, right, high = self.border
+        far = 10 * max(right - left, high - low)
+        free = (right + 2 * far, high + 2 * far, right + 3 * far, high + 3 * far)
+        x0, y0, x1, y1 = left - far, low - far, right + far, high + far
+        sides = [(x0, y0, left, y1), (right, y0, x1, y1), (x0, y0, x1, low), (x0, high, x1, y1)]
+        return np.asarray([*(free if t is None else t.box for t in self.things), *sides])
+
+    def colours(self) -> np.ndarray:
+        """Colours (n, 3) of the same."""
+        return np.asarray([*(OUTSIDE if t is None else t.color for t in self.things), *([OUTSIDE] * BORDER)])
+
+    def times(self, trials: Sequence[int]) -> np.ndarray:
+        """For each trial and each of the same the periods between which it stands (trials, n, 2)."""
+        out = np.zeros((len(trials), self.room + BORDER, 2), np.int32)
+        out[:, self.room :] = ALWAYS
+        for k, (thing, rows) in enumerate(zip(self.things, self.windows, strict=True)):
+            if thing is not None:
+                out[:, k] = of(trials, rows, f"windows of {thing.name}")
+        return out
+
+    def to_data(self) -> list[Any]:
+        """What stands there, and when, as plain data."""
+        return [[t.name, *t.center, *t.size, *t.color, w.tolist()] for t, w in zip(self.things, self.windows, strict=True) if t is not None]
+
+    def take(self, data: Sequence[Any]) -> None:
+        """What `to_data` gave."""
+        self.things = [Thing(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7])) for d in data]
+        self.windows = [np.asarray(d[8], np.int32) for d in data]
+        self.things += [None] * (self.room - len(data))
+        self.windows += [np.asarray([ALWAYS], np.int32)] * (self.room - len(data))
+
+    def _index(self, name: str) -> int:
+        names = {t.name: k for k, t in enumerate(self.things) if t is not None}
+        if name not in names:
+            raise UnknownName(f"nothing in the arena is called {name!r}", fix=did_you_mean(str(name), names))
+        return names[name]

@@ -1,0 +1,71 @@
+"""Pictures on axes: the mean colour of the pixels in each cell; black beside the picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axes
+from deodar.worlds._base import Signal
+
+CHANNELS = 3
+
+PICTURE = Signal("colour over two dimensions; the last axis is red, green, blue")
+"""What a sensor `picture` reads, whatever world it is of."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where a picture lies on axes: it keeps its shape, fills the longer side of their area, and stands in the middle of the other.
+
+    Attributes:
+        across, down: column and row of the outer edge of the first cell.
+        scale: axis units in a pixel.
+    """
+
+    across: float
+    down: float
+    scale: float
+
+    def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
+        """Column and row of the picture that a place on the axes stands for."""
+        return (
+            self.across + (x - axes[0].lower + axes[0].step / 2) / self.scale,
+            self.down + (y - axes[1].lower + axes[1].step / 2) / self.scale,
+        )
+
+
+def frame(size: tuple[int, int], axes: Axes) -> Frame:
+    """Where a picture of so many pixels (width, height) lies."""
+    width, height = size
+    extent = [a.samples * a.step for a in axes[:2]]
+    scale = min(extent[0] / width, extent[1] / height)
+    return Frame((width - extent[0] / scale) / 2, (height - extent[1] / scale) / 2, scale)
+
+
+def sampled(pixels: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
+    """A picture (height, width, 3) of bytes over axes: (x, y, channel), values from 0 to 1."""
+    if len(axes) != 3 or axes[2].samples != CHANNELS:
+        raise WorldError(f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor)
+    from PIL import Image
+
+    at = frame((pixels.shape[1], pixels.shape[0]), axes)
+    box = (at.across, at.down, at.across + axes[0].samples * axes[0].step / at.scale, at.down + axes[1].samples * axes[1].step / at.scale)
+    seen = _resized(Image.fromarray(pixels), box, (axes[0].samples, axes[1].samples))
+    return np.asarray(seen, dtype=np.float32).transpose(1, 0, 2) / 255.0
+
+
+def _resized(picture: Any, box: tuple[float, float, float, float], size: tuple[int, int]) -> Any:
+    from PIL import Image
+
+    # each side is padded by whole pixels, so that the box lies inside; what is added is black
+    pad = [int(np.ceil(max(0.0, -box[0]))) + 1, int(np.ceil(max(0.0, -box[1]))) + 1]
+    wide = picture.width + pad[0] + int(np.ceil(max(0.0, box[2] - picture.width))) + 1
+    high = picture.height + pad[1] + int(np.ceil(max(0.0, box[3] - picture.height))) + 1
+    sheet = Image.new("RGB", (wide, high))
+    sheet.paste(picture, (pad[0], pad[1]))
+    moved = (box[0] + pad[0], box[1] + pad[1], box[2] + pad[0], box[3] + pad[1])
+    return sheet.resize(size, Image.Resampling.BOX, box=moved)

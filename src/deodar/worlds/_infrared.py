@@ -1,0 +1,38 @@
+"""What infrared sensors read among boxes: pure functions of one copy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.worlds._contact import rays
+from deodar.worlds._vehicle import Infrared, ahead
+
+
+def distances(sensors: Infrared, position: Any, heading: Any, boxes: Any, present: Any, reflection: Any) -> Any:
+    """Distance (sensors,) that the light finds, m: that of the nearest box along one ray, divided by how well it reflects.
+
+    Beyond the range of the table everything reads the same, so rays end there.
+    """
+    dtype = boxes.dtype
+    forward, left = jnp.asarray(sensors.forward, dtype), jnp.asarray(sensors.left, dtype)
+    front = ahead(heading)
+    side = jnp.stack([-front[1], front[0]])
+    origins = position + forward[:, None] * front + left[:, None] * side
+    looks = ahead(heading + jnp.asarray(sensors.angles, dtype)).T
+    # something that reflects twice as well as the table's surface is seen as far as twice the range
+    longest = 10 * sensors.distances[-1]
+    return jnp.minimum(rays(origins, looks, boxes, present, longest), longest) / reflection
+
+
+def readings(sensors: Infrared, distance: Any, deviates: Any) -> Any:
+    """The reading (sensors,) at distances, with noise from standard normal deviates; not below 0.
+
+    Between the entries of the table both reading and noise are interpolated.
+    """
+    at = jnp.asarray(np.asarray(sensors.distances), distance.dtype)
+    value = jnp.interp(distance, at, jnp.asarray(np.asarray(sensors.readings), distance.dtype))
+    share = jnp.interp(distance, at, jnp.asarray(np.asarray(sensors.noise), distance.dtype))
+    return jnp.maximum(value * (1 + share * deviates), 0.0)

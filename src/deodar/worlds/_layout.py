@@ -1,0 +1,249 @@
+"""What stands in an arena, as a small JSON file says it, and what cannot be.
+
+    {"unit": "m", "arena": {"x": [0, 1], "y": [0, 1]},
+     "walls": [{"name": "north", "center": [0.5, 0.9], "size": [0.6, 0.05]}],
+     "boxes": [...], "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "color": [1, 0, 0]}],
+     "start": [0.2, 0.2], "heading": 0.0, "goal": [0.8, 0.8]}
+
+A file may hold several arenas by name. Everything stands parallel to the two axes and is seen and touched whatever its height.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from deodar.errors import Problem, WorldError, did_you_mean
+from deodar.parameters import real, show
+
+UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+"""Units of length, in metres."""
+
+COLOURS = {"walls": (0.45, 0.45, 0.45), "boxes": (0.72, 0.53, 0.3), "blocks": (0.8, 0.2, 0.2)}
+"""Lists of things, and the colour of what names none."""
+
+KNOWN = ("unit", "plane", "arena", *COLOURS, "start", "heading", "goal", "goal_area")
+LARGEST_FILE = 2**24
+
+
+@dataclass(frozen=True)
+class Thing:
+    """A box that stands in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to 1."""
+
+    name: str
+    center: tuple[float, float]
+    size: tuple[float, float]
+    color: tuple[float, float, float]
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """Lower x, lower y, upper x, upper y."""
+        (x, y), (w, h) = self.center, self.size
+        return x - w / 2, y - h / 2, x + w / 2, y + h / 2
+
+
+@dataclass(frozen=True)
+class Layout:
+    """An arena: its inner faces, what stands in it, where a vehicle starts and where it is to go.
+
+    Attributes:
+        border: lower x, lower y, upper x, upper y, m.
+        things: what stands in it; things may overlap, and may stand outside (parked).
+        start: x, y in m and heading in rad, or None.
+        goal: x, y in m, or None.
+    """
+
+    border: tuple[float, float, float, float]
+    things: tuple[Thing, ...] = ()
+    start: tuple[float, float, float] | None = None
+    goal: tuple[float, float] | None = None
+
+    def to_data(self) -> dict[str, Any]:
+        """The same as a file says it."""
+        left, low, right, high = self.border
+        data: dict[str, Any] = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
+        data["blocks"] = [{"name": t.name, "center": list(t.center), "size": list(t.size), "color": list(t.color)} for t in self.things]
+        if self.start is not None:
+            data |= {"start": list(self.start[:2]), "heading": self.start[2]}
+        return data if self.goal is None else data | {"goal": list(self.goal)}
+
+
+def builtin() -> dict[str, Any]:
+    """The arenas that come with deodar, as data, by name."""
+    found: dict[str, Any] = {}
+    for file in sorted((resources.files("deodar.worlds") / "arenas").iterdir(), key=lambda f: f.name):
+        if file.name.endswith(".json"):
+            found |= json.loads(file.read_text(encoding="utf-8"))
+    return found
+
+
+def load(source: str | Path | Mapping[str, Any]) -> Layout:
+    """A layout from data, from the name of an arena that comes with deodar, or from `FILE` or `FILE#NAME`.
+
+    Raises:
+        WorldError: there is no such arena, or what it says cannot be; all that is wrong is listed.
+    """
+    if isinstance(source, Mapping):
+        return _layout(source, "arena")
+    if not isinstance(source, (str, Path)):
+        raise WorldError(f"an arena is a name, a file or a dictionary, not {show(source)}")
+    known = builtin()
+    if str(source) in known:
+        return _layout(known[str(source)], str(source))
+    file, _, name = str(source).partition("#")
+    if not Path(file).is_file():
+        hint = did_you_mean(str(source), known) + ". Or name a .json file" if known else ""
+        raise WorldError("there is no arena and no file of this name", where=str(source), fix=hint.replace("?.", "?"))
+    data = _read(Path(file))
+    if "arena" in data:
+        return _layout(data, str(source))
+    if not name and len(data) == 1:
+        name = next(iter(data))
+    if name not in data:
+        what = f"holds no arena {name!r}" if name else "holds several arenas" if data else "holds no arena"
+        shown = ", ".join(f"{file}#{n}" for n in list(data)[:8])
+        raise WorldError(what, where=file, fix=f"Type one of: {shown}" if shown else "")
+    return _layout(data[name], str(source))
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise WorldError(f"cannot be read as JSON ({type(error).__name__}: {error})", where=str(path)) from None
+    if not isinstance(data, dict):
+        raise WorldError(f"holds {show(data)}; an arena is an object with walls", where=str(path))
+    return data
+
+
+class _Faults(list[Problem]):
+    """Problems found on the way through one arena."""
+
+    def __init__(self, where: str) -> None:
+        super().__init__()
+        self.where = where
+
+    def say(self, place: str, what: str, fix: str = "") -> None:
+        self.append(Problem(": ".join(p for p in (self.where, place) if p), what, fix))
+
+    def pair(self, place: str, value: Any) -> tuple[float, float] | None:
+        numbers = [real(v) for v in value] if isinstance(value, Sequence) and not isinstance(value, str) else []
+        if len(numbers) != 2 or not all(n is not None and math.isfinite(n) for n in numbers):
+            self.say(place, f"is {show(value)}; it is two finite numbers")
+            return None
+        return float(numbers[0] or 0), float(numbers[1] or 0)
+
+
+def _layout(data: Any, where: str) -> Layout:
+    faults = _Faults(where)
+    if not isinstance(data, Mapping):
+        raise WorldError(f"is {show(data)}; an arena is an object with walls", where=where)
+    for key in data:
+        near = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
+        if near:  # other words are notes of whoever wrote the file
+            faults.say("", f"says {key!r}, which is not known", f"Did you mean {near[0]!r}?")
+    scale = UNITS.get(data.get("unit", "m"), 0.0) if isinstance(data.get("unit", "m"), str) else 0.0
+    if not scale:
+        faults.say("unit", f"is {show(data.get('unit'))}; it is one of {', '.join(UNITS)}")
+        scale = 1.0
+    names = str(data.get("plane", "x,y")).split(" ")[0]
+    if names not in ("x,y", "x,z"):
+        faults.say("plane", f"is {names!r}; it is x,y, or x,z (y up)")
+        names = "x,y"
+    turned = names == "x,z"  # as in Webots: y is up, a robot that is not turned looks along -z; so x here is -z, y here -x
+    border = _border(data, names.split(","), turned, scale, faults)
+    things = tuple(_things(data, turned, scale, faults))
+    start = _place(data, "start", turned, scale, faults)
+    heading = real(data.get("heading", 0.0))
+    if heading is None or not math.isfinite(heading):
+        faults.say("heading", f"is {show(data.get('heading'))}; it is an angle in rad")
+    area = data.get("goal_area")
+    goal = _place(data if "goal" in data or not isinstance(area, Mapping) else {"goal": area.get("center")}, "goal", turned, scale, faults)
+    if faults or border is None:
+        raise WorldError(faults)
+    return Layout(border, things, None if start is None else (*start, float(heading or 0)), goal)
+
+
+def _border(data: Mapping[str, Any], names: Sequence[str], turned: bool, scale: float, faults: _Faults) -> Any:
+    area = data.get("arena")
+    if not isinstance(area, Mapping) or not set(names) <= set(area):
+        faults.say("arena", f"is {show(area)}; it is {{{', '.join(f'{n!r}: [lower, upper]' for n in names)}}}")
+        return None
+    spans = [faults.pair(f"arena.{n}", area[n]) for n in names]
+    for name, span in zip(names, spans, strict=True):
+        if span is not None and span[0] >= span[1]:
+            faults.say(f"arena.{name}", f"is {show(area[name])}; the lower end comes first, and there is room between them")
+    first, second = spans
+    if first is None or second is None:
+        return None
+    lower, upper = _turn((first[0], second[0]), turned, scale), _turn((first[1], second[1]), turned, scale)
+    return min(lower[0], upper[0]), min(lower[1], upper[1]), max(lower[0], upper[0]), max(lower[1], upper[1])
+
+
+def _turn(place: tuple[float, float], turned: bool, scale: float) -> tuple[float, float]:
+    a, b = place[0] * scale, place[1] * scale
+    return (-b, -a) if turned else (a, b)
+
+
+def _place(data: Mapping[str, Any], key: str, turned: bool, scale: float, faults: _Faults) -> tuple[float, float] | None:
+    if data.get(key) is None:
+        return None
+    found = faults.pair(key, data[key])
+    return None if found is None else _turn(found, turned, scale)
+
+
+def _things(data: Mapping[str, Any], turned: bool, scale: float, faults: _Faults) -> Iterator[Thing]:
+    taken: set[str] = set()
+    for kind, colour in COLOURS.items():
+        listed = data.get(kind, [])
+        if not isinstance(listed, Sequence) or isinstance(listed, str):
+            faults.say(kind, f"is {show(listed)}; it is a list")
+            continue
+        for k, entry in enumerate(listed):
+            name = str(entry.get("name", f"{kind}.{k}")) if isinstance(entry, Mapping) else f"{kind}.{k}"
+            if not isinstance(entry, Mapping):
+                faults.say(name, f"is {show(entry)}; it is an object with center and size")
+                continue
+            if name in taken:
+                faults.say(name, "is the name of two things")
+            taken.add(name)
+            thing = _thing(name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults)
+            if thing is not None:
+                (w, h), center = thing.size, _turn(thing.center, turned, scale)
+                yield Thing(name, center, (h * scale, w * scale) if turned else (w * scale, h * scale), thing.color)
+
+
+def make(name: str, center: Any, size: Any, color: Any, scale: float = 1.0) -> Thing:
+    """A thing from numbers as somebody wrote them, lengths in units of `scale` metres.
+
+    Raises:
+        WorldError: a number is missing or not finite, it has no area, or its colour is none.
+    """
+    faults = _Faults("")
+    thing = _thing(name, center, size, color, faults)
+    if thing is None:
+        raise WorldError(faults)
+    (x, y), (w, h) = thing.center, thing.size
+    return Thing(name, (x * scale, y * scale), (w * scale, h * scale), thing.color)
+
+
+def _thing(name: str, center: Any, size: Any, color: Any, found: _Faults) -> Thing | None:
+    before = len(found)
+    middle, extent = found.pair(f"{name}.center", center), found.pair(f"{name}.size", size)
+    if extent is not None and not min(extent) > 0:
+        found.say(name, f"has the size {show(size)}; both are above 0, or it has no area")
+    parts = [real(c) for c in color] if isinstance(color, Sequence) and not isinstance(color, str) else []
+    if len(parts) != 3 or not all(c is not None and 0 <= c <= 1 for c in parts):
+        found.say(f"{name}.color", f"is {show(color)}; it is red, green and blue, each from 0 to 1")
+    if len(found) > before:
+        return None
+    assert middle is not None and extent is not None
+    return Thing(name, middle, extent, (float(parts[0] or 0), float(parts[1] or 0), float(parts[2] or 0)))

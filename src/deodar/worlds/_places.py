@@ -1,0 +1,76 @@
+"""Starts and goals: a row for all trials or one for each, and those that cannot be."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import Problem, WorldError
+from deodar.parameters import show
+from deodar.worlds._layout import Thing
+
+
+def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:
+    """Rows of finite numbers, as many in a row as there are scales, times these."""
+    try:
+        rows = np.atleast_2d(np.asarray(given, float))
+    except (TypeError, ValueError):
+        rows = np.zeros((0, 0))
+    if rows.ndim != 2 or rows.shape[1] != len(scale) or not len(rows) or not np.isfinite(rows).all():
+        raise WorldError(f"is {show(given)}; it is {len(scale)} finite numbers, or a row of them for each trial", where=what)
+    return rows * np.asarray(scale)
+
+
+def of(trials: Sequence[int], rows: np.ndarray, what: str) -> np.ndarray:
+    """The row of each trial; one row serves all."""
+    if len(rows) == 1:
+        return np.repeat(rows, len(trials), axis=0)
+    if max(trials) >= len(rows):
+        text = f"there are {len(rows)} of them, and trial {max(trials)} is run"
+        raise WorldError(text, where=what, fix="Give one for all, or a row for each trial")
+    return rows[list(trials)]
+
+
+class Places:
+    """What is asked of places in an arena, and how they are named in a message.
+
+    Attributes:
+        border: lower x, lower y, upper x, upper y, m.
+        unit, scale: of lengths in messages, and metres in one.
+        source: where the arena is from.
+    """
+
+    def __init__(self, border: tuple[float, float, float, float], unit: str, scale: float, source: str) -> None:
+        self.border, self.unit, self.scale, self.source = border, unit, scale, source
+
+    def misplaced(self, rows: np.ndarray, what: str, radius: float, things: Sequence[Thing]) -> list[Problem]:
+        """Problems of places that lie outside the arena, or where a disc would stand in a thing."""
+        problems: list[Problem] = []
+        left, low, right, high = self.border
+        needs = f"; the vehicle needs {radius / self.scale:g} {self.unit} around it" if radius else ""
+        for k, row in enumerate(rows):
+            x, y = float(row[0]), float(row[1])
+            if min(x - left, right - x, y - low, high - y) < radius:
+                span = ", ".join(f"{a / self.scale:g} to {b / self.scale:g}" for a, b in ((left, right), (low, high)))
+                problems.append(self.fault(what, rows, k, f"lies outside the arena, {span} {self.unit}{needs}"))
+                continue
+            inside = [t.name for t in things if _distance(t.box, x, y) < max(radius, 1e-12)]
+            if inside:
+                problems.append(self.fault(what, rows, k, f"lies inside {inside[0]!r}{needs}"))
+        return problems
+
+    def fault(self, what: str, rows: np.ndarray, k: int, text: str) -> Problem:
+        """The problem of a row."""
+        place = what if len(rows) == 1 else f"{what} of trial {k}"
+        return Problem(f"{self.source}: {place}" if self.source else place, f"{self.shown(rows[k % len(rows)])} {text}")
+
+    def shown(self, row: np.ndarray) -> str:
+        """A place in a message."""
+        return f"({row[0] / self.scale:.4g}, {row[1] / self.scale:.4g})"
+
+
+def _distance(box: tuple[float, float, float, float], x: float, y: float) -> float:
+    return math.hypot(max(box[0] - x, x - box[2], 0.0), max(box[1] - y, y - box[3], 0.0))

@@ -1,0 +1,131 @@
+"""Worlds of pure functions: written for one copy, computed for as many as there are."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axes, shape
+from deodar.numerics.noise import element_keys
+from deodar.worlds._base import World
+
+Tree = Any
+
+
+class PureWorld(World):
+    """A world whose state is a tree of arrays, and whose step is a function of arrays that JAX can trace.
+
+    What the functions see:
+        shared: arrays that are the same for all copies (walls, amplitudes), as `shared` gives them now: they may change while it runs.
+        own: arrays of one copy, as `own` gives them; and under `keys` two words for each name in `noises`, which key its noise.
+        state: what `start` and `advance` return.
+
+    Noise is drawn as that of elements is (`numerics.noise`), keyed by the seed, the trial and the name: it is the same in every batch, in both
+    precisions, and wherever the world is computed.
+    """
+
+    noises: tuple[str, ...] = ()
+    inside = True
+    """Whether batches compute it inside the compiled step; beside it the same run results, more slowly."""
+
+    # -------------------------------------------------------------------------------- what a world writes
+
+    def shared(self) -> dict[str, np.ndarray]:
+        """Arrays that all copies share, as they now are."""
+        return {}
+
+    def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
+        """Arrays of each copy, copies first, for the trial of each."""
+        return {}
+
+    def start(self, shared: Tree, own: Tree) -> Tree:
+        """The state at the start."""
+        raise NotImplementedError
+
+    def read(self, shared: Tree, own: Tree, state: Tree, sensor: str, axes: Axes) -> Any:
+        """What a sensor reads, over axes."""
+        raise NotImplementedError
+
+    def advance(self, shared: Tree, own: Tree, state: Tree, motors: Mapping[str, Any]) -> Tree:
+        """The state one period later, with what every motor was told."""
+        raise NotImplementedError
+
+    # -------------------------------------------------------------------------------- computed on the host
+
+    def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        self._trials = tuple(trials)
+        self._dtype: Any = np.dtype(precision)
+        numbers = np.asarray([number(name) for name in self.noises], np.uint32)
+        words = self.call("keys", jax.vmap(element_keys, in_axes=(None, 0, None)), np.uint32(seed), np.asarray(trials, np.uint32), numbers)
+        self._keys = {name: np.asarray(words)[:, k] for k, name in enumerate(self.noises)}
+        self._state: Tree = self.call("start", jax.vmap(self.start, in_axes=(None, 0)), *self._values())
+
+    def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
+        self.require(sensor)
+        shared, own, state = *self._values(), self._now()
+
+        def read(shared: Tree, own: Tree, state: Tree) -> Any:
+            return jnp.broadcast_to(self.read(shared, own, state, sensor, axes), shape(axes))
+
+        return np.asarray(self.call((sensor, tuple(axes)), jax.vmap(read, in_axes=(None, 0, 0)), shared, own, state))
+
+    def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
+        shared, own, state = *self._values(), self._now()
+        copies = len(self._trials)
+        told = {name: motors.get(name, np.zeros((copies, *(signal.shape or ())))) for name, signal in self.motors.items()}
+        told = {name: np.asarray(value, self._dtype) for name, value in told.items()}
+        self._state = self.call("advance", jax.vmap(self.advance, in_axes=(None, 0, 0, 0)), shared, own, state, told)
+
+    def keep(self) -> Any:
+        return jax.tree.map(np.asarray, self._now())
+
+    def put(self, kept: Any) -> None:
+        if kept is not None:
+            self._state = kept
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What travels to another process: all but what was compiled here."""
+        return {k: v for k, v in self.__dict__.items() if k != "_compiled"}
+
+    def structure(self) -> Hashable:
+        """All that the functions use of the object itself: worlds that agree in it share compiled programs."""
+        return id(self)
+
+    def parts(self) -> tuple[Tree, Tree, Tree]:
+        """What the functions see now: `shared`, `own` and `state`, the last two with copies first."""
+        return *self._values(), self._now()
+
+    def _now(self) -> Tree:
+        if not hasattr(self, "_state"):
+            raise WorldError(f"the world {type(self).__name__} has not begun", fix="Type: world.reset(seed)")
+        return self._state
+
+    def _values(self) -> tuple[Tree, Tree]:
+        own = self.own(self._trials)
+        return jax.tree.map(self._cast, self.shared()), {**jax.tree.map(self._cast, own), "keys": self._keys}
+
+    def _cast(self, values: Any) -> np.ndarray:
+        array = np.asarray(values)
+        return array.astype(self._dtype) if array.dtype.kind == "f" else array
+
+    def call(self, name: Hashable, function: Callable[..., Any], *args: Any) -> Any:
+        """Run a function compiled, in the precision of the model; it is traced once for each precision."""
+        if not hasattr(self, "_compiled"):
+            self._compiled: dict[Hashable, Any] = {}
+        key = (name, self._dtype)
+        if key not in self._compiled:
+            self._compiled[key] = jax.jit(function)
+        with jax.enable_x64(True) if self._dtype == np.float64 else contextlib.nullcontext():
+            return self._compiled[key](*args)
+
+
+def number(name: str) -> int:
+    """The number that keys a noise of a world; elements are numbered by hashes of their paths, so that none has the same."""
+    return int.from_bytes(hashlib.blake2b(f"world: {name}".encode(), digest_size=4).digest(), "big")

@@ -1,0 +1,307 @@
+"""An arena with a vehicle in it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Hashable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.errors import WorldError, did_you_mean
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.noise import normal
+from deodar.parameters import real, show
+from deodar.registry import register
+from deodar.worlds._base import Signal
+from deodar.worlds._contact import move
+from deodar.worlds._epuck import EPUCK
+from deodar.worlds._furniture import Furniture
+from deodar.worlds._infrared import distances, readings
+from deodar.worlds._layout import UNITS, load, make
+from deodar.worlds._places import Places, of, rows_of
+from deodar.worlds._pure import PureWorld, Tree
+from deodar.worlds._room import Room
+from deodar.worlds._vehicle import Vehicle, drive, limited, wrapped
+from deodar.worlds._view import coloured, covers, require_plane
+
+CONTACTS = ("slide", "stick")
+WRAP = 2.0**15
+"""Encoders count from -WRAP to WRAP and begin again, as those of the e-puck (16 bits)."""
+
+
+def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
+    """The sensors of a vehicle in an arena."""
+    out = {
+        "infrared": Signal("infrared sensors, from the right of the front clockwise; large when near", (vehicle.infrared.count,), each=True),
+        "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True),
+        "heading": Signal("where it looks; 0 along x, counter-clockwise", (), "rad", each=True),
+        "pose": Signal("true x, y and heading, for records and figures", (3,), f"{unit}, {unit}, rad", each=True),
+        "encoders": Signal("motor steps that the left and the right wheel counted", (2,), "step", each=True),
+        "touching": Signal("1 while it touches something, else 0", (), each=True),
+        "obstacles": Signal("over two dimensions: the share of a sample's cell that something stands on, or that lies outside", each=True),
+        "above": Signal("the arena from above without the vehicle; the last axis is red, green, blue", each=True),
+    }
+    return out | {"goal": Signal("x and y of the goal", (2,), unit, each=True)} if goal else out
+
+
+@register
+class Arena(PureWorld):
+    """A vehicle with two wheels among walls, boxes and coloured blocks, seen from above.
+
+    Equation:
+        in a period the axle runs on a circle: turn = (right - left) / axle, path = (left + right) / 2, from the steps of both wheels.
+        The body is a disc; it slides along what it touches, or sticks to it, and never gets through it however long the period.
+        infrared_i = T(d_i / reflection) (1 + N(d_i / reflection) xi_i): d_i the distance along one ray, T and N tables of the vehicle
+        place = true place + place_noise xi, new at every `place_every`-th period and held between
+
+    Parameters:
+        layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME in a file of several, or a dictionary.
+        start: x, y and heading (rad), or a row of these for each trial; none: the file's, else the free place nearest the middle.
+        goal: x and y, or a row for each trial; none: the file's.
+        unit: of all lengths that are given or read: m, cm or mm.
+        vehicle: what drives in it; by default an e-puck.
+        period: ms between two exchanges with the model.
+        contact: `slide` along what is touched, or `stick` to it.
+        reflection: how well things reflect infrared: they are read as if they stood at their distance divided by it. 0.6 is a fit: with 1 the
+            published planner stops at the gaps of 10 cm of its large maze, which it passed.
+        place_noise: standard deviation of the place sense, in `unit`.
+        place_every: periods for which a reading of the place is held.
+        infrared_noise: factor on the noise of the infrared sensors; 0 silences it.
+        slip: standard deviation of what a wheel rolls in a period, as a share of it.
+        encoder_noise: standard deviation of what an encoder counts in a period, as a share of it.
+
+    Shapes:
+        `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and `above` are sampled over the model's axes,
+        x the one called x, else the first. The file's plane x,z (y up) is turned so that x here is -z, y here -x, and heading 0 looks along -z.
+
+    Reference:
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4 and its published simulator; Mondada et al. (2009), the e-puck.
+    """
+
+    sensors: Mapping[str, Signal] = signals(EPUCK, "m", True)
+    motors: Mapping[str, Signal] = {
+        "left": Signal("speed of the left wheel", (), "step/s", each=True),
+        "right": Signal("speed of the right wheel", (), "step/s", each=True),
+    }
+    noises = ("infrared", "place", "slip", "encoders")
+
+    def __init__(
+        self,
+        layout: str | Path | Mapping[str, Any] = "blocks",
+        start: Sequence[float] | np.ndarray | None = None,
+        goal: Sequence[float] | np.ndarray | None = None,
+        unit: str = "m",
+        vehicle: Vehicle = EPUCK,
+        period: float = 64.0,
+        contact: str = "slide",
+        reflection: float = 0.6,
+        place_noise: float = 0.0,
+        place_every: int = 1,
+        infrared_noise: float = 1.0,
+        slip: float = 0.0,
+        encoder_noise: float = 0.0,
+    ) -> None:
+        self.layout = load(layout)
+        if unit not in UNITS:
+            raise WorldError(f"unit is {show(unit)}; it is one of {', '.join(UNITS)}")
+        if contact not in CONTACTS:
+            raise WorldError(f"contact is {show(contact)}", fix=did_you_mean(str(contact), CONTACTS))
+        self.unit, self.scale, self.vehicle, self.contact = unit, UNITS[unit], vehicle, contact
+        self.period = _number("period", period, above=0.0)
+        self.reflection = _number("reflection", reflection, above=0.0)
+        if isinstance(place_every, bool) or not isinstance(place_every, (int, np.integer)) or place_every < 1:
+            raise WorldError(f"place_every is {show(place_every)}; it is a whole number of periods, at least 1")
+        self.place_every = int(place_every)
+        given = {"place_noise": place_noise, "infrared_noise": infrared_noise, "slip": slip, "encoder_noise": encoder_noise}
+        self.noise = {name: _number(name, value) for name, value in given.items()}
+        self.source = "" if isinstance(layout, Mapping) else str(layout)
+        self.furniture = Furniture(self.layout, self.period)
+        self.places = Places(self.layout.border, unit, self.scale, self.source)
+        first, where = self.layout.start, self.layout.goal
+        self.goals = rows_of("goal", goal, [self.scale] * 2) if goal is not None else None if where is None else np.asarray([where])
+        wanted = rows_of("start", start, [self.scale, self.scale, 1.0]) if start is not None else None if first is None else np.asarray([first])
+        self.starts = self._settled(wanted)
+        self.sensors = signals(vehicle, unit, self.goals is not None)
+
+    # -------------------------------------------------------------------------------- things, also while it runs
+
+    def place(
+        self,
+        name: str,
+        center: Sequence[float],
+        size: Sequence[float],
+        color: Sequence[float] = (0.72, 0.53, 0.3),
+        windows: Sequence[float] | np.ndarray | None = None,
+    ) -> None:
+        """Put a thing into the arena, or another one in the place of one of that name; it is there from the next period on.
+
+        Args:
+            name: what it is called.
+            center: x and y of its middle.
+            size: along x and y.
+            color: red, green and blue, 0 to 1.
+            windows: (start, stop) in ms of the time of the run between which it stands, or a row for each trial; none: from now on.
+        """
+        self.furniture.place(make(name, center, size, color, self.scale), windows)
+
+    def move(self, name: str, center: Sequence[float]) -> None:
+        """Put a thing elsewhere: x and y of its middle."""
+        self.furniture.move(name, center, self.scale)
+
+    def remove(self, name: str) -> None:
+        """Take a thing away."""
+        self.furniture.remove(name)
+
+    def aim(self, goal: Sequence[float]) -> None:
+        """Put the goal elsewhere, for all copies: x and y. Refused inside a thing, outside the arena, and where the arena had no goal."""
+        if self.goals is None:
+            raise WorldError("the arena has no goal to move", fix="Give it one: Arena(..., goal=(x, y))")
+        goals = rows_of("goal", goal, [self.scale] * 2)
+        problems = self.places.misplaced(goals, "goal", 0.0, self.furniture.standing())
+        if problems:
+            raise WorldError(problems)
+        self.goals = goals
+
+    # -------------------------------------------------------------------------------- arrays
+
+    def shared(self) -> dict[str, np.ndarray]:
+        numbers = {name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()}
+        return {"boxes": self.furniture.boxes(), "colours": self.furniture.colours(), **numbers}
+
+    def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
+        goals = np.zeros((1, 2)) if self.goals is None else self.goals
+        return {"start": of(trials, self.starts, "start"), "goal": of(trials, goals, "goal"), "windows": self.furniture.times(trials)}
+
+    def structure(self) -> Hashable:
+        return (self.vehicle, self.period, self.contact, self.place_every, self.scale, len(self.furniture.things), self.goals is not None)
+
+    # -------------------------------------------------------------------------------- one copy
+
+    def start(self, shared: Tree, own: Tree) -> Tree:
+        zero = jnp.zeros((), shared["boxes"].dtype)
+        state = {"position": own["start"][:2], "heading": wrapped(own["start"][2]), "encoders": jnp.stack([zero, zero]), "touching": zero}
+        tick = jnp.uint32(0)
+        return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
+
+    def advance(self, shared: Tree, own: Tree, state: Tree, motors: Mapping[str, Any]) -> Tree:
+        boxes, tick = shared["boxes"], state["tick"] + jnp.uint32(1)
+        deviates = self._deviates(own, tick, boxes.dtype)
+        assert self.period is not None
+        ordered = limited(self.vehicle, motors["left"], motors["right"]) * (self.period / 1000)
+        rolled = ordered * (1 + shared["slip"] * deviates["slip"][:2])
+        way, turn = drive(self.vehicle, state["heading"], rolled)
+        position, touched = move(state["position"], way, boxes, _there(own, state["tick"]), self.vehicle.radius, self.contact == "stick")
+        counted = state["encoders"] + rolled * (1 + shared["encoder_noise"] * deviates["encoders"][:2])
+        new = {
+            "position": position,
+            "heading": wrapped(state["heading"] + turn),
+            "encoders": counted - 2 * WRAP * jnp.round(counted / (2 * WRAP)),
+            "touching": jnp.asarray(touched, boxes.dtype),
+        }
+        return self._sensed(shared, own, new, tick, deviates, state["place"])
+
+    def _deviates(self, own: Tree, tick: Any, dtype: Any) -> dict[str, Any]:
+        """Standard normal deviates of a period for each noise, as many as the largest needs: one graph for all compiles faster."""
+        keys = jnp.stack([own["keys"][name] for name in self.noises])
+        drawn = jax.vmap(lambda key: normal((max(2, self.vehicle.infrared.count),), key, tick, dtype))(keys)
+        return dict(zip(self.noises, drawn, strict=True))
+
+    def _sensed(self, shared: Tree, own: Tree, body: Tree, tick: Any, deviates: Mapping[str, Any], held: Any) -> Tree:
+        """The state with what the noisy sensors read in it, so that one period has one reading."""
+        boxes = shared["boxes"]
+        seen = distances(self.vehicle.infrared, body["position"], body["heading"], boxes, _there(own, tick), shared["reflection"])
+        place = body["position"] + self.scale * shared["place_noise"] * deviates["place"][:2]
+        fresh = tick % jnp.uint32(self.place_every) == 0
+        factor = shared["infrared_noise"] * deviates["infrared"][: self.vehicle.infrared.count]
+        infrared = readings(self.vehicle.infrared, seen, factor)
+        return {**body, "tick": tick, "infrared": infrared, "place": jnp.where(fresh, place, held)}
+
+    def read(self, shared: Tree, own: Tree, state: Tree, sensor: str, axes: Axes) -> Any:
+        if sensor in ("infrared", "heading", "encoders", "touching"):
+            return state[sensor]
+        if sensor in ("place", "goal"):
+            return (state["place"] if sensor == "place" else own["goal"]) / self.scale
+        if sensor == "pose":
+            return jnp.concatenate([state["position"] / self.scale, state["heading"][None]])
+        require_plane(sensor, axes, sensor == "above")
+        cover = covers(axes[:2], shared["boxes"], self.scale) * _there(own, state["tick"])[:, None, None]
+        return jnp.clip(jnp.sum(cover, axis=0), 0.0, 1.0) if sensor == "obstacles" else coloured(cover, shared["colours"])
+
+    def _settled(self, starts: np.ndarray | None) -> np.ndarray:
+        """The starts; where none was given, one that can be. Refused are starts and goals that cannot."""
+        standing, radius = self.furniture.standing(), self.vehicle.radius
+        room = Room(self.layout, radius, np.asarray([t.box for t in standing]))
+        if starts is None:
+            found = room.near_middle()
+            if found is None:
+                raise WorldError(f"the {self.vehicle.name} fits nowhere: it is {2 * radius / self.scale:g} {self.unit} wide", where=self.source)
+            starts = np.asarray([(*found, 0.0)])
+        problems = self.places.misplaced(starts, "start", radius, standing)
+        if self.goals is not None:
+            problems += self.places.misplaced(self.goals, "goal", 0.0, standing)
+            for k in range(0 if problems else max(len(starts), len(self.goals))):
+                start, goal = starts[k % len(starts)], self.goals[k % len(self.goals)]
+                if not room.joined(start[:2], goal):
+                    problems.append(self.places.fault("goal", self.goals, k, f"is out of reach from {self.places.shown(start)}"))
+        if problems:
+            raise WorldError(problems)
+        return starts
+
+    # -------------------------------------------------------------------------------- records
+
+    def describe(self) -> dict[str, Any]:
+        settings: dict[str, Any] = {"unit": self.unit, "vehicle": self.vehicle.name, "period": self.period, "contact": self.contact}
+        said: dict[str, Any] = {
+            "settings": settings | {"reflection": self.reflection, "place_every": self.place_every, **self.noise},
+            "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
+            "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
+            "layout": self.layout.to_data(),
+            "things": self.furniture.to_data(),
+        }
+        digest = hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+        return {"world": "Arena", "file": self.source, **said, "sha256": digest}
+
+    @classmethod
+    def open(cls, argument: str) -> Arena:
+        return cls(argument)
+
+    @classmethod
+    def again(cls, described: Mapping[str, Any]) -> Arena:
+        settings = dict(described["settings"])
+        if settings.pop("vehicle") != EPUCK.name:
+            raise WorldError("was run with a vehicle of its own, which a record does not keep", where="arena")
+        found = cls(described["layout"], described["start"], described["goal"], **settings)
+        found.furniture.take(described["things"])
+        found.source = str(described.get("file", ""))
+        return found
+
+    @classmethod
+    def example(cls) -> Arena:
+        """An e-puck among coloured blocks."""
+        return cls("blocks", place_noise=0.005, place_every=2, slip=0.01, encoder_noise=0.02)
+
+    @staticmethod
+    def example_axes(sensor: str) -> Axes:
+        plane = (Axis("x", 0.0, 1.2, 13, unit="m"), Axis("y", 0.0, 0.8, 9, unit="m"))
+        counts = {"infrared": 8, "place": 2, "goal": 2, "encoders": 2, "pose": 3}
+        if sensor in counts:
+            return (Axis("of", 0, counts[sensor] - 1, counts[sensor]),)
+        return {"obstacles": plane, "above": (*plane, Axis("channel", 0, 2, 3))}.get(sensor, ())
+
+
+def _there(own: Tree, tick: Any) -> Any:
+    now = tick.astype(jnp.int32)
+    return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
+
+
+def _number(name: str, given: Any, above: float | None = None) -> float:
+    value = real(given)
+    if value is None or not math.isfinite(value) or value < 0 or (above is not None and value <= above):
+        raise WorldError(f"{name} is {show(given)}; it is a finite number, {'above 0' if above is not None else '0 or above'}")
+    return float(value)

@@ -1,0 +1,100 @@
+"""A camera as a world."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import real, show
+from deodar.registry import register
+from deodar.worlds import _capture
+from deodar.worlds._base import Signal, World
+from deodar.worlds._image import PICTURE, frame, sampled
+
+
+@register
+class Camera(World):
+    """What a camera sees now: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+
+    Equation:
+        y(x, y, c, t) = channel c of the mean colour of the pixels in the cell of (x, y), in the newest picture, 0 to 1
+        The camera runs by the clock on the wall: pace the model to it (`session.run_live`). A run in it cannot be repeated; record what the
+        sensor shows, and replay that (`Recording`).
+
+    Parameters:
+        number: of the camera, 0 for the first; or the address of one in the network, as OpenCV takes it.
+        period: ms between two readings; a whole number of steps of the model.
+        patience: seconds without a new picture after which the camera counts as stopped, which is an error.
+
+    Shapes:
+        x runs over columns from the left, y over rows from the top.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1.
+    """
+
+    sensors: Mapping[str, Signal] = {"picture": PICTURE}
+    stands_in = False
+
+    def __init__(self, number: int | str = 0, period: float = 40.0, patience: float = 3.0) -> None:
+        known = isinstance(number, (int, np.integer)) and not isinstance(number, bool) and number >= 0
+        if not known and not (isinstance(number, str) and number):
+            raise WorldError(f"the number of a camera is {show(number)}; it is a whole number, 0 for the first")
+        for name, given in (("period", period), ("patience", patience)):
+            value = real(given)
+            if value is None or not 0 < value < math.inf:
+                raise WorldError(f"{name} is {show(given)}; it is a number above 0")
+        self.number = number if isinstance(number, str) else int(number)
+        self.period, self.patience = float(period), float(patience)
+        self._eye: _capture.Eye | None = None
+
+    def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        self._open()
+
+    def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
+        self.require(sensor)
+        return sampled(self.picture(), axes, sensor)
+
+    def picture(self) -> np.ndarray:
+        """The newest picture (height, width, 3) of bytes."""
+        return self._open().picture()
+
+    def close(self) -> None:
+        """Give the camera back to other programs; a reading opens it again."""
+        if self._eye is not None:
+            self._eye.close()
+            self._eye = None
+
+    def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
+        """Column and row of the picture that a place on the axes stands for."""
+        return frame(self._open().size, axes).to_pixels(axes, x, y)
+
+    def describe(self) -> dict[str, Any]:
+        return {"world": "Camera", "number": self.number, "size": list(self._open().size), "period": self.period}
+
+    @classmethod
+    def open(cls, argument: str) -> Camera:
+        return cls(int(argument) if argument.isdigit() else argument)
+
+    @classmethod
+    def again(cls, described: Mapping[str, Any]) -> Camera:
+        raise WorldError("what a camera saw is gone", fix="Record what the sensor shows, and replay that: --world recording:RECORD")
+
+    def _open(self) -> _capture.Eye:
+        if self._eye is None:
+            self._eye = _capture.Eye(self.number, self.patience)
+        return self._eye
+
+    @classmethod
+    def example(cls) -> Camera:
+        """A film in the place of a camera, of a scene that stands still."""
+        return cls(str(_capture.example(moves=False)), patience=600.0)
+
+    @staticmethod
+    def example_axes(sensor: str) -> Axes:
+        return (Axis("x", 0, 15, 16), Axis("y", 0, 11, 12), Axis("channel", 0, 2, 3))

@@ -1,0 +1,88 @@
+"""A video file as a world."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import real, show
+from deodar.registry import register
+from deodar.worlds import _capture
+from deodar.worlds._base import Signal, World
+from deodar.worlds._image import PICTURE, frame, sampled
+
+
+@register
+class Video(World):
+    """A film that runs with the time of the model: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+
+    Equation:
+        y(x, y, c, t) = channel c of the mean colour of the pixels in the cell of (x, y), in the picture that the film shows at t, 0 to 1
+        After its end the film shows its last picture, or begins again.
+
+    Parameters:
+        file: path of a video file that OpenCV can read.
+        period: ms between two readings; a whole number of steps of the model. The film may have another rate.
+        loop: whether it begins again after its end.
+
+    Shapes:
+        x runs over columns from the left, y over rows from the top.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1 (camera images as input).
+    """
+
+    sensors: Mapping[str, Signal] = {"picture": PICTURE}
+    stands_in = False
+
+    def __init__(self, file: str | Path, period: float = 40.0, loop: bool = False) -> None:
+        value = real(period)
+        if value is None or not 0 < value < math.inf:
+            raise WorldError(f"period is {show(period)}; it is a number of ms above 0")
+        self.period, self.loop, self.name = float(value), bool(loop), str(file)
+        self._film = _capture.Film(Path(file))
+        self.size = self._film.size
+
+    def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        self._film.rewind()
+
+    def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
+        self.require(sensor)
+        return sampled(self.picture(time), axes, sensor)
+
+    def picture(self, time: float) -> np.ndarray:
+        """The picture (height, width, 3) of bytes that the film shows at a time in ms."""
+        return self._film.picture(max(time, 0.0), self.loop)
+
+    def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
+        """Column and row of the picture that a place on the axes stands for."""
+        return frame(self.size, axes).to_pixels(axes, x, y)
+
+    def describe(self) -> dict[str, Any]:
+        said = {"world": "Video", "file": self.name, "size": list(self.size), "period": self.period, "loop": self.loop}
+        with open(self.name, "rb") as file:
+            return {**said, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
+
+    @classmethod
+    def open(cls, argument: str) -> Video:
+        return cls(argument)
+
+    @classmethod
+    def again(cls, described: Mapping[str, Any]) -> Video:
+        return cls(str(described["file"]), described["period"], described["loop"])
+
+    @classmethod
+    def example(cls) -> Video:
+        """A red square that crosses a grey ground in a second; written anew into the folder of temporary files."""
+        return cls(_capture.example(), loop=True)
+
+    @staticmethod
+    def example_axes(sensor: str) -> Axes:
+        return (Axis("x", 0, 15, 16), Axis("y", 0, 11, 12), Axis("channel", 0, 2, 3))

@@ -1,0 +1,63 @@
+"""Paths in an arena, as a figure and as a GIF."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from PIL import Image
+
+from deodar.errors import DeodarError, RecordError
+from deodar.figures import path
+from deodar.worlds.arena import Arena
+from deodar.worlds.picture import Picture
+
+
+@pytest.fixture
+def walked() -> xarray.DataArray:
+    """Two trials, straight lines of half a metre."""
+    times = np.arange(26) * 64.0
+    way = np.stack([0.2 + 0.02 * np.arange(26), np.full(26, 0.3), np.zeros(26)], -1)
+    values = np.stack([way, way + np.array([0, 0.05, 0.1])])
+    of = ("of", [0, 1, 2], {"lower": 0.0})
+    return xarray.DataArray(values, dims=("trial", "time", "of"), coords={"trial": [0, 1], "time": times, "of": of}, name="pose.output")
+
+
+def test_the_figure_shows_arena_and_paths_to_scale(walked: xarray.DataArray) -> None:
+    (axes,) = path.draw(walked, Arena("blocks")).axes
+    assert axes.get_aspect() == 1 and axes.get_xlim() == (0, 1.2) and axes.get_ylim() == (0, 0.8)
+    drawn = [np.asarray(line.get_xydata()) for line in axes.get_lines()]
+    for trial in (0, 1):
+        assert any(len(line) == 26 and np.allclose(line, walked.values[trial, :, :2]) for line in drawn)
+    assert len([p for p in axes.patches if p.get_width() > 0.05 and type(p).__name__ == "Rectangle"]) >= 4  # type: ignore[attr-defined]
+    assert axes.get_xlabel() == "x (m)"
+    (alone,) = path.draw(walked, trial=1).axes
+    assert len([line for line in alone.get_lines() if len(np.asarray(line.get_xydata())) == 26]) == 1
+
+
+def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path) -> None:
+    arena = Arena("blocks", unit="cm")
+    file = path.animate(walked * 100, tmp_path / "walk.gif", arena, width=240, every=5)
+    with Image.open(file) as film:
+        assert film.size == (240, 160) and getattr(film, "n_frames", 1) == 6
+        first = np.asarray(film.convert("RGB"), float)
+        film.seek(5)
+        last = np.asarray(film.convert("RGB"), float)
+    assert np.abs(first - last).max() > 50
+    red = first[round(160 * (1 - 65 / 80)), round(240 * 25 / 120)]
+    assert red[0] > 150 > 80 > red[1]
+    with pytest.raises(DeodarError, match=r"walk\.gif"):
+        path.animate(walked * 100, file, arena)
+
+
+def test_what_is_no_path_is_refused(walked: xarray.DataArray, tmp_path: Path) -> None:
+    with pytest.raises(RecordError, match="is no path"):
+        path.draw(walked.isel(of=0))
+    with pytest.raises(RecordError, match="not into a Picture"):
+        path.draw(walked, Picture.example())
+    with pytest.raises(RecordError, match=r"\.gif"):
+        path.animate(walked, tmp_path / "walk.mp4", Arena("blocks"))
+    with pytest.raises(RecordError, match="1 frames"):
+        path.animate(walked, tmp_path / "walk.gif", Arena("blocks"), every=100)

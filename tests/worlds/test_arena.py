@@ -1,0 +1,310 @@
+"""An arena with a vehicle: it drives, sees, is changed while it runs, and refuses what cannot be."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.weights import Weights
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
+from deodar.elements.sensor import Sensor
+from deodar.errors import UnknownName, WorldError
+from deodar.worlds._layout import load
+from deodar.worlds.arena import Arena
+
+EMPTY: dict[str, Any] = {"arena": {"x": [0, 3], "y": [0, 3]}}
+COMPILED: dict[Any, Any] = {}
+POSE, EIGHT, PAIR = dd.Axis("of", 0, 2, 3), dd.Axis("sensor", 0, 7, 8), dd.Axis("of", 0, 1, 2)
+
+
+def drive(world: Arena, periods: int, left: float = 400.0, right: float = 400.0) -> np.ndarray:
+    """Poses (copies, periods + 1, 3) with constant wheel speeds."""
+    copies = len(world.sense("pose", (POSE,), 0.0))
+    seen = [world.sense("pose", (POSE,), 0.0)]
+    for k in range(periods):
+        world.act({"left": np.full(copies, left), "right": np.full(copies, right)}, 64.0 * k)
+        seen.append(world.sense("pose", (POSE,), 64.0 * (k + 1)))
+    return np.stack(seen, 1)
+
+
+def begun(*args: Any, trials: Any = (0,), seed: int = 0, precision: str = "float32", **options: Any) -> Arena:
+    world = Arena(*args, **options)
+    # worlds of one kind compute the same functions; compiling them once for this module keeps it quick
+    world._compiled = COMPILED.setdefault((world.contact, world.period, world.place_every, world.unit), {})
+    world.reset(seed, trials, precision)
+    return world
+
+
+def avoiding() -> dd.Model:
+    """Wheels that turn where less is seen: what the right sensors see slows the left wheel, and the other way round; in front it turns left."""
+    model = dd.Model("avoiding", dt=64)
+    eyes = model.add(Sensor("eyes", [EIGHT], "infrared"))
+    model.add(Sensor("pose", [POSE], "pose"))
+    model.add(Sensor("touching", [], "touching"))
+    for name, weights in (("left", [-1.5, -1, -0.5, 0, 0, 0, 0, -1.5]), ("right", [0, 0, 0, 0, 0, -0.5, -1, 0])):
+        wheel = model.add(Motor(name, [], name))
+        eyes >> dd.Gain(0.5) >> Weights(np.asarray(weights), axes=()) >> wheel
+        model.add(Boost(f"go {name}", [], 400.0)) >> wheel
+    return model
+
+
+def test_it_drives_as_fast_as_the_robot_and_turns_about_itself() -> None:
+    poses = drive(begun(EMPTY, start=(0.5, 1.5, 0.0), unit="m"), 50)
+    speed = 400 / 1000 * 2 * np.pi * 0.0205
+    np.testing.assert_allclose(poses[0, -1], [0.5 + 50 * 0.064 * speed, 1.5, 0], atol=1e-5)
+    poses = drive(begun(EMPTY, start=(150, 150, 0.0), unit="cm"), 20, -100, 100)
+    turned = 20 * 0.064 * 200 / 1000 * 2 * np.pi * 0.0205 / 0.052
+    np.testing.assert_allclose(poses[0, -1], [150, 150, turned], atol=1e-4)
+
+
+def test_encoders_count_what_the_wheels_roll_and_begin_again_as_16_bits_do() -> None:
+    world = begun(EMPTY, period=10_000.0, contact="stick")
+    counted = []
+    for _ in range(8):
+        world.act({"left": np.array([500.0]), "right": np.array([-5000.0])}, 0.0)
+        counted.append(world.sense("encoders", (PAIR,), 0.0)[0])
+    true = np.stack([5000.0 * np.arange(1, 9), -10_000.0 * np.arange(1, 9)], 1)
+    np.testing.assert_allclose(counted, (true + 2**15) % 2**16 - 2**15)
+
+
+def test_it_never_leaves_the_maze_and_slides_or_sticks_at_its_walls() -> None:
+    for contact, moving in (("slide", True), ("stick", False)):
+        world = begun("z", start=(-0.8, 0.4, 0.4), contact=contact)
+        poses = drive(world, 400, 900, 880)
+        assert world.sense("touching", (), 0.0)[0] in (0, 1)
+        left, low, right, high = load("z").border
+        x, y = poses[0, :, 0], poses[0, :, 1]
+        assert x.min() > left + 0.0369 and x.max() < right - 0.0369 and y.min() > low + 0.0369 and y.max() < high - 0.0369
+        boxes = np.asarray([t.box for t in load("z").things])
+        away = np.hypot(
+            np.maximum(np.maximum(boxes[:, 0] - x[:, None], x[:, None] - boxes[:, 2]), 0),
+            np.maximum(np.maximum(boxes[:, 1] - y[:, None], y[:, None] - boxes[:, 3]), 0),
+        )
+        assert away.min() > 0.0369
+        walked = np.linalg.norm(np.diff(poses[0, :, :2], axis=0), axis=1)
+        assert bool((walked[200:] > 1e-4).mean() > 0.5) == moving
+
+
+def test_a_closed_loop_keeps_clear_of_walls() -> None:
+    data = dd.simulate(avoiding(), 64 * 600, record=["pose.output", "eyes.output", "touching.output"], world=Arena("z"))
+    pose = data["pose.output"].values
+    assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum() > 1.0, "it goes on driving"
+    assert data["eyes.output"].values[300:].max() > 100, "it meets walls"
+    assert data["touching.output"].values.mean() < 0.05
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_a_copy_alone_is_the_copy_in_a_batch(precision: str) -> None:
+    options: dict[str, Any] = dict(place_noise=0.01, slip=0.05, encoder_noise=0.1)
+    many = begun("blocks", trials=[0, 3, 7, 3], seed=5, precision=precision, **options)
+    alone = begun("blocks", trials=[3], seed=5, precision=precision, **options)
+    a, b = drive(many, 40), drive(alone, 40)
+    tolerance = 1e-5 if precision == "float32" else 1e-12
+    np.testing.assert_allclose(a[1], b[0], atol=tolerance)
+    np.testing.assert_allclose(a[3], b[0], atol=tolerance)
+    assert np.abs(a[0] - a[1]).max() > 1e-3, "trials differ in their noise"
+    for sensor, axes in (("infrared", (EIGHT,)), ("place", (PAIR,)), ("encoders", (PAIR,))):
+        np.testing.assert_allclose(many.sense(sensor, axes, 0.0)[1], alone.sense(sensor, axes, 0.0)[0], rtol=1e-4)
+
+
+def test_noise_has_the_size_that_was_given() -> None:
+    world = begun(EMPTY, trials=range(400), unit="cm", start=(150, 150, 0), place_noise=2.0, slip=0.1, encoder_noise=0.2)
+    places = []
+    for _ in range(20):
+        places.append(world.sense("place", (PAIR,), 0.0) - world.sense("pose", (POSE,), 0.0)[:, :2])
+        world.act({}, 0.0)
+    np.testing.assert_allclose(np.std(places), 2.0, rtol=0.03)
+    assert abs(np.mean(places)) < 0.05 and abs(np.corrcoef(np.ravel(places[:-1]), np.ravel(places[1:]))[0, 1]) < 0.03
+    world.act({"left": np.full(400, 100.0), "right": np.full(400, 100.0)}, 0.0)
+    rolled = world.sense("encoders", (PAIR,), 0.0)
+    np.testing.assert_allclose(rolled.std(), 6.4 * np.hypot(0.1, 0.2), rtol=0.1)
+    np.testing.assert_allclose(rolled.mean(), 6.4, rtol=0.02)
+
+
+def test_a_reading_of_the_place_is_held() -> None:
+    world = begun(EMPTY, place_noise=0.1, place_every=3)
+    seen = []
+    for _ in range(9):
+        seen.append(world.sense("place", (PAIR,), 0.0)[0].tolist())
+        world.act({"left": np.array([300.0])}, 0.0)
+    assert all((a == b) == (k % 3 != 2) for k, (a, b) in enumerate(itertools.pairwise(seen)))
+
+
+def test_infrared_noise_can_be_silenced() -> None:
+    near = {**EMPTY, "start": [0.039, 1.5], "heading": np.pi}
+    quiet = [begun(near, infrared_noise=0.0, trials=[k]).sense("infrared", (EIGHT,), 0.0) for k in (0, 1)]
+    np.testing.assert_array_equal(quiet[0], quiet[1])
+    np.testing.assert_allclose(quiet[0][0, 0], quiet[0][0, 7], rtol=1e-3)
+    loud = begun(near).sense("infrared", (EIGHT,), 0.0)
+    assert quiet[0].max() > 1000 and np.abs(loud - quiet[0]).max() > 10
+
+
+def test_obstacles_from_above_are_the_map_of_the_published_maze() -> None:
+    """On cells of 1 cm; a cell counts as wall where something stands on a part of it, and so does all that lies outside."""
+    y, x = dd.Axis("y", 5, 104, 100, unit="cm"), dd.Axis("x", -104, -5, 100, unit="cm")
+    world = begun("z", unit="cm")
+    seen = world.sense("obstacles", (y, x), 0.0)[0]
+    assert seen.shape == (100, 100) and seen.min() == 0 and seen.max() == 1
+    assert (seen[-4:] > 0.99).all() and (seen[:, -4:] > 0.99).all()
+    walls = [t for t in world.layout.things if t.center[1] < 1 and t.center[0] < 0]
+    inside = sum(t.size[0] * t.size[1] for t in walls if t.name in ("Maze_Wall4", "Maze_Wall5", "Maze_Wall2"))
+    free = seen[10:90, 10:90]
+    overlap = 0.0  # of the three walls, which touch at the corners of the Z
+    boxes = [t.box for t in walls if t.name in ("Maze_Wall4", "Maze_Wall5", "Maze_Wall2")]
+    for k, a in enumerate(boxes):
+        for b in boxes[k + 1 :]:
+            overlap += max(0.0, min(a[2], b[2]) - max(a[0], b[0])) * max(0.0, min(a[3], b[3]) - max(a[1], b[1]))
+    np.testing.assert_allclose(free.sum() / 1e4, inside - overlap, rtol=0.03)
+    turned = world.sense("obstacles", (x, y), 0.0)[0]
+    np.testing.assert_array_equal(turned, seen.T)
+
+
+def test_blocks_from_above_have_their_colours() -> None:
+    axes = *Arena.example_axes("obstacles"), dd.Axis("channel", 0, 2, 3)
+    fine = dd.Axis("x", 0, 1.2, 121), dd.Axis("y", 0, 0.8, 81), axes[2]
+    seen = begun("blocks").sense("above", fine, 0.0)[0]
+    np.testing.assert_allclose(seen[25, 65], [0.85, 0.1, 0.1], atol=1e-5)
+    np.testing.assert_allclose(seen[5, 40], [0.96, 0.96, 0.94], atol=1e-5)
+
+
+# ------------------------------------------------------------------------------------------------ changes while it runs
+
+
+def test_things_come_move_and_go_without_a_new_program() -> None:
+    world = begun(EMPTY, start=(1.5, 1.5, 0.0), goal=(2.5, 2.5))
+    drive(world, 1)
+    for sensor, axes in (("obstacles", Arena.example_axes("obstacles")), ("infrared", (EIGHT,)), ("goal", (PAIR,))):
+        world.sense(sensor, axes, 0.0)
+    compiled = {key: function._cache_size() for key, function in world._compiled.items()}
+    world.place("wall", (1.7, 1.5), (0.1, 1.0))
+    assert drive(world, 60)[0, -1, 0] < 1.65 - 0.0369
+    assert world.sense("infrared", (EIGHT,), 0.0)[0, 0] > 500
+    world.move("wall", (2.0, 1.5))
+    assert 1.85 < drive(world, 80)[0, -1, 0] < 1.95 - 0.0369
+    world.remove("wall")
+    assert drive(world, 60)[0, -1, 0] > 2.0
+    world.aim((0.5, 0.5))
+    np.testing.assert_allclose(world.sense("goal", (PAIR,), 0.0), [[0.5, 0.5]])
+    world.sense("obstacles", Arena.example_axes("obstacles"), 0.0)
+    assert {key: world._compiled[key]._cache_size() for key in compiled} == compiled
+
+
+def test_a_thing_with_windows_stands_between_them_for_each_trial_its_own() -> None:
+    world = Arena(EMPTY, start=(1.3, 1.5, 0.0))
+    world.place("gate", (1.5, 1.5), (0.1, 2.9), windows=[(0, 64 * 200), (64 * 100, 64 * 200), (64 * 200, 64 * 300)])
+    world.reset(0, [0, 1, 2])
+    poses = drive(world, 150)
+    assert poses[0, -1, 0] < 1.42 and poses[1, -1, 0] > 1.6 and poses[2, -1, 0] > 1.6
+    poses = drive(world, 60)
+    assert poses[0, -1, 0] > 1.42
+    with pytest.raises(WorldError, match="windows of gate: there are 3 of them, and trial 3 is run"):
+        world.reset(0, [3])
+
+
+def test_a_thing_put_on_the_vehicle_pushes_it_aside() -> None:
+    world = begun(EMPTY, start=(1.5, 1.5, 0.0))
+    world.place("crate", (1.52, 1.5), (0.1, 0.3))
+    pose = drive(world, 1, 0, 0)[0, -1]
+    np.testing.assert_allclose(pose, [1.47 - 0.037, 1.5, 0], atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "says"),
+    [
+        (lambda w: w.place("p", (1, 1), (0, 1)), WorldError, "p: has the size .*no area"),
+        (lambda w: w.place("p", (1, float("nan")), (1, 1)), WorldError, "p.center: .*two finite numbers"),
+        (lambda w: w.place("p", 5, (1, 1)), WorldError, "p.center: is 5"),
+        (lambda w: w.place("p", (1, 1), (1, 1), color=(1, 2, 3)), WorldError, "p.color"),
+        (lambda w: w.place("p", (1, 1), (1, 1), windows=(5, 1)), WorldError, "windows of p: begins after it ends"),
+        (lambda w: w.place("p", (1, 1), (1, 1), windows="ever"), WorldError, "windows of p: is 'ever'"),
+        (lambda w: w.move("crat", (1, 1)), UnknownName, "Did you mean 'crate'"),
+        (lambda w: w.move("crate", (1, None)), WorldError, "crate.center"),
+        (lambda w: w.remove("nothing"), UnknownName, "nothing in the arena is called 'nothing'"),
+        (lambda w: w.aim((0.92, 0.22)), WorldError, r"goal: \(0.92, 0.22\) lies inside 'crate'"),
+        (lambda w: w.aim((5, 0.22)), WorldError, r"goal: \(5, 0.22\) lies outside the arena, 0 to 1.2, 0 to 0.8 m"),
+        (lambda w: w.aim("there"), WorldError, "goal: is 'there'"),
+        (lambda w: [w.place(f"p{k}", (0.1, 0.7), (0.01, 0.01)) for k in range(17)], WorldError, "p16: the arena is full"),
+    ],
+)
+def test_changes_that_cannot_be(change: Any, error: type[Exception], says: str) -> None:
+    world = Arena("blocks")
+    before = world.describe()
+    with pytest.raises(error, match=says):
+        change(world)
+    if "full" not in says:
+        assert world.describe() == before
+
+
+# ------------------------------------------------------------------------------------------------ what cannot be
+
+CLOSED = {**EMPTY, "walls": [{"name": "all across", "center": [1.5, 1.5], "size": [0.05, 4]}]}
+GAP = {**EMPTY, "walls": [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center": [1.5, 2.25], "size": [0.05, 1.6]}]}
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (dict(start=(0.6, 0.5, 0)), r"blocks: start: \(0.6, 0.5\) lies inside 'divide'; the vehicle needs 0.037 m around it"),
+        (dict(start=(0.02, 0.5, 0)), "lies outside the arena"),
+        (dict(start=(0.25, 0.59, 0)), "lies inside 'red'; the vehicle needs"),
+        (dict(goal=(0.6, 0.5)), "goal: .*lies inside 'divide'"),
+        (dict(goal=(-1, 0.5)), "goal: .*lies outside the arena"),
+        (dict(start=[(0.2, 0.3, 0), (9, 9, 0)]), r"start of trial 1: \(9, 9\) lies outside"),
+        (dict(start=(0.2, 0.3)), "start: .*3 finite numbers"),
+        (dict(start=(0.2, 0.3, float("nan"))), "start: .*3 finite numbers"),
+        (dict(goal="there"), "goal: is 'there'"),
+        (dict(layout=CLOSED, start=(0.5, 0.5, 0), goal=(2.5, 0.5)), r"goal: \(2.5, 0.5\) is out of reach from \(0.5, 0.5\)"),
+        (dict(layout=GAP, start=(0.5, 0.5, 0), goal=(2.5, 0.5)), "out of reach"),
+        (dict(layout={"arena": {"x": [0, 0.05], "y": [0, 0.05]}}), "the e-puck fits nowhere: it is 0.074 m wide"),
+        (dict(unit="ft"), "unit is 'ft'; it is one of m, cm, mm"),
+        (dict(contact="slied"), "Did you mean 'slide'"),
+        (dict(period=0), "period is 0; it is a finite number, above 0"),
+        (dict(reflection=0), "reflection is 0"),
+        (dict(place_noise=-1), "place_noise is -1; it is a finite number, 0 or above"),
+        (dict(place_every=0), "place_every is 0"),
+        (dict(slip=float("inf")), "slip is inf"),
+    ],
+)
+def test_arenas_that_cannot_be(options: dict[str, Any], says: str) -> None:
+    with pytest.raises(WorldError, match=says):
+        Arena(**{"layout": "blocks", **options})
+
+
+def test_walls_may_overlap_and_stand_outside_and_a_way_may_lead_round() -> None:
+    over = [{"center": [1.5, 1.5], "size": [0.05, 2.0]}, {"center": [1.5, 1.4], "size": [0.5, 0.05]}, {"center": [9, 9], "size": [1, 1]}]
+    Arena({**EMPTY, "walls": over}, start=(0.5, 0.5, 0), goal=(2.5, 0.5))
+    gap = [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center": [1.5, 2.25], "size": [0.05, 1.5]}]
+    Arena({**EMPTY, "walls": gap}, start=(0.5, 0.5, 0), goal=(2.5, 0.5))
+
+
+def test_a_trial_without_a_start_is_named() -> None:
+    world = Arena("blocks", start=[(0.2, 0.3, 0), (0.3, 0.3, 0)])
+    with pytest.raises(WorldError, match="start: there are 2 of them, and trial 5 is run"):
+        world.reset(0, [5])
+
+
+def test_what_a_record_keeps_makes_it_again() -> None:
+    world = Arena("z", start=(-45, 55, 0.3), unit="cm", reflection=0.8, contact="stick", place_noise=0.5)
+    world.place("obstacle", (-65, 90), (10, 20), windows=(100, 300))
+    world.remove("Maze_Wall3")
+    again = Arena.again(world.describe())
+    assert again.describe() == world.describe()
+    a, b = (begun_as(w) for w in (world, again))
+    np.testing.assert_array_equal(drive(a, 30), drive(b, 30))
+
+
+def begun_as(world: Arena) -> Arena:
+    world.reset(3, [2])
+    return world
+
+
+def test_a_motor_that_is_told_no_number_is_named() -> None:
+    model = dd.Model("broken", dt=64)
+    model.add(Boost("huge", [], 1e38)) >> dd.Gain(1e10) >> model.add(Motor("wheel", [], "left"))
+    with pytest.raises(dd.errors.NotFinite, match="motor 'left' was told"):
+        dd.Session(model, world=Arena("blocks")).step(2)

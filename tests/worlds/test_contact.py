@@ -1,0 +1,120 @@
+"""A disc among boxes: it never gets into a wall or through one, whatever the step; it slides, or sticks."""
+
+from __future__ import annotations
+
+import functools
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from deodar.worlds import _contact
+
+RADIUS = 0.037
+TOLERANCE = 2e-5
+
+
+@functools.cache
+def mover(sticks: bool):
+    def many(positions, steps, boxes, present):
+        def one(p, path):
+            return jax.lax.scan(lambda q, s: (lambda r: (r[0], r))(_contact.move(q, s, boxes, present, RADIUS, sticks)), p, path)[1]
+
+        return jax.vmap(one)(positions, steps)
+
+    return jax.jit(many)
+
+
+def chamber(rng: np.random.Generator, boxes: int = 12) -> np.ndarray:
+    """A closed room of one metre with walls of a few millimetres, thin and thick boxes in it, and a free outside."""
+    t = rng.uniform(0.001, 0.01)
+    walls = [(0, 0, 1, t), (0, 1 - t, 1, 1), (0, 0, t, 1), (1 - t, 0, 1, 1)]
+    for _ in range(boxes):
+        x, y = rng.uniform(0.05, 0.95, 2)
+        w, h = rng.choice([0.002, 0.05, 0.3], 2)
+        walls.append((x - w / 2, y - h / 2, x + w / 2, y + h / 2))
+    return np.asarray(walls, np.float32)
+
+
+def free(rng: np.random.Generator, boxes: np.ndarray, n: int) -> np.ndarray:
+    """Places in the room where the disc stands free."""
+    out: list[np.ndarray] = []
+    while len(out) < n:
+        p = rng.uniform(0, 1, 2).astype(np.float32)
+        away = p - np.clip(p, boxes[:, :2], boxes[:, 2:])
+        if np.sqrt((away**2).sum(1)).min() > RADIUS + 1e-4:
+            out.append(p)
+    return np.asarray(out)
+
+
+def gap(positions: np.ndarray, boxes: np.ndarray) -> np.ndarray:
+    """The smallest gap between the disc and a box, in double precision; a middle inside a box counts as -radius."""
+    p = np.asarray(positions, np.float64)[..., None, :]
+    away = p - np.clip(p, boxes[:, :2].astype(float), boxes[:, 2:].astype(float))
+    return np.sqrt((away**2).sum(-1)).min(-1) - RADIUS
+
+
+@pytest.mark.parametrize("sticks", [False, True])
+@pytest.mark.parametrize("longest", [0.005, 0.2, 30.0])
+def test_no_step_leads_into_a_wall_or_out_of_a_closed_room(longest: float, sticks: bool) -> None:
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        boxes = chamber(rng)
+        start = free(rng, boxes, 50)
+        turn, length = rng.uniform(0, 2 * np.pi, (50, 40)), rng.uniform(0, longest, (50, 40))
+        steps = (length[..., None] * np.stack([np.cos(turn), np.sin(turn)], -1)).astype(np.float32)
+        ends, _ = mover(sticks)(start, steps, boxes, np.ones(len(boxes), bool))
+        ends = np.asarray(ends)
+        assert gap(ends, boxes).min() > -TOLERANCE
+        assert (ends > 0).all() and (ends < 1).all()
+
+
+def test_it_stays_in_its_half_of_the_room_behind_a_wall_thinner_than_the_step() -> None:
+    rng = np.random.default_rng(1)
+    boxes = np.asarray([(0.5, -1, 0.5005, 2)], np.float32)
+    start = np.stack([rng.uniform(0.1, 0.45, 200), rng.uniform(0, 1, 200)], -1).astype(np.float32)
+    steps = np.stack([rng.uniform(0, 3, (200, 20)), rng.uniform(-0.02, 0.02, (200, 20))], -1).astype(np.float32)
+    ends, touched = mover(False)(start, steps, boxes, np.ones(1, bool))
+    assert np.asarray(ends)[..., 0].max() < 0.5 - RADIUS + TOLERANCE and np.asarray(touched).any(axis=1).all()
+
+
+def test_it_slides_along_a_wall_and_sticks_where_it_shall() -> None:
+    wall = np.asarray([(0, -10, 1, 10)], np.float32)
+    start, steps = np.asarray([[-0.5, 0.0]], np.float32), np.asarray([[[1.0, 1.0]]], np.float32)
+    slid, touched = mover(False)(start, steps, wall, np.ones(1, bool))
+    np.testing.assert_allclose(slid[0, 0], [-RADIUS, 1.0], atol=1e-5)
+    assert touched[0, 0]
+    stuck, _ = mover(True)(start, steps, wall, np.ones(1, bool))
+    np.testing.assert_allclose(stuck[0, 0], [-RADIUS, 0.5 - RADIUS], atol=1e-5)
+    away, touched = mover(False)(np.asarray(slid[0]), -steps, wall, np.ones(1, bool))
+    np.testing.assert_allclose(away[0, 0], [-RADIUS - 1, 0], atol=1e-5)
+    assert not touched[0, 0]
+
+
+def test_it_rounds_a_corner_and_stops_in_one() -> None:
+    box = np.asarray([(0, 0, 1, 1)], np.float32)
+    # a grazing path that meets the round corner slides off it
+    end, touched = mover(False)(np.asarray([[-0.5, -0.03]], np.float32), np.asarray([[[1.0, 0.0]]], np.float32), box, np.ones(1, bool))
+    assert touched[0, 0] and end[0, 0, 1] < -0.03 and gap(np.asarray(end), box).min() > -TOLERANCE
+    notch = np.asarray([(0, -1, 1, 1), (-1, 0, 1, 1)], np.float32)
+    end, _ = mover(False)(np.asarray([[-0.3, -0.4]], np.float32), np.asarray([[[5.0, 4.0]]], np.float32), notch, np.ones(2, bool))
+    np.testing.assert_allclose(end[0, 0], [-RADIUS, -RADIUS], atol=1e-5)
+
+
+def test_what_is_not_there_is_not_met_and_what_is_put_on_it_pushes_it_out() -> None:
+    box = np.asarray([(-0.05, -0.5, 0.2, 0.5)], np.float32)
+    start, still = np.zeros((1, 2), np.float32), np.zeros((1, 1, 2), np.float32)
+    end, _ = mover(False)(start, still, box, np.zeros(1, bool))
+    np.testing.assert_array_equal(end[0, 0], [0, 0])
+    end, _ = mover(False)(start, still, box, np.ones(1, bool))
+    np.testing.assert_allclose(end[0, 0], [-0.05 - RADIUS, 0], atol=1e-5)
+
+
+def test_rays_end_at_the_nearest_box_that_is_there() -> None:
+    boxes = jnp.asarray([(1.0, -1, 2, 1), (0.5, -1, 0.6, 1), (-3, -1, -2, 1)])
+    origins, looks = jnp.zeros((3, 2)), jnp.asarray([[1.0, 0], [-1.0, 0], [0.0, 1.0]])
+    np.testing.assert_allclose(_contact.rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6)
+    np.testing.assert_allclose(_contact.rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6)
+    inside = _contact.rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
+    np.testing.assert_array_equal(inside, [0.0])

@@ -1,0 +1,122 @@
+"""Films and cameras: what they show when, and what happens when there is none."""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.elements.sensor import Sensor
+from deodar.errors import MissingExtra, WorldError
+from deodar.worlds import _capture
+from deodar.worlds.camera import Camera
+from deodar.worlds.video import Video
+
+AXES = Video.example_axes("picture")
+FINE = dd.Axis("x", 0, 63, 64), dd.Axis("y", 0, 47, 48), dd.Axis("channel", 0, 2, 3)
+
+
+def middle(shown: np.ndarray) -> float:
+    """Column of the middle of what is red."""
+    red = np.clip(shown[:, :, 0] - shown[:, :, 2] - 0.3, 0, None).sum(axis=1)
+    return float((red * np.arange(len(red))).sum() / red.sum())
+
+
+@pytest.fixture(scope="module")
+def film() -> Path:
+    return _capture.example()
+
+
+def test_the_film_runs_with_the_time_of_the_model(film: Path) -> None:
+    world = Video(film)
+    assert world.size == (64, 48)
+    for moment in (0.0, 39.0, 40.0, 400.0, 120.0, 960.0):  # also back in time
+        assert abs(middle(world.sense("picture", FINE, moment)) - (2 * (moment // 40) + 7.5)) < 1.0
+    model = dd.Model("watching")
+    model.add(Sensor("eye", FINE, "picture"))
+    data = dd.simulate(model, 400, dt=10, record=["eye.output"], every=10, world=Video(film, period=80))
+    seen = [middle(v) for v in data["eye.output"].values]
+    assert all((abs(a - b) < 0.1) == (k % 8 != 7) for k, (a, b) in enumerate(itertools.pairwise(seen)))
+
+
+def test_after_its_end_it_stands_still_or_begins_again(film: Path) -> None:
+    last = Video(film).sense("picture", FINE, 960.0)
+    np.testing.assert_array_equal(Video(film).sense("picture", FINE, 5000.0), last)
+    again = Video(film, loop=True)
+    for moment, place in ((80.0, 80.0), (1080.0, 80.0), (10_400.0, 400.0)):
+        assert abs(middle(again.sense("picture", FINE, moment)) - (2 * (place // 40) + 7.5)) < 1.0
+
+
+def test_a_film_travels_to_another_process(film: Path) -> None:
+    world = pickle.loads(pickle.dumps(Video(film)))
+    np.testing.assert_array_equal(world.sense("picture", AXES, 200.0), Video(film).sense("picture", AXES, 200.0))
+
+
+def test_a_record_names_the_film(film: Path) -> None:
+    said = Video(film).describe()
+    assert Video.again(said).describe() == said and len(said["sha256"]) == 64
+
+
+def test_files_that_are_no_film(tmp_path: Path) -> None:
+    text = tmp_path / "film.mp4"
+    text.write_text("not a film")
+    with pytest.raises(WorldError, match=r"film.mp4: cannot be read as a video"):
+        Video(text)
+    with pytest.raises(WorldError, match="there is no such video"):
+        Video(tmp_path / "none.avi")
+    with pytest.raises(WorldError, match="period is 0"):
+        Video(text, period=0)
+
+
+def test_a_camera_gives_its_newest_picture_and_never_waits(film: Path) -> None:
+    camera = Camera(str(film), patience=60.0)
+    camera.reset(0)
+    time.sleep(0.3)  # a film as a camera is read as fast as it goes: soon its last picture is the newest
+    began = time.monotonic()
+    assert abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) < 1.0
+    assert time.monotonic() - began < 0.5
+    camera.close()
+    assert camera.sense("picture", AXES, 0.0).shape == (16, 12, 3), "a reading opens it again"
+    camera.close()
+
+
+def test_a_camera_that_stops_is_an_error(film: Path) -> None:
+    camera = Camera(str(film), patience=0.2)
+    camera.reset(0)
+    time.sleep(0.6)
+    with pytest.raises(WorldError, match=r"camera .*square.avi: has given no picture for 0\.\d s"):
+        camera.sense("picture", AXES, 0.0)
+    camera.close()
+
+
+def test_a_camera_that_is_not_there_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(WorldError, match="there is no camera, or another program uses it"):
+        Camera(str(tmp_path / "nothing")).reset(0)
+    for number in (-1, 1.5, True, "", None):
+        with pytest.raises(WorldError, match="number of a camera"):
+            Camera(number)  # type: ignore[arg-type]
+    with pytest.raises(WorldError, match="what a camera saw is gone"):
+        Camera.again({})
+
+
+def test_without_opencv_it_is_said_what_to_install(film: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "cv2", None)
+    says = r"needs the package opencv-python-headless.*pip install 'deodar\[vision\]'"
+    with pytest.raises(MissingExtra, match=says):
+        Video(film)
+    with pytest.raises(MissingExtra, match=says):
+        Camera(0).reset(0)
+
+
+def test_worlds_are_opened_from_the_command_line(film: Path) -> None:
+    from deodar.cli._options import world
+
+    found: Any = world(f"video:{film}")
+    assert isinstance(found, Video) and isinstance(world("camera:2"), Camera)
