@@ -26,14 +26,14 @@ MADE = "<!-- Made by docs/reference.py from the code: change the docstrings, not
 HEAD = re.compile(r"^([A-Z][A-Za-z ]*):\s*$")
 
 ROOMS = {
-    "elements": ("Elements", "What stands in a model: fields and nodes, stimuli, sensors, motor variables."),
+    "elements": ("Elements", "What stands in a model: fields and nodes, stimuli, sensors, motors, motor variables."),
     "couplings": ("Couplings", "Elements between elements. They are written `a >> Gain(2) >> b`, or added and connected by name."),
     "numerics.kernels": ("Interaction kernels", "What `kernel=[...]` of a field, or of `Convolve`, holds: any number of them, summed."),
     "numerics.sigmoids": ("Sigmoids", "Output functions g(u) of fields."),
-    "worlds": ("Worlds", "What a model senses. A model names sensors; the world that provides them is chosen when it is run."),
+    "worlds": ("Worlds", "What a model senses and moves. A model names sensors and motors; the world that has them is chosen when it is run."),
 }
 
-SCRIPT = ["Axis", "Model", "Session", "simulate", "save", "load", "quote"]
+SCRIPT = ["Axis", "Model", "Session", "simulate", "save", "load", "quote", "use_cores"]
 MEASURES = {
     "analysis.peaks": ["peaks", "Peaks", "Peak"],
     "analysis.regimes": ["regimes", "Regimes"],
@@ -45,9 +45,15 @@ MEASURES = {
     "analysis.isolated": ["isolate", "Isolated"],
     "analysis.settle": ["settle", "Settled"],
     "analysis.figures": ["regimes_figure", "phase_figure"],
+    "runtime.live": ["run_live"],
+    "runtime.meter": ["Meter"],
+    "runtime.cost": ["Costs", "Cost"],
     "recording.files": ["save", "load"],
+    "importers.opening": ["read"],
+    "importers.presets": ["apply"],
+    "importers.report": ["Report", "Line"],
 }
-FIGURES = ["time_course", "space_time", "snapshot", "snapshots", "projection"]
+FIGURES = ["time_course", "space_time", "snapshot", "snapshots", "projection", "path"]
 
 
 def pages() -> dict[Path, str]:

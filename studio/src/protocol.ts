@@ -20,7 +20,7 @@ export type Announced = {
 };
 
 // The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
-// with discard) or `replace` (send it again with replace). `cost` is what a change cost.
+// with discard) or `replace` (send it again with replace). `cost` is what a change cost, `unmatched` what a preset could not change.
 export type Answer = {
   type: "answer";
   request: number;
@@ -28,6 +28,15 @@ export type Answer = {
   ask?: "" | "replace" | "unsaved";
   cost?: "" | "live" | "rebuild" | "recompile";
   file?: string;
+  unmatched?: string[];
+};
+
+// Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
+// not match.
+export type ApplyPreset = {
+  type: "apply_preset";
+  request?: number;
+  path: string;
 };
 
 // Change parts of the layout: each key given replaces that key of the document's layout, None takes it away.
@@ -465,6 +474,7 @@ export type ToServer =
   | Unlink
   | RemoveKnob
   | Arrange
+  | ApplyPreset
   | Undo
   | Redo
   | Play

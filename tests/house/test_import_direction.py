@@ -29,7 +29,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "analysis",
         "experiments",
         "figures importers architectures",
-        "demos",
+        "demos papers",
         "server",
         "cli",
         "__main__",
@@ -37,7 +37,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
 )
 
 # Only these look modules up by name while they run: the folder is the registry, the root is lazy, a user's function is a name.
-DYNAMIC = {"", "registry", "cli", "elements.function", "figures._panels"}
+DYNAMIC = {"", "registry", "cli", "elements.function", "figures._panels", "importers.opening", "papers"}
 
 
 def _floor(name: str) -> int:

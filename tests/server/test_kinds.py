@@ -95,7 +95,7 @@ def test_the_field() -> None:
 
 
 def test_parameters_stand_in_the_order_in_which_they_are_written_down() -> None:
-    assert [p.name for p in KINDS["GaussianStimulus"].parameters] == ["axes", "center", "sigma", "amplitude", "windows"]
+    assert [p.name for p in KINDS["GaussianStimulus"].parameters] == ["axes", "center", "sigma", "amplitude", "windows", "normalized", "boundary"]
     assert [p.name for p in KINDS["Gaussian"].parameters] == ["amplitude", "sigma", "normalized", "boundary"]
 
 

@@ -20,9 +20,9 @@ from deodar.errors import DeodarError, UnknownName, did_you_mean
 
 
 def commands() -> dict[str, ModuleType]:
-    """Every command by name."""
+    """Every command by name; a module ends in an underscore where the name is a word of Python's own."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
-    return {name: importlib.import_module(f"deodar.cli.{name}") for name in names}
+    return {name.rstrip("_"): importlib.import_module(f"deodar.cli.{name}") for name in names}
 
 
 class _Parser(argparse.ArgumentParser):

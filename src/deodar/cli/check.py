@@ -23,7 +23,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Status 1 if there is any problem."""
     from deodar.errors import DocumentError
-    from deodar.model.model import load
+    from deodar.importers.opening import load
 
     try:
         model = load(args.file)

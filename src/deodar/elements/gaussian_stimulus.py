@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -10,7 +12,9 @@ import jax.numpy as jnp
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
-from deodar.parameters import Live, PerAxis
+from deodar.numerics.axes import Axes
+from deodar.numerics.convolution import boundaries
+from deodar.parameters import Live, PerAxis, Recompile
 from deodar.registry import register
 
 
@@ -20,14 +24,17 @@ class GaussianStimulus(Stimulus):
     """Localised input: what a sensor or another field sends about one value.
 
     Equation:
-        s(x) = amplitude * exp(-sum_i (x_i - center_i)^2 / (2 sigma_i^2)); on a periodic axis the shortest way round.
+        s(x) = amplitude * exp(-sum_i (x_i - center_i)^2 / (2 sigma_i^2)); where it wraps the shortest way round;
+        if normalized, divided by its sum over all samples times the grid steps.
 
     Parameters:
         axes: where it is defined; none: a constant for a node.
         center: place of the maximum in axis units, one or one for each axis.
         sigma: width in axis units, one or one for each axis; > 0.
-        amplitude: value at the centre.
+        amplitude: value at the centre; if normalized, the integral.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        normalized: whether the amplitude is the integral.
+        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis; none: the axis decides.
 
     Ports:
         output: over `axes`.
@@ -38,14 +45,29 @@ class GaussianStimulus(Stimulus):
 
     center: Annotated[PerAxis, Live("axis", meaning="place of the maximum")] = 0.0
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
-    amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
+    amplitude: Annotated[float, Live("activation", meaning="value at the centre, or the integral if normalized")] = 1.0
+    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(default=False, kw_only=True)
+    boundary: Annotated[
+        Sequence[str] | None,
+        Recompile(choices=("periodic", "zero"), meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides"),
+    ] = dc.field(default=None, kw_only=True)
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
+            yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes"
 
     def pattern(self, at: Setting) -> Any:
         y = self.amplitude * jnp.ones((), at.dtype)
         centers, sigmas = per_axis(self.center, self.axes), per_axis(self.sigma, self.axes)
-        for axis, center, sigma in zip(self.axes, centers, sigmas, strict=True):
+        ends = boundaries(self.boundary, tuple(self.axes))
+        for axis, center, sigma, end in zip(self.axes, centers, sigmas, ends, strict=True):
             distance = at.points(axis) - center
-            if axis.periodic:
-                distance = distance - axis.range * jnp.round(distance / axis.range)
-            y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
+            if end == "periodic":
+                length = axis.step * axis.samples
+                distance = distance - length * jnp.round(distance / length)
+            factor = jnp.exp(-0.5 * (distance / sigma) ** 2)
+            if self.normalized:  # a Gaussian between two samples and far narrower than their distance stays zero
+                whole = jnp.sum(factor) * axis.step
+                factor = factor / jnp.where(whole > 0, whole, 1.0)
+            y = y[..., None] * factor
         return y

@@ -40,7 +40,7 @@ class Noise(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    amplitude: Annotated[float, Live("activation", lower=0, meaning="strength")] = 1.0
+    amplitude: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength")] = 1.0
     length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length")] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ()
@@ -53,7 +53,7 @@ class Noise(Element):
         return False
 
     def noise_axes(self) -> Axes | None:
-        return tuple(self.axes)
+        return None if is_neutral(self.amplitude) else tuple(self.axes)
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         lengths = [float(v) for v in per_axis(self.length, self.axes)]
@@ -67,6 +67,8 @@ class Noise(Element):
         return {"noise": noises.correlation(axes, per_axis(self.length, axes), at.dtype)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        if noise is None:
+            return {"output": at.full(tuple(self.axes), 0.0)}
         return {"output": self.amplitude / jnp.sqrt(time.dt) * self._over(noise, constants)}
 
     def _over(self, deviates: Any, constants: Any) -> Any:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.errors import DocumentError, ParameterError
+from deodar.importers import opening, presets
+from deodar.importers.report import Line
 from deodar.model import edit
 from deodar.numerics.axes import Axes
 from deodar.runtime.engine import Hand
@@ -110,6 +112,19 @@ async def _remove_knob(page: Connection, m: to_server.RemoveKnob) -> None:
 
 async def _arrange(page: Connection, m: to_server.Arrange) -> None:
     await page.hub.project.arrange(m.layout, m.undoable)
+
+
+async def _apply_preset(page: Connection, m: to_server.ApplyPreset) -> Answer:
+    preset = await asyncio.to_thread(opening.load, page.hub.workspace.inside(m.path))
+    lines: list[Line] = []
+
+    def change(doc: edit.Document) -> edit.Document:
+        new, found = presets.applied(doc, preset.document)
+        lines.extend(found)
+        return new
+
+    cost = await page.hub.project.change(change)
+    return Answer(request=m.request, cost=cost, unmatched=[str(line) for line in lines if line.verdict == "dropped"])
 
 
 async def _undo(page: Connection, m: to_server.Undo) -> None:
@@ -232,7 +247,8 @@ _DO: dict[type[Any], Callable[[Connection, Any], Awaitable[Any]]] = {
     to_server.OpenFile: _open_file, to_server.OpenExample: _open_example, to_server.OpenText: _open_text, to_server.Recover: _recover,
     to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save, to_server.ListFolder: _list_folder, to_server.Set: _set,
     to_server.Describe: _describe, to_server.AddKnob: _add_knob, to_server.Link: _link, to_server.Unlink: _unlink,
-    to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.Undo: _undo, to_server.Redo: _redo, to_server.Play: _play,
+    to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.ApplyPreset: _apply_preset,
+    to_server.Undo: _undo, to_server.Redo: _redo, to_server.Play: _play,
     to_server.Pause: _pause, to_server.Step: _step, to_server.Reset: _reset, to_server.Speed: _speed,
     to_server.Lengthen: _lengthen, to_server.MeasureCosts: _measure_costs, to_server.Push: _push,
     to_server.Release: _release, to_server.UseWorld: _use_world, to_server.UseWorldContent: _use_world_content, to_server.Watch: _watch,

@@ -275,7 +275,7 @@ class Folder(Message, frozen=True, tag="folder"):
 
 class Answer(Message, frozen=True, tag="answer"):
     """The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
-    with discard) or `replace` (send it again with replace). `cost` is what a change cost.
+    with discard) or `replace` (send it again with replace). `cost` is what a change cost, `unmatched` what a preset could not change.
     """
 
     request: int
@@ -283,6 +283,7 @@ class Answer(Message, frozen=True, tag="answer"):
     ask: Literal["", "unsaved", "replace"] = ""
     cost: Literal["", "live", "rebuild", "recompile"] = ""
     file: str = ""
+    unmatched: list[str] = []
 
 
 ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Costs | Announced | Lost | Folder | Answer

@@ -132,6 +132,14 @@ class Arrange(Request, frozen=True, kw_only=True, tag="arrange"):
     undoable: bool = True
 
 
+class ApplyPreset(Request, frozen=True, kw_only=True, tag="apply_preset"):
+    """Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
+    not match.
+    """
+
+    path: Text
+
+
 class Undo(Request, frozen=True, kw_only=True, tag="undo"):
     """Take the last change back."""
 
@@ -237,6 +245,6 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 ToServer = (
     OpenFile | OpenExample | OpenText | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink | RemoveKnob
-    | Arrange | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
+    | Arrange | ApplyPreset | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
     | Release | UseWorld | UseWorldContent | Watch | Trace | Unwatch | Drawn
 )  # fmt: skip

@@ -1,0 +1,82 @@
+"""`deodar import FILE`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    from deodar.importers.report import Report
+
+HELP = "make a document from a file of another tool (cosivina), with a report of what was carried, approximated or dropped"
+EPILOG = """Known errors of the other tool are corrected, and listed; with --bugs they are reproduced. The report stays in the notes of the document.
+Status 1 with --strict if anything was not carried."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("file", type=Path, metavar="FILE", help="the file of the other tool")
+    parser.add_argument("--out", "-o", type=Path, metavar="OUT", help="the document to write (.json); without it only the report is shown")
+    parser.add_argument("--bugs", action="store_true", help="reproduce known errors of the other tool")
+    parser.add_argument("--strict", action="store_true", help="fail, and write nothing, if anything is not carried as it stands")
+    _options.add_json(parser)
+    _options.add_force(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Status 1 if `--strict` and something was lost, or if the file cannot be read."""
+    from deodar.importers.opening import read
+    from deodar.model import output
+    from deodar.model.model import save
+
+    if args.out is not None:
+        output.claim(args.out, args.force)
+    done = read(args.file, args.bugs)
+    failed = args.strict and not done.report.faithful
+    problems = done.model.check()
+    if args.out is not None and not failed:
+        save(done.model, args.out, args.force)
+    if args.json:
+        found = [{"where": p.where, "what": p.what, "fix": p.fix} for p in problems]
+        written = str(args.out) if args.out is not None and not failed else None
+        print(json.dumps({**done.report.data(), "problems": found, "out": written}, indent=2, ensure_ascii=False))
+        return int(failed)
+    _show(done.report)
+    if problems:
+        print("It does not run as it is:\n" + "\n".join(f"  {p}" for p in problems))
+    if failed:
+        print("Nothing was written: --strict.")
+    elif args.out is not None:
+        print(f"Written: {_options.shown(args.out)}")
+    return int(failed)
+
+
+def _show(report: Report) -> None:
+    from rich import box
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    console = Console()
+    if not console.is_terminal:  # a pipe has no width to keep to
+        console = Console(width=160)
+    console.print(f"{escape(report.file)} ({report.tool}): {report.summary()}.", highlight=False)
+    elements = [line for line in report.lines if line.part == "element"]
+    if elements:
+        table = Table("element", "class", "became", "verdict", box=box.SIMPLE_HEAD)
+        for line in elements:
+            table.add_row(*(escape(text) for text in (line.where, line.what, line.why, line.verdict)))
+        console.print(table)
+    losses = [line for line in report.losses if line.part != "element"]
+    if losses:
+        table = Table("where", "what", "verdict", "why", box=box.SIMPLE_HEAD)
+        for line in losses:
+            table.add_row(*(escape(text) for text in (line.where, f"{line.part} {line.what}", line.verdict, line.why)))
+        console.print(table)
+    for bug in report.bugs:
+        console.print(f"Known error of {report.tool}: {escape(bug)}.", highlight=False)

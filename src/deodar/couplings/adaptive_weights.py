@@ -1,0 +1,81 @@
+"""Weights that learn while they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, Axis, cell, describe
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class AdaptiveWeights(Coupling):
+    """A weight between every place of the source and every place of the target; weights of active places follow what the target does.
+
+    Equation:
+        y(x) = integral W(x', x) input(x') dx';  dW(x', x)/dt = rate gate (post(x) - W(x', x)) pre(x')
+
+    Parameters:
+        axes: axes of the output; none: one number.
+        rate: speed of learning, per unit of the document's time and of the input; >= 0.
+        initial: all weights at the start.
+        gated: whether there is a port `gate`; without it learning never stops.
+        apart: whether there is a port `pre`; without it the weights learn from the input.
+
+    Ports:
+        input: any axes.
+        post: what the weights learn, over `axes`.
+        gate: one number; only where `gated`.
+        pre: what decides which weights learn, over the axes of the input; only where `apart`.
+        output: over `axes`; it follows the input in the same instant, with the weights learned so far.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields, drawn to the target's activity).
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("target", 0, 12, 13),)
+    rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.1
+    initial: Annotated[float, Live(meaning="all weights at the start")] = 0.0
+    gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
+
+    apart: Annotated[bool, Recompile(meaning="whether learning looks at a port of its own")] = False
+
+    inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
+    stateful: ClassVar[bool] = True
+
+    def ports(self) -> tuple[str, ...]:
+        return ("input", "post", *(("gate",) if self.gated else ()), *(("pre",) if self.apart else ()))
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        if self.apart and ins["pre"] != ins["input"]:
+            yield f"its axes are not those that arrive at pre, {describe(ins['pre'])}"
+
+    def init(self, at: Setting) -> Arrays:
+        return {"weights": at.full((*at.ins["input"], *self.axes), self.initial)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        x = inputs["input"]
+        return {"output": cell(at.ins["input"]) * jnp.tensordot(x, state["weights"], axes=x.ndim, precision="highest")}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        x, w = inputs["pre" if self.apart else "input"], state["weights"]
+        speed = self.rate * inputs["gate"] if self.gated else self.rate
+        pre = x.reshape(x.shape + (1,) * len(self.axes))
+        return {"weights": w + time.dt * speed * (inputs["post"] - w) * pre}
+
+    @classmethod
+    def example(cls) -> AdaptiveWeights:
+        return cls(gated=True, apart=True, name="example")

@@ -1,0 +1,62 @@
+"""The sum along diagonals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class DiagonalSum(Coupling):
+    """Adds up two places: reads a transformation field out along its diagonals, so that a peak at (x, y) arrives at x + y.
+
+    Equation:
+        z_k = sum over i + j = k of input(x_i, y_j) times the second grid step; samples are counted from the lower ends
+
+    Parameters:
+        axes: the axis of the sum; as many samples as both axes of the input have together, less one.
+
+    Ports:
+        input: two axes of equal step.
+        output: over `axes`.
+
+    Reference:
+        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic remapping,
+        Biol. Cybern. 106, 89-109 (the projection along the diagonals of the transformation field).
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axis of the sum")] = (Axis("sum", 0, 28, 29),)
+
+    linear: ClassVar[bool] = True
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        given = shape(ins["input"])
+        if len(given) != 2:
+            yield f"needs an input of two axes, not of {len(given)}", "Put a Project before it"
+        elif shape(self.axes) != (sum(given) - 1,):
+            yield (
+                f"its axes have {list(shape(self.axes))} samples; the diagonals of {list(given)} samples are {sum(given) - 1}",
+                "Give one axis of these",
+            )
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        x = inputs["input"]
+        n, m = x.shape
+        # rows of n + m samples, read again as rows of n + m - 1: each lies one further on than the row before
+        skewed = jnp.pad(x, ((0, 0), (0, n))).reshape(-1)[: n * (n + m - 1)].reshape(n, n + m - 1)
+        return {"output": at.ins["input"][1].step * jnp.sum(skewed, axis=0)}

@@ -1,0 +1,57 @@
+"""The lateral interaction of a field, as a coupling."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics import interaction
+from deodar.numerics.axes import Axes, cell
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Interaction(Coupling):
+    """What a field's own kernels and global inhibition do, as a signal of its own: between fields, or from a field back to itself.
+
+    Equation:
+        y(x) = sum_k integral k(x - x') input(x') dx' - c integral input(x') dx'
+
+    Parameters:
+        kernel: one kernel or several, summed.
+        global_inhibition: c, on the integral of the input.
+
+    Ports:
+        input: any axes.
+        output: the same axes.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (its integrals).
+    """
+
+    kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
+    global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the input")] = 0.0
+
+    linear: ClassVar[bool] = True
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+        for i, kernel in enumerate(self.kernel):
+            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
+
+    def prepare(self, at: Setting) -> Any:
+        return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
+
+    def settle(self, at: Setting, constants: Any) -> Any:
+        return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        x, axes = inputs["input"], at.ins["input"]
+        return {"output": interaction.apply(constants["kernel"], axes, x) - self.global_inhibition * cell(axes) * jnp.sum(x)}

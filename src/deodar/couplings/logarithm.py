@@ -1,0 +1,39 @@
+"""The logarithm of a signal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.parameters import Live
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Logarithm(Coupling):
+    """Compresses a signal that ranges over orders of magnitude: what a sensor reads, for a field.
+
+    Equation:
+        y(x) = factor * ln(1 + max(input(x), 0) / scale)
+
+    Parameters:
+        factor: strength.
+        scale: input at which the logarithm begins to compress; > 0.
+
+    Ports:
+        input: any axes.
+        output: the same axes.
+
+    Reference:
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), appendix A and its published simulator (proximity sensors).
+    """
+
+    factor: Annotated[float, Live(meaning="strength")] = 1.0
+    scale: Annotated[float, Live(lower=1e-6, meaning="input at which the logarithm begins to compress")] = 1.0
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": self.factor * jnp.log1p(jnp.maximum(inputs["input"], 0.0) / self.scale)}

@@ -1,0 +1,73 @@
+"""From numbers to a peak."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.leaves import per_axis
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import Live, PerAxis, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class SpaceCode(Coupling):
+    """A peak at the place that numbers name: what a place sense or a compass tells a field.
+
+    Equation:
+        y(x) = amplitude * exp(-sum_i (x_i - c_i)^2 / (2 sigma_i^2)), c_i = gain_i input_i + offset_i; on a periodic axis the
+        shortest way round, for input of any size.
+
+    Parameters:
+        axes: where the peak stands; at least one.
+        sigma: width in axis units, one or one for each axis; > 0.
+        amplitude: value at the centre.
+        gain: axis units per unit of the input, one or one for each axis.
+        offset: place of the peak for an input of 0, in axis units, one or one for each axis.
+
+    Ports:
+        input: one number for one axis; for several an axis with one sample for each of them, in their order.
+        output: over `axes`.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1 (sensors as space code); Billing, Lowe &
+        Sandamirskaya (2015), Adapt. Behav. 23(5), figure 4 (place and head direction).
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = (Axis("x", 0, 20, 21),)
+    sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
+    amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
+    gain: Annotated[PerAxis, Live(meaning="axis units per unit of the input")] = 1.0
+    offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an input of 0")] = 0.0
+
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if not self.axes:
+            yield "axes", "is empty; a peak needs somewhere to stand"
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        arriving, wanted = shape(ins["input"]), len(self.axes)
+        if arriving != (wanted,) and not (wanted == 1 and arriving == ()):
+            takes = "one number" if wanted == 1 else f"one axis with {wanted} samples"
+            yield f"takes {takes}, one for each of its axes; its input has {list(arriving)} samples", "Give it what it takes"
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        axes, values = tuple(self.axes), jnp.reshape(inputs["input"], (len(self.axes),))
+        every = zip(axes, per_axis(self.sigma, axes), per_axis(self.gain, axes), per_axis(self.offset, axes), strict=True)
+        y = self.amplitude * jnp.ones((), at.dtype)
+        for d, (axis, sigma, gain, offset) in enumerate(every):
+            distance = at.points(axis) - (gain * values[d] + offset)
+            if axis.periodic:
+                distance = distance - axis.range * jnp.round(distance / axis.range)
+            y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
+        return {"output": y}

@@ -1,0 +1,54 @@
+"""The limit of a turn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes
+from deodar.parameters import Live
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class TurnLimit(Coupling):
+    """Slows both wheels of a vehicle alike where they would turn it too fast: the circle on which it drives stays the same.
+
+    Equation:
+        to_left = s speed left, to_right = s speed right, with s = min(1, limit / |speed (left - right)|)
+
+    Parameters:
+        speed: speed of a wheel for an input of 1, in the motor's unit.
+        limit: largest difference between the speeds of the wheels, in the motor's unit; > 0.
+
+    Ports:
+        left: what is wanted of the left wheel, one number.
+        right: what is wanted of the right wheel, one number.
+        to_left: speed of the left wheel, one number.
+        to_right: speed of the right wheel, one number.
+
+    Reference:
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), its published simulator.
+    """
+
+    speed: Annotated[float, Live("motor", meaning="speed of a wheel for an input of 1")] = 500.0
+    limit: Annotated[float, Live("motor", lower=1e-6, meaning="largest difference between the speeds of the wheels")] = 400.0
+
+    inputs: ClassVar[tuple[str, ...]] = ("left", "right")
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"to_left": ("left", "right"), "to_right": ("left", "right")}
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return ()
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"to_left": (), "to_right": ()}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        left, right = self.speed * inputs["left"], self.speed * inputs["right"]
+        share = self.limit / jnp.maximum(jnp.abs(left - right), self.limit)
+        return {"to_left": share * left, "to_right": share * right}

@@ -1,0 +1,65 @@
+"""What arrived in the recent past."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class History(Element):
+    """A running history of its input: the newest moment first, the oldest forgotten.
+
+    Equation:
+        at every moment t that is a multiple of `interval`: y(0) = input(t), and y(k) = what y(k - 1) was before
+
+    Parameters:
+        axes: of the input.
+        slots: the axis of the moments that are kept, the newest at its lower end; comes first in the output.
+        interval: time between two moments that are kept, in the document's time unit; > 0. Shorter than a step: every step.
+
+    Ports:
+        input: over `axes`.
+        output: over `slots`, then `axes`; 0 where nothing has arrived yet.
+
+    Reference:
+        no reference
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
+    slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = Axis("slot", 0, 9, 10)
+    interval: Annotated[float, Live("time", lower=1e-6, meaning="time between two moments that are kept")] = 1.0
+
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": (self.slots, *self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        if self.slots.name in [a.name for a in self.axes]:
+            yield f"the slots are called {self.slots.name!r} like an axis of the input", "Give the axis of the slots another name"
+
+    def init(self, at: Setting) -> Arrays:
+        return {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        # a ring whose newest place moves: one row is written in a step, however many there are
+        kept, newest = state["kept"], state["newest"]
+        coming = time.now + time.dt
+        due = jnp.abs(coming - self.interval * jnp.round(coming / self.interval)) < 0.5 * time.dt
+        newest = jnp.where(due, jnp.mod(newest - 1, self.slots.samples), newest)
+        place = newest.astype(int)
+        return {"kept": kept.at[place].set(jnp.where(due, inputs["input"], kept[place])), "newest": newest}

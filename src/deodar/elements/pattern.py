@@ -1,0 +1,52 @@
+"""The stimulus given as an array."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from deodar.element import Setting
+from deodar.elements._stimulus import Stimulus
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Pattern(Stimulus):
+    """Input of any form, one value for each sample: measured, drawn, or computed elsewhere.
+
+    Equation:
+        s(x) = amplitude * values(x)
+
+    Parameters:
+        axes: where it is defined; none: a constant for a node.
+        values: one value for each sample of the axes.
+        amplitude: factor.
+        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+
+    Ports:
+        output: over `axes`.
+
+    Shapes:
+        values: the samples of `axes`, in their order.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = (Axis("x", 0, 20, 21),)
+    values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
+    amplitude: Annotated[float, Live(meaning="factor")] = 1.0
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        given = self.values.shape if isinstance(self.values, FrozenArray) else ()
+        if given != shape(self.axes):
+            yield f"values has shape {list(given)}, its axes have {list(shape(self.axes))} samples", "Give values of that shape"
+
+    def pattern(self, at: Setting) -> Any:
+        return self.amplitude * jnp.broadcast_to(at.array(self.values), shape(self.axes))

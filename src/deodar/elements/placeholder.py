@@ -1,0 +1,49 @@
+"""What stands where an element would stand that deodar does not have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Placeholder(Element):
+    """Keeps the place and the connections of an element of another tool that has no counterpart here. Its output is zero.
+
+    Equation:
+        y(x) = 0
+
+    Parameters:
+        axes: axes of its ports; none: numbers.
+        missing: what should stand here, and what it would do.
+
+    Ports:
+        input: over `axes`; not used.
+        output: 0, over `axes`.
+
+    Reference:
+        no reference
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of its ports")] = ()
+    missing: Annotated[str, Recompile(meaning="what should stand here")] = ""
+
+    # a state that never changes: so it may close a loop, as what it stands for might
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def init(self, at: Setting) -> Arrays:
+        return {"nothing": at.full(tuple(self.axes), 0.0)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": state["nothing"]}

@@ -1,0 +1,79 @@
+"""A neural node that shows its rate of change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.leaves import is_neutral
+from deodar.numerics.axes import Axes
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class RateNode(Element):
+    """A neural node that keeps its rate of change as a state of its own, for phase plots; it takes the step that the rate shown says.
+
+    Equation:
+        du/dt = r + q xi(t), with r = (-u + h + c g(u) + s(t)) / tau as of the moment that u is shown at
+
+    Parameters:
+        tau: time constant, in the document's time unit; > 0.
+        resting_level: h, the attractor without input.
+        sigmoid: g, output as a function of activation.
+        self_excitation: c, strength of the node's coupling to itself; negative inhibits.
+        noise: q, strength of the noise on u itself (not divided by tau). Euler step: q sqrt(dt).
+
+    Ports:
+        input: s, the sum of all connections, one number.
+        output: g(u), one number.
+        activation: u, one number.
+        rate: r, one number.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 3 with self-excitation.
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant")] = 10.0
+    resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
+    sigmoid: Annotated[Sigmoid, Recompile(meaning="output function")] = Logistic()
+    self_excitation: Annotated[float, Live("activation", meaning="coupling of the node to itself")] = 0.0
+    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
+
+    stateful: ClassVar[bool] = True
+    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return ()
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": (), "activation": (), "rate": ()}
+
+    def noise_axes(self) -> Axes | None:
+        return None if is_neutral(self.noise) else ()
+
+    def init(self, at: Setting) -> Arrays:
+        u = at.full((), self.resting_level)
+        return {"activation": u, "rate": self._rate(u, jnp.zeros_like(u))}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        u = state["activation"]
+        return {"output": self.sigmoid(u), "activation": u, "rate": state["rate"]}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        u = state["activation"] + time.dt * state["rate"]
+        if noise is not None:
+            u = u + jnp.sqrt(time.dt) * self.noise * noise
+        return {"activation": u, "rate": self._rate(u, inputs["input"])}
+
+    def _rate(self, u: Any, s: Any) -> Any:
+        return (-u + self.resting_level + self.self_excitation * self.sigmoid(u) + s) / self.tau

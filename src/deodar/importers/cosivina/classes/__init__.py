@@ -1,0 +1,17 @@
+"""How each class of cosivina is translated, by families."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from deodar.importers.cosivina.classes import algebra, fields, kernels, shapes, stimuli, weights
+from deodar.importers.cosivina.piece import Bench, Piece
+
+CLASSES: dict[str, Callable[[Bench], Piece]] = {
+    **fields.CLASSES,
+    **stimuli.CLASSES,
+    **kernels.CLASSES,
+    **algebra.CLASSES,
+    **shapes.CLASSES,
+    **weights.CLASSES,
+}

@@ -1,0 +1,46 @@
+"""Classes without a counterpart: they keep their place and their connections, and say what is missing."""
+
+from __future__ import annotations
+
+from deodar.elements.placeholder import Placeholder
+from deodar.errors import did_you_mean
+from deodar.importers.cosivina.file import Foreign
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes
+from deodar.importers.cosivina.sizes import Dimensions, Dims, TooLarge, output_size
+
+MISSING = {
+    "AttractorDynamics": "turns a peak into the rate of change of a heading direction",
+    "CameraGrabber": "reads a camera",
+    "ColorExtraction": "counts colours in the columns of an image",
+    "Convolution": "convolves its two inputs with each other",
+    "CustomStimulusSequence": "shows one stored pattern after the other",
+    "DynamicRobotController": "drives an e-puck robot",
+    "DynamicVariable": "integrates its input",
+    "HebbianConnection": "learns connections between fields; most of its parameters are not in the file",
+    "History": "stores its input at listed times",
+    "ImageLoader": "reads images from files",
+    "Interpolation1D": "samples its input anew at given points",
+    "LFP": "records the mean input of a field",
+    "MobileRobotArena": "simulates a vehicle among targets",
+    "ScalarToGaussian": "turns a number into a peak",
+}
+"""What classes would do that are not translated."""
+
+
+def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str = "") -> Piece:
+    """A placeholder for an element, with the reason."""
+    what = why or MISSING.get(e.kind, "")
+    if not what:
+        hint = did_you_mean(e.kind, known)
+        what = "no class of cosivina that is known here" + (f". {hint}" if hint.startswith("Did") else "")
+    dims = _dims(e, dimensions)
+    element = Placeholder(e.label, axes(dims), f"{e.kind}: {what}")
+    outlets = {"output": Outlet(e.label, dims, state=True)}
+    return Piece([element], [[Inlet(e.label, dims)]], outlets, sums=True, verdict="dropped", why=f"Placeholder: {what}")
+
+
+def _dims(e: Foreign, dimensions: Dimensions) -> Dims:
+    try:
+        return dimensions.of(output_size(e))
+    except TooLarge:
+        return (None, None)

@@ -1,0 +1,153 @@
+"""Stimuli and noise."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from deodar.couplings.product import Product
+from deodar.couplings.sum import Sum
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.noise import Noise
+from deodar.elements.pattern import Pattern
+from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers.cosivina.sizes import Dims
+from deodar.importers.cosivina.values import ticks
+from deodar.numerics.axes import shape
+from deodar.numerics.windows import FOR_EVER, Window
+
+LETTERS = "YXZ"
+
+
+def gauss_stimulus(b: Bench) -> Piece:
+    """GaussStimulus1D, 2D and 3D, and their timed forms."""
+    b.values.size()
+    dims = b.dims()
+    many = not b.element.kind.endswith("1D")
+    centers, sigmas, ends, factor = list[float](), list[float](), list[str](), 1.0
+    normalized = b.values.flag("normalized", False)
+    for d, axis in enumerate(dims if many else dims[-1:]):
+        letter = LETTERS[d] if many else ""
+        center, sigma = b.values.number(f"position{letter}", 1), b.values.width(f"sigma{letter}")
+        circular = b.values.flag(f"circular{letter}", True)
+        if axis is not None:
+            centers.append(center)
+            sigmas.append(sigma)
+            ends.append("periodic" if circular else "zero")
+        elif not circular and not normalized:  # one sample off the centre
+            factor *= math.exp(-0.5 * ((1 - center) / sigma) ** 2)
+    timed = b.element.kind.startswith("Timed")
+    if timed and normalized and b.bug("'normalized' of a timed stimulus has no effect in cosivina"):
+        normalized = False
+    stimulus = GaussianStimulus(
+        b.label,
+        axes(dims),
+        center=centers or 1.0,
+        sigma=sigmas or 1.0,
+        amplitude=factor * b.values.number("amplitude", 0),
+        normalized=normalized,
+        boundary=boundary(dims, ends),
+        windows=windows(b) if timed else (),
+    )
+    return Piece([stimulus], [], {"output": Outlet(b.label, dims, still=not timed)}, why="GaussianStimulus")
+
+
+def boost(b: Bench) -> Piece:
+    """BoostStimulus."""
+    element = Boost(b.label, (), b.values.number("amplitude", 0))
+    return Piece([element], [], {"output": Outlet(b.label, (None, None), still=True)}, why="Boost")
+
+
+def timed_boost(b: Bench) -> Piece:
+    """TimedBoost; with an amplitude for each period one Boost for each, and their sum."""
+    periods = b.values.periods()
+    given = b.values.matrix("amplitude")
+    amplitudes = [float(v) for v in given.reshape(-1)] if given is not None else [b.values.number("amplitude", 0)]
+    outlet = {"output": Outlet(b.label, (None, None))}
+    if len(amplitudes) == 1:
+        return Piece([Boost(b.label, (), amplitudes[0], windows=_windows(b, ticks(periods, b.simulator.start, b.step)))], [], outlet, why="Boost")
+    parts: list[Element] = [Sum(name=b.label)]
+    earlier: list[tuple[int, int]] = []
+    for amplitude, period in zip(amplitudes, periods, strict=False):  # where periods overlap the first counts
+        own = ticks([period], b.simulator.start, b.step)
+        parts.append(Boost(b.named("period"), (), amplitude, windows=_windows(b, _without(own, earlier))))
+        earlier += own
+    if len(parts) == 1:
+        return Piece([Boost(b.label, (), 0.0)], [], outlet, why="Boost that is never on")
+    return Piece(parts, [], outlet, [(part.name, b.label) for part in parts[1:]], why="Sum of Boosts")
+
+
+def custom_stimulus(b: Bench) -> Piece:
+    """CustomStimulus and TimedCustomStimulus: any pattern."""
+    own = b.values.size()
+    dims = b.dims()
+    given = next((v for name in ("pattern", "stimulusPattern") if (v := b.values.matrix(name)) is not None), None)
+    wanted = shape(axes(dims))
+    if given is not None and "size" not in b.element.values:
+        own = (1, given.size) if given.ndim < 2 else given.shape
+        dims = b.of(own)
+        wanted = shape(axes(dims))
+    if given is None or given.size != math.prod(wanted):
+        raise Unfit(f"its pattern is not of the size {list(own)}")
+    timed = b.element.kind.startswith("Timed")
+    element = Pattern(b.label, axes(dims), np.asarray(given).reshape(wanted), windows=windows(b) if timed else ())
+    return Piece([element], [], {"output": Outlet(b.label, dims, still=not timed)}, why="Pattern")
+
+
+def timed_switch(b: Bench) -> Piece:
+    """TimedSwitch: a product with a factor that is 1 while the switch is on."""
+    b.values.size()
+    dims = b.dims()
+    gate = Boost(b.named("on"), (), 1.0, windows=windows(b))
+    inlets = [[Inlet(b.label, dims, whole=True)]]
+    return Piece([Product(name=b.label), gate], inlets, {"output": Outlet(b.label, dims)}, [(gate.name, b.label, "factor")], needs=1, why="Product")
+
+
+def noise(b: Bench) -> Piece:
+    """NormalNoise: the step of 1 makes its strength the same here."""
+    b.values.size()
+    dims = b.dims()
+    amplitude = b.values.number("amplitude", 0)
+    return Piece([Noise(b.label, axes(dims), abs(amplitude))], [], {"output": Outlet(b.label, dims, noise=True)}, why="Noise")
+
+
+def windows(b: Bench) -> list[Window]:
+    """The windows of closed periods: cosivina counts the time first, so that what belongs to t is used in the step that leads to t."""
+    return _windows(b, ticks(b.values.periods(), b.simulator.start, b.step))
+
+
+def boundary(dims: Dims, ends: list[str]) -> list[str] | None:
+    """Boundaries where they are not those of the axes."""
+    own = ["periodic" if a.periodic else "zero" for a in axes(dims)]
+    return None if ends == own else ends
+
+
+def _windows(b: Bench, spans: list[tuple[int, int]]) -> list[Window]:
+    start, step = b.simulator.start, b.step
+    found = [Window(start + (a - 1) * step, min(start + z * step, FOR_EVER) if z < 1e14 else FOR_EVER) for a, z in spans]
+    return found or [Window(start - 1, start - 1)]  # never
+
+
+def _without(spans: list[tuple[int, int]], taken: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Spans of steps without those of others."""
+    for a, z in taken:
+        spans = [part for s, e in spans for part in ((s, min(e, a - 1)), (max(s, z + 1), e)) if part[0] <= part[1]]
+    return spans
+
+
+CLASSES = {
+    "GaussStimulus1D": gauss_stimulus,
+    "GaussStimulus2D": gauss_stimulus,
+    "GaussStimulus3D": gauss_stimulus,
+    "TimedGaussStimulus1D": gauss_stimulus,
+    "TimedGaussStimulus2D": gauss_stimulus,
+    "BoostStimulus": boost,
+    "TimedBoost": timed_boost,
+    "CustomStimulus": custom_stimulus,
+    "TimedCustomStimulus": custom_stimulus,
+    "TimedSwitch": timed_switch,
+    "NormalNoise": noise,
+}

@@ -1,0 +1,182 @@
+"""Connections, with what the order of the file means.
+
+cosivina computes its elements in the order of the list and in place: an element reads what those before it have made in this step, and what
+those after it made in the step before; all but stimuli, fields and filled borders begin with zero. Here a step leads from t to t + dt, so that
+
+* a state that comes before its reader is read as `current`, one that comes after it (or is the reader itself) as `previous`;
+* a coupling or a timed stimulus that comes before its reader is read as it is, one that comes after it as `delayed`, from zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from deodar.couplings.delay import Delay
+from deodar.couplings.gain import Gain
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.importers.cosivina.file import Foreign, Simulator, Source
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes, projection
+from deodar.importers.cosivina.sizes import Dims
+from deodar.importers.report import Line
+from deodar.numerics.axes import Axis, shape
+
+Wire = tuple[str, str, str, str, str]
+"""Source, its port, target, its port, and what the connection reads."""
+
+
+class Wiring:
+    """The connections of a file, and the elements that only they need."""
+
+    def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], taken: set[str]) -> None:
+        self.elements = simulator.elements
+        self.place = {e.label: e.place for e in simulator.elements}
+        self.pieces = pieces
+        self.taken = taken
+        self.extra: list[Element] = []
+        self.connections: list[Wire] = []
+        self.lines: list[Line] = []
+        self.delays: dict[tuple[str, str], str] = {}
+        self.feeds: dict[str, set[str]] = {}
+        for e in self.elements:
+            for s in e.sources:
+                self.feeds.setdefault(s.label, set()).add(e.label)
+        self.noisy = self._noisy()
+        self.rings = self._rings()
+
+    def connect_all(self) -> None:
+        """Every connection, in the order of the file."""
+        for e in self.elements:
+            piece = self.pieces[e.label]
+            self.connections += [(a, "output", b, rest[0] if rest else "input", "") for a, b, *rest in piece.inner]
+            arriving: dict[Inlet, list[tuple[Outlet, str, str]]] = {}
+            for k, source in enumerate(e.sources):
+                self.connect(e, k, source, arriving)
+            for k in range(piece.needs):
+                for inlet in piece.inlets[k] if k < len(piece.inlets) else ():
+                    arriving.setdefault(inlet, [])
+            for inlet, found in arriving.items():
+                self.join(e, inlet, found)
+
+    def connect(self, e: Foreign, k: int, s: Source, arriving: dict[Inlet, list[tuple[Outlet, str, str]]]) -> None:
+        """One input of the file: which outlet goes to which inlets, as the report has it."""
+        piece, what = self.pieces[e.label], f"{s.label}.{s.component}" if s.component else s.label
+        inlets = piece.inlets[0 if piece.sums else k] if piece.inlets and (piece.sums or k < len(piece.inlets)) else []
+        source = self.pieces.get(s.label)
+        if source is None:
+            self.drop(e, what, "there is no such element")
+            return
+        outlet = source.outlets.get(s.component) if s.component else next(iter(source.outlets.values()), None)
+        if outlet is None:
+            self.drop(e, what, f"{s.label!r} gives no {s.component!r} here; it gives {', '.join(source.outlets)}")
+            return
+        if not inlets:
+            self.lines.append(
+                Line(e.label, "connection", what, "carried", f"without effect, as in cosivina: {e.kind} does not read its input {k + 1}")
+            )
+            return
+        if any(not _compatible(outlet.dims, inlet.dims) for inlet in inlets):
+            sizes = " into ".join(str([1 if a is None else a.samples for a in dims]) for dims in (outlet.dims, inlets[0].dims))
+            self.drop(e, what, f"its size does not fit: {sizes}")
+            return
+        for inlet in inlets:
+            read = source.outlets.get(inlet.component, outlet)
+            arriving.setdefault(inlet, []).append((read, self.reads(read, s.label, e.label), s.label))
+        self.lines.append(Line(e.label, "connection", what, "carried"))
+
+    def reads(self, outlet: Outlet, source: str, target: str) -> str:
+        """What a connection reads, by the places of its ends."""
+        before = self.place[source] < self.place[target]
+        if outlet.state:
+            return "current" if before else "previous"
+        if before or outlet.still or source in self.noisy:
+            return ""
+        return "delayed"
+
+    def join(self, e: Foreign, inlet: Inlet, found: list[tuple[Outlet, str, str]]) -> None:
+        """What arrives at one inlet, each with the axes it needs; nothing at all is a zero."""
+        if not found:
+            name = self.named(f"nothing to {inlet.name}")
+            self.extra.append(Boost(name, axes(inlet.dims), 0.0))
+            self.connections.append((name, "output", inlet.name, inlet.port, ""))
+            self.lines.append(Line(e.label, "connection", "input", "approximated", "nothing is connected to it; zero arrives"))
+            return
+        whole = any(outlet.dims == inlet.dims for outlet, *_ in found)
+        seen: set[tuple[str, str]] = set()
+        for k, (outlet, reads, source) in enumerate(found):
+            name, port = outlet.name, outlet.port
+            if reads == "delayed" and (outlet.initial or self.rings.get(e.label, -1) == self.rings.get(source, -2)):
+                name, port, reads = self.delay(outlet), "output", "previous"
+            renamed = _fits(outlet.dims, inlet.dims) != axes(outlet.dims)
+            if renamed or (k == 0 and inlet.whole and not whole):
+                through = self.named(f"{outlet.name} to {inlet.name}")
+                self.extra.append(projection(through, axes(outlet.dims), inlet.dims, _fits(outlet.dims, inlet.dims)))
+                self.connections.append((name, port, through, "input", reads))
+                name, port, reads = through, "output", ""
+            elif (name, port) in seen:  # counted twice
+                again = self.named(f"{outlet.name} again to {inlet.name}")
+                self.extra.append(Gain(1.0, name=again))
+                self.connections.append((name, port, again, "input", reads))
+                name, port, reads = again, "output", ""
+            seen.add((name, port))
+            self.connections.append((name, port, inlet.name, inlet.port, reads))
+
+    def delay(self, outlet: Outlet) -> str:
+        """A register of its own: where a loop of couplings is closed, whose axes must be stated, and where it does not begin with zero."""
+        key = (outlet.name, outlet.port)
+        if key not in self.delays:
+            self.delays[key] = self.named(f"{outlet.name} before")
+            self.extra.append(Delay(axes(outlet.dims), outlet.initial, name=self.delays[key]))
+            self.connections.append((*key, self.delays[key], "input", ""))
+        return self.delays[key]
+
+    def _rings(self) -> dict[str, int]:
+        """For each element that follows its inputs in the same instant a number, shared by those that lie in one loop of such elements."""
+        followers = [e for e in self.elements if not any(o.state for o in self.pieces[e.label].outlets.values())]
+        number = {e.label: k for k, e in enumerate(followers)}
+        pairs = [(number[s.label], number[e.label]) for e in followers for s in e.sources if s.label in number]
+        rows, columns = zip(*pairs, strict=True) if pairs else ((), ())
+        graph = coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(followers), len(followers)))
+        _, found = connected_components(graph, connection="strong")
+        return {label: int(found[k]) for label, k in number.items()}
+
+    def named(self, base: str) -> str:
+        """A name that nothing has yet."""
+        name, n = base, 1
+        while name in self.taken:
+            n += 1
+            name = f"{base} {n}"
+        self.taken.add(name)
+        return name
+
+    def drop(self, e: Foreign, what: str, why: str) -> None:
+        """A line about a connection that is not made."""
+        self.lines.append(Line(e.label, "connection", what, "dropped", why))
+
+    def _noisy(self) -> set[str]:
+        """Elements made of noise alone, all of whose readers come before them: whether they read the noise of this step or of the last is
+        the same to everybody, and needs no register.
+        """
+        found: set[str] = set()
+        for e in self.elements:
+            noise = any(o.noise for o in self.pieces[e.label].outlets.values())
+            chained = bool(e.sources) and e.kind.startswith("GaussKernel") and all(s.label in found for s in e.sources)
+            if noise or chained:
+                found.add(e.label)
+        return {n for n in found if all(self.place[t] < self.place[n] for t in self.feeds.get(n, ()) if t not in found)}
+
+
+def _compatible(given: Dims, wanted: Dims) -> bool:
+    """Whether one size can be expanded to another, dimension by dimension."""
+    longer = max(len(given), len(wanted))
+    pairs = zip(given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True)
+    return all(a is None or (b is not None and shape((a,)) == shape((b,))) for a, b in pairs)
+
+
+def _fits(given: Dims, wanted: Dims) -> tuple[Axis | None, ...]:
+    """The axes that those of one size have in another."""
+    return tuple(b for a, b in zip(given, wanted, strict=False) if a is not None)

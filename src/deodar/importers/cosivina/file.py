@@ -1,0 +1,238 @@
+"""The file of a cosivina simulator as plain data: labels, classes, parameters and inputs, in the file's order."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import json
+import math
+from collections.abc import Mapping
+from typing import Any, cast
+
+import numpy as np
+
+from deodar.errors import DocumentError
+from deodar.importers.report import Line
+from deodar.parameters import show
+
+DEEPEST = 64
+MOST_ELEMENTS = 4000
+"""More elements are taken for a broken file (a guess: ten times the largest that is published)."""
+
+MOST_INPUTS = 20000
+"""The same for connections."""
+
+WORDS = {"_Inf_": math.inf, "-_Inf_": -math.inf, "_NaN_": math.nan, "Inf": math.inf, "-Inf": -math.inf, "NaN": math.nan}
+
+
+@dc.dataclass(frozen=True)
+class Source:
+    """One input of an element: the label of its source and the source's component; "" where the file names none."""
+
+    label: str
+    component: str = ""
+
+
+@dc.dataclass(frozen=True)
+class Foreign:
+    """One element of the file: its place in the list, its label and class, its parameters as they stand there, and its inputs in order."""
+
+    place: int
+    label: str
+    kind: str
+    values: Mapping[str, Any]
+    sources: tuple[Source, ...]
+
+
+@dc.dataclass(frozen=True)
+class Simulator:
+    """The file: the step, the time at the start, the elements in their order, and what is to be said about reading it."""
+
+    step: float
+    start: float
+    elements: tuple[Foreign, ...]
+    lines: tuple[Line, ...]
+
+
+def parse(content: bytes) -> Simulator:
+    """The simulator that a file holds.
+
+    Raises:
+        DocumentError: where it is no JSON, nested too deeply, or holds no simulator.
+    """
+    data = _json(content)
+    root = cast("dict[str, Any]", data) if isinstance(data, dict) else {}
+    inside = root.get("simulator", root)
+    if not isinstance(inside, dict) or not {"elements", "elementLabels", "nElements"} & set(cast(Any, inside)):
+        raise DocumentError("holds no simulator of cosivina", fix='It is an object {"simulator": {"deltaT": ..., "elements": [...]}}')
+    body = cast("dict[str, Any]", inside)
+    lines: list[Line] = []
+    step, start = _time(body, "deltaT", 1.0, lines), _time(body, "tZero", 0.0, lines)
+    found = _entries(body.get("elements"))
+    if len(found) > MOST_ELEMENTS:
+        raise DocumentError(f"holds {len(found)} elements; at most {MOST_ELEMENTS} are read")
+    elements = tuple(e for place, entry in enumerate(found) if (e := _element(place, entry, lines)) is not None)
+    if sum(len(e.sources) for e in elements) > MOST_INPUTS:
+        raise DocumentError(f"holds more than {MOST_INPUTS} connections")
+    return Simulator(step, start, _unique(elements, lines), tuple(lines))
+
+
+def array(value: Any) -> np.ndarray | None:
+    """The numbers that a value holds, in any of the ways of writing them; None where it holds something else, or lists of unequal length."""
+    try:
+        found = np.array(_plain(value), dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return found if found.ndim <= 4 else None
+
+
+def empty(value: Any) -> bool:
+    """Whether a value is one of the ways of writing nothing."""
+    if value is None or value == [] or value == {} or value == "":
+        return True
+    found = array(value) if isinstance(value, (dict, list)) else None
+    return found is not None and found.size == 0
+
+
+# ------------------------------------------------------------------------------------------------ parts of the file
+
+
+def _json(content: bytes) -> Any:
+    try:
+        try:
+            data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False)
+        except UnicodeDecodeError:
+            data = json.loads(content.decode("latin-1"), strict=False)  # older MATLAB wrote the system's own characters
+    except json.JSONDecodeError as error:
+        raise DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
+    except RecursionError:
+        raise DocumentError(f"is nested deeper than {DEEPEST} levels") from None
+    except ValueError:
+        raise DocumentError("holds a number of thousands of digits") from None
+    level: list[Any] = [data]
+    for _ in range(DEEPEST):
+        level = [v for item in level for v in _inside(item) if isinstance(v, (dict, list))]
+        if not level:
+            return data
+    raise DocumentError(f"is nested deeper than {DEEPEST} levels")
+
+
+def _inside(item: Any) -> list[Any]:
+    return list(item.values()) if isinstance(item, dict) else item if isinstance(item, list) else []
+
+
+def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> float:
+    if key not in body:
+        return default
+    numbers = array(body[key])
+    found = float(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 else math.nan
+    if not math.isfinite(found) or abs(found) > 1e12 or (key == "deltaT" and not found > 0):
+        lines.append(Line("", "file", key, "approximated", f"it is {show(body[key])}; {default:g} is taken"))
+        return default
+    lines.append(Line("", "file", key, "carried"))
+    return found
+
+
+def _entries(value: Any) -> list[Any]:
+    """The elements as one list: an object alone, lists inside lists."""
+    if isinstance(value, dict) and "class" in value:
+        return [cast(Any, value)]
+    if not isinstance(value, list):
+        return []
+    out: list[Any] = []
+    for item in cast("list[Any]", value):
+        out += _entries(cast(Any, item)) if isinstance(item, list) else [item]
+    return out
+
+
+def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
+    if not isinstance(entry, dict):
+        lines.append(Line(f"entry {place + 1}", "element", show(entry), "dropped", "it is no element"))
+        return None
+    body = cast("dict[str, Any]", entry)
+    label, kind = _text(body.get("label")) or f"element {place + 1}", _text(body.get("class")) or "unknown"
+    if _text(body.get("label")) != body.get("label"):
+        lines.append(Line(label, "element", show(body.get("label")), "approximated", f"this is no label; it is called {label!r}"))
+    param = body.get("param")
+    param = param[0] if isinstance(param, list) and len(cast(Any, param)) == 1 else param
+    values = {_text(k): v for k, v in cast("dict[str, Any]", param).items()} if isinstance(param, dict) and not empty(param) else {}
+    if not isinstance(param, dict) and not empty(param):
+        lines.append(Line(label, "parameter", "param", "dropped", f"it is {show(param)}, not a set of parameters"))
+    return Foreign(place, label, kind, values, tuple(_sources(label, body.get("input"), lines)))
+
+
+def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
+    """The inputs in any of the shapes in which they are written."""
+    if empty(value):
+        return []
+    if isinstance(value, list):
+        return [s for item in cast("list[Any]", value) for s in _sources(label, item, lines)]
+    if isinstance(value, str):
+        return [Source(_text(value))]
+    if isinstance(value, dict):
+        body = cast("dict[str, Any]", value)
+        source, component = body.get("label"), body.get("component")
+        if isinstance(source, list):  # a list of structures may be stored as a structure of lists
+            several = cast("list[Any]", source)
+            parts = cast("list[Any]", component) if isinstance(component, list) else [component] * len(several)
+            return [Source(_text(s), _text(c)) for s, c in zip(several, parts, strict=False) if not empty(s)]
+        if empty(source):
+            return []
+        if _text(source):
+            return [Source(_text(source), _text(component))]
+    lines.append(Line(label, "connection", show(value), "dropped", "it names no source"))
+    return []
+
+
+def _unique(elements: tuple[Foreign, ...], lines: list[Line]) -> tuple[Foreign, ...]:
+    """Every label once: what cosivina refuses gets a number."""
+    taken, out = {e.label for e in elements}, list[Foreign]()
+    seen: set[str] = set()
+    numbers: dict[str, int] = {}
+    for e in elements:
+        if e.label in seen:
+            label = e.label
+            while label in taken:
+                numbers[e.label] = numbers.get(e.label, 1) + 1
+                label = f"{e.label} ({numbers[e.label]})"
+            taken.add(label)
+            lines.append(Line(label, "element", e.kind, "approximated", f"a second element labelled {e.label!r}; connections lead to the first"))
+            e = dc.replace(e, label=label)
+        seen.add(e.label)
+        out.append(e)
+    return tuple(out)
+
+
+def _text(value: Any) -> str:
+    """A label as text that can be written: halves of characters and control characters are replaced."""
+    if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+        return ""
+    text = str(value)[:500].encode("utf-8", "replace").decode()
+    return "".join(c if c.isprintable() else " " for c in text).strip()
+
+
+# ------------------------------------------------------------------------------------------------ values
+
+
+def _plain(value: Any) -> Any:
+    """A value without what JSON cannot say and JSONLab writes as text or as an object."""
+    if isinstance(value, bool):
+        return float(value)
+    if isinstance(value, str):
+        if value not in WORDS:
+            raise ValueError(value)
+        return WORDS[value]
+    if value is None:
+        return []
+    if isinstance(value, list):
+        items = [_plain(v) for v in cast("list[Any]", value)]
+        return items[0] if len(items) == 1 and not isinstance(items[0], list) else items
+    if isinstance(value, dict):
+        body = cast("dict[str, Any]", value)
+        if "_ArrayData_" not in body or body.get("_ArrayIsComplex_") or body.get("_ArrayIsSparse_"):
+            raise ValueError("no array")
+        data = np.array(_plain(body["_ArrayData_"]), dtype=np.float64)
+        size = [int(n) for n in np.atleast_1d(np.array(_plain(body.get("_ArraySize_", list(data.shape))), dtype=np.float64))]
+        if math.prod(size) != data.size or any(n < 0 for n in size):
+            raise ValueError("an array of another size than it says")
+        return data.reshape(size, order="C" if data.ndim == len(size) and data.ndim > 1 else "F").tolist()
+    return float(value)

@@ -1,0 +1,128 @@
+"""The parameters of one element, read with their defaults; each reading leaves a line in the report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.importers.cosivina.file import Foreign, array
+from deodar.importers.report import Line, Verdict
+from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.parameters import show
+
+LARGEST = 1e30
+"""Larger numbers overflow in single precision once they are squared or multiplied."""
+
+
+class Values:
+    """What an element's parameters say."""
+
+    def __init__(self, element: Foreign) -> None:
+        self.element = element
+        self.lines: dict[str, Line] = {}
+
+    def number(self, name: str, default: float, lower: float = -LARGEST, upper: float = LARGEST) -> float:
+        """One number; what is none, or lies out of bounds, is replaced and reported."""
+        if name not in self.element.values:
+            return default
+        found = array(self.element.values[name])
+        if found is None or found.size != 1 or not np.isfinite(found).all():
+            return self._instead(name, default)
+        value = float(found.reshape(-1)[0])
+        inside = min(max(value, lower), upper)
+        if inside != value:
+            self.say(name, "approximated", f"{value:g} lies beyond what is possible; {inside:g} is taken")
+        else:
+            self.say(name)
+        return inside
+
+    def width(self, name: str, default: float = 1.0) -> float:
+        """The width of a Gaussian in samples; 0 means a single sample, which a width far below the step is."""
+        return max(self.number(name, default, 0.0), NARROWEST)
+
+    def flag(self, name: str, default: bool) -> bool:
+        """A switch, written as 0 or 1."""
+        return self.number(name, float(default)) != 0
+
+    def numbers(self, name: str, default: Sequence[float], count: int) -> list[float]:
+        """So many numbers; a single one stands for all."""
+        if name not in self.element.values:
+            return list(default)
+        found = array(self.element.values[name])
+        if found is None or found.size not in (1, count) or not np.isfinite(found).all() or np.abs(found).max() > LARGEST:
+            self._instead(name, list(default))
+            return list(default)
+        self.say(name)
+        return [float(v) for v in np.broadcast_to(found.reshape(-1), (count,))]
+
+    def size(self, name: str = "size", default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
+        """A size: whole numbers, at least two of them; one number is a row."""
+        if name in self.element.values:
+            self.say(name)
+        return size(self.element.values.get(name), default)
+
+    def matrix(self, name: str) -> np.ndarray | None:
+        """An array of finite numbers; None where there is none."""
+        found = array(self.element.values.get(name))
+        if found is None or found.size == 0 or not np.isfinite(found).all() or np.abs(found).max() > LARGEST:
+            return None
+        self.say(name)
+        return found
+
+    def periods(self, name: str = "onTimes") -> list[tuple[float, float]]:
+        """Pairs of first and last moment; they may be infinite."""
+        if name not in self.element.values:
+            return []
+        found = array(self.element.values[name])
+        if found is not None and found.size == 0:
+            self.say(name)
+            return []
+        if found is None or found.size % 2 or np.isnan(found).any():
+            self._instead(name, "no moment")
+            return []
+        self.say(name, why="moved by one step, since cosivina counts the time before it computes")
+        return [(float(a), float(b)) for a, b in found.reshape(-1, 2)]
+
+    def say(self, name: str, verdict: Verdict = "carried", why: str = "") -> None:
+        """What became of a parameter."""
+        self.lines[name] = Line(self.element.label, "parameter", name, verdict, why)
+
+    def rest(self) -> list[Line]:
+        """All lines; what nobody read was dropped."""
+        for name in self.element.values:
+            if name not in self.lines:
+                self.say(name, "dropped", f"{self.element.kind} has no such parameter, or it has no effect here")
+        return list(self.lines.values())
+
+    def _instead(self, name: str, default: Any) -> Any:
+        self.say(name, "approximated", f"it is {show(self.element.values[name])}; {show(default)} is taken")
+        return default
+
+
+def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
+    """A size as cosivina means it: at least two whole numbers, one number is a row, ones at the end do not count."""
+    found = array(value)
+    if found is None or found.size == 0 or found.size > 4 or not np.isfinite(found).all():
+        return tuple(default)
+    numbers = [max(1, min(int(n), 10**9)) for n in found.reshape(-1)]
+    numbers = [1, *numbers] if len(numbers) == 1 else numbers
+    while len(numbers) > 2 and numbers[-1] == 1:
+        numbers.pop()
+    return tuple(numbers)
+
+
+def ticks(periods: Sequence[tuple[float, float]], start: float, step: float) -> list[tuple[int, int]]:
+    """The steps in which moments lie that belong to closed periods: first and last, counted from 1; periods without a step are left out.
+
+    A step belongs to a period if its moment does, to a millionth of a step.
+    """
+    out: list[tuple[int, int]] = []
+    for first, last in periods:
+        a, b = (max(min((t - start) / step, 1e15), -1e15) for t in (first, last))
+        low, high = max(math.ceil(a - 1e-6), 0), math.floor(b + 1e-6)
+        if low <= high and high >= 1:
+            out.append((low, high))
+    return out

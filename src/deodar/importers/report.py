@@ -1,0 +1,88 @@
+"""What became of a file of another tool: a verdict for each element, parameter and connection."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any, Literal
+
+Verdict = Literal["carried", "approximated", "dropped"]
+VERDICTS: tuple[Verdict, ...] = ("carried", "approximated", "dropped")
+
+
+@dc.dataclass(frozen=True)
+class Line:
+    """One thing of the file and what became of it.
+
+    Attributes:
+        where: label of the element in the file; "" for the file itself.
+        part: `element`, `parameter`, `connection` or `file`.
+        what: the class, the parameter's name, or the source.
+        verdict: `carried` (the model does what the file says), `approximated`, or `dropped`.
+        why: how it was approximated or why it was dropped; for what was carried, into what.
+    """
+
+    where: str
+    part: str
+    what: str
+    verdict: Verdict
+    why: str = ""
+
+    def __str__(self) -> str:
+        place = f"{self.where}: " if self.where else ""
+        return f"{place}{self.part} {self.what}: {self.verdict}{f', {self.why}' if self.why else ''}"
+
+
+@dc.dataclass(frozen=True)
+class Report:
+    """The lines of one file, and the known errors of the other tool that were met in it.
+
+    Attributes:
+        tool: name of the tool.
+        file: name of the file, without its folder.
+        lines: one for each element, parameter and connection.
+        bugs: known errors of the tool that this file touches, and whether they were corrected or reproduced.
+    """
+
+    tool: str
+    file: str
+    lines: Sequence[Line]
+    bugs: Sequence[str] = ()
+
+    def count(self, verdict: Verdict) -> int:
+        """How many lines have a verdict."""
+        return sum(line.verdict == verdict for line in self.lines)
+
+    @property
+    def faithful(self) -> bool:
+        """Whether everything was carried."""
+        return self.count("carried") == len(self.lines)
+
+    @property
+    def losses(self) -> list[Line]:
+        """The lines that are not carried."""
+        return [line for line in self.lines if line.verdict != "carried"]
+
+    def summary(self) -> str:
+        """One sentence."""
+        parts = Counter(line.part for line in self.lines if line.part in ("element", "parameter", "connection"))
+        counted = ", ".join(f"{n} {part}{'s' if n != 1 else ''}" for part, n in parts.items()) or "nothing"
+        return f"{counted}; " + ", ".join(f"{self.count(v)} {v}" for v in VERDICTS)
+
+    def text(self) -> str:
+        """The report as a document's notes keep it: what was not carried, then what each element became."""
+        out = [f"Imported from {self.file} ({self.tool}): {self.summary()}."]
+        if self.losses:
+            out += ["", "Not carried as it stands:", *(f"- {line}" for line in self.losses)]
+        if self.bugs:
+            out += ["", f"Known errors of {self.tool} met:", *(f"- {bug}" for bug in self.bugs)]
+        elements = [line for line in self.lines if line.part == "element"]
+        if elements:
+            out += ["", "Elements:", *(f"- {line.where}: {line.what}, {line.verdict}{f' ({line.why})' if line.why else ''}" for line in elements)]
+        return "\n".join(out)
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        counts = {v: self.count(v) for v in VERDICTS}
+        return {"tool": self.tool, "file": self.file, "counts": counts, "bugs": list(self.bugs), "lines": [dc.asdict(line) for line in self.lines]}

@@ -1,0 +1,73 @@
+"""The Gaussian kernel that ends at a number of widths."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.leaves import is_neutral
+from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.parameters import Live, PerAxis, Rebuild, Recompile
+from deodar.registry import register
+
+ROUNDING = 1e-5
+"""Share of a step by which single precision may miss a whole number of steps."""
+
+
+@register
+@dataclass(frozen=True)
+class TruncatedGaussian(Kernel):
+    """A Gaussian kernel of finite reach, normalised over the samples that it reaches: the kernel of many published simulations.
+
+    Equation:
+        k(d) = amplitude * prod_i exp(-d_i^2 / (2 sigma_i^2)) where every |d_i| <= reach_i, else 0, with
+        reach_i = max(cutoff sigma_i, least_i), rounded up to whole steps and no longer than the axis; if normalized, each factor
+        is divided by its sum over these samples times the step. On a ring d_i is the shorter way round.
+
+    Parameters:
+        amplitude: weight at the centre, per unit of the axes; if normalized, the sum over all samples reached times the steps.
+            On a node the self-excitation.
+        sigma: width in axis units, one or one for each axis; > 0. Far below the step the kernel acts on its own cell alone.
+        cutoff: reach as a multiple of the width; >= 0.
+        least: reach at the least, in axis units, one or one for each axis: for a narrow Gaussian that ends where a wider one does.
+        normalized: whether the amplitude is the kernel's integral.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+
+    Shapes:
+        One number for each distance; any number of axes.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2, sampled and cut off.
+    """
+
+    amplitude: Annotated[float, Live("activation", neutral=0.0, meaning="weight at the centre, or the integral if normalized")] = 1.0
+    sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width")] = 5.0
+    cutoff: Annotated[float, Rebuild(lower=0, meaning="reach as a multiple of the width")] = 5.0
+    least: Annotated[PerAxis, Rebuild("axis", lower=0, meaning="reach at the least")] = 0.0
+    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+
+    def terms(self) -> Sequence[Term]:
+        return () if is_neutral(self.amplitude) else (Term(self.amplitude, self._along),)
+
+    def _along(self, d: int, lag: Any, period: float | None, step: float) -> Any:
+        sigma: Any = self.sigma[d] if isinstance(self.sigma, tuple) else self.sigma
+        least: Any = self.least[d] if isinstance(self.least, tuple) else self.least
+        slack = ROUNDING if lag.dtype == jnp.float32 else 0.0
+        reach = jnp.ceil(jnp.maximum(self.cutoff * sigma, least) / step - slack) + 0.5
+
+        def weight(distance: Any) -> Any:
+            return jnp.where(distance / step <= reach, jnp.exp(-0.5 * (distance / sigma) ** 2), 0.0)
+
+        distance = jnp.abs(lag if period is None else lag - period * jnp.round(lag / period))
+        if not self.normalized:
+            return weight(distance)
+        # the distances that occur: once round the ring, or as far as the axis is long on either side
+        count = lag.shape[0] if period is None else round(period / step)
+        lags = np.arange(count)
+        lags = np.minimum(lags, count - lags) if period is not None else np.concatenate([lags[:0:-1], lags])
+        return weight(distance) / (jnp.sum(weight(jnp.asarray(lags * step, lag.dtype))) * step)

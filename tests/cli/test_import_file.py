@@ -1,0 +1,63 @@
+"""`deodar import FILE`."""
+
+from __future__ import annotations
+
+import json
+
+import deodar as dd
+from deodar.cli import main
+from tests.importers.cosivina.files import SAMPLES, element, written
+
+SAMPLE = next(p for p in SAMPLES if "OneLayer" in p.stem)
+FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
+
+
+def test_a_document_is_written_and_the_report_shown(tmp_path, capsys):
+    out = tmp_path / "model.json"
+    assert main(["import", str(SAMPLE), "-o", str(out)]) == 0
+    shown = capsys.readouterr().out
+    assert "field u" in shown and "LateralInteractions1D" in shown and "0 dropped" in shown and "Written:" in shown
+    assert dd.load(out).document == dd.load(SAMPLE).document
+    assert main(["import", str(SAMPLE), "-o", str(out)]) == 1
+    assert "exists already" in capsys.readouterr().err
+    assert main(["import", str(SAMPLE), "-o", str(out), "--force"]) == 0
+
+
+def test_without_out_nothing_is_written(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["import", str(SAMPLE)]) == 0
+    assert "field u" in capsys.readouterr().out and not list(tmp_path.iterdir())
+
+
+def test_json_holds_every_line(capsys):
+    assert main(["import", str(SAMPLE), "--json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert data["tool"] == "cosivina" and data["counts"]["dropped"] == 0 and not data["problems"]
+    assert {"where", "part", "what", "verdict", "why"} == set(data["lines"][0])
+    assert sum(data["counts"].values()) == len(data["lines"])
+
+
+def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):
+    out = tmp_path / "model.json"
+    lossy = written(tmp_path, [element("c", "CameraGrabber", {"deviceNumber": 1, "size": [3, 4]}), element("u", "NeuralField", FIELD)])
+    assert main(["import", str(lossy), "-o", str(out), "--strict"]) == 1 and not out.exists()
+    assert "reads a camera" in capsys.readouterr().out
+    assert main(["import", str(lossy), "-o", str(out)]) == 0 and out.exists()
+    assert main(["import", str(SAMPLE), "--strict"]) == 0
+    capsys.readouterr()
+
+
+def test_bugs_are_reproduced_where_asked(tmp_path, capsys):
+    param = {"size": [1, 9], "sigma": 1, "amplitude": 3, "position": 4, "circular": 1, "normalized": 1, "onTimes": [[0, 9]]}
+    path = written(tmp_path, [element("s", "TimedGaussStimulus1D", param)])
+    assert main(["import", str(path)]) == 0 and "corrected" in capsys.readouterr().out
+    assert main(["import", str(path), "--bugs"]) == 0 and "reproduced" in capsys.readouterr().out
+    assert dd.load(path).get("s.normalized") is True and dd.load(path, bugs=True).get("s.normalized") is False
+
+
+def test_what_cannot_be_read_is_one_error(tmp_path, capsys):
+    (tmp_path / "x.json").write_text('{"simulator": {"elements"')
+    assert main(["import", str(tmp_path / "x.json")]) == 1
+    error = capsys.readouterr().err
+    assert "is not JSON" in error and "Traceback" not in error and error.count("\n") == 1
+    assert main(["import", str(tmp_path / "absent.json")]) == 1

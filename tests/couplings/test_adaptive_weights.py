@@ -1,0 +1,36 @@
+"""Weights that learn, against the plain rule."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.adaptive_weights import AdaptiveWeights
+from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
+
+X, Z = dd.Axis("x", 0, 6, 4), dd.Axis("z", 0, 1, 3)
+PRE, POST, OTHER = np.array([0.0, 1.0, 0.5, 0.0]), np.array([1.0, -0.5, 0.25]), np.array([1.0, 0.0, 0.0, 0.2])
+
+
+def learned(gated=False, apart=False, dt=0.5):
+    model = dd.Model("learning", dt=dt)
+    out = model.add(AdaptiveWeights([Z], rate=0.1, initial=0.2, gated=gated, apart=apart, name="w"))
+    model.connect(model.add(Pattern("pre", [X], PRE)), out["input"])
+    model.connect(model.add(Pattern("post", [Z], POST)), out["post"])
+    if gated:
+        model.connect(model.add(Boost("gate", (), 1.0, windows=[(2, 3)])), out["gate"])
+    if apart:
+        model.connect(model.add(Pattern("other", [X], OTHER)), out["pre"])
+    return dd.simulate(model, 5, record=["w.output"], precision="float64")["w.output"].values
+
+
+@pytest.mark.parametrize(("gated", "apart"), [(False, False), (True, False), (False, True), (True, True)])
+def test_the_rule(gated, apart):
+    w, out = np.full((4, 3), 0.2), []
+    for step in range(11):
+        out.append(X.step * PRE @ w)
+        gate = 1.0 if not gated or 2 <= step * 0.5 < 3 else 0.0
+        w = w + 0.5 * 0.1 * gate * (POST - w) * (OTHER if apart else PRE)[:, None]
+    assert np.allclose(learned(gated, apart), out, rtol=0, atol=1e-14)

@@ -1,0 +1,44 @@
+"""Numbers become a peak at their place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.space_code import SpaceCode
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
+from tests.errors.refused import refused
+
+X, Y = dd.Axis("x", 0, 10, 21, unit="cm"), dd.Axis("y", -4, 4, 9, unit="cm")
+RING = dd.Axis("heading", -180, 180, 36, periodic=True, unit="deg")
+
+
+def shown(source: Element, code: SpaceCode) -> np.ndarray:
+    model = dd.Model("code")
+    model.add(source) >> model.add(code)
+    return dd.simulate(model, 1, record=f"{code.name}.output")[f"{code.name}.output"].values[-1]
+
+
+def test_a_place_in_the_plane() -> None:
+    both = Pattern("place", [dd.Axis("of", 0, 1, 2)], np.array([3.0, 1.0]))  # type: ignore[arg-type]
+    y = shown(both, SpaceCode([X, Y], (2.0, 1.0), 4.0, gain=(1.0, 2.0), offset=(0.5, -3.0), name="code"))
+    plain = 4 * np.exp(-0.5 * ((X.points[:, None] - 3.5) / 2) ** 2 - 0.5 * (Y.points[None, :] + 1.0) ** 2)
+    np.testing.assert_allclose(y, plain, atol=1e-6)
+
+
+@pytest.mark.parametrize("turns", [0, 3, -2])
+def test_an_angle_wraps_however_often_it_has_turned(turns: int) -> None:
+    angle = np.deg2rad(170) + 2 * np.pi * turns
+    y = shown(Boost("angle", [], angle), SpaceCode([RING], 20.0, gain=180 / np.pi, offset=20.0, name="code"))
+    near = (RING.points + 170 + 180) % 360 - 180
+    np.testing.assert_allclose(y, np.exp(-0.5 * (near / 20) ** 2), atol=1e-4)
+
+
+def test_it_takes_one_number_for_each_axis() -> None:
+    model = dd.Model("misfit")
+    model.add(Boost("one", [], 1.0)) >> model.add(SpaceCode([X, Y], name="code"))
+    refused(model.require, dd.errors.ModelError, "one axis with 2 samples", "Give it what it takes")
+    refused(lambda: SpaceCode([], name="nowhere"), dd.errors.ParameterError, "a peak needs somewhere to stand")

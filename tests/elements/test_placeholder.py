@@ -1,0 +1,20 @@
+"""Placeholders."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import deodar as dd
+from deodar.elements.placeholder import Placeholder
+
+X = dd.Axis("x", 0, 3, 4)
+
+
+def test_it_keeps_its_place_in_a_loop_and_says_nothing():
+    model = dd.Model("placeholder")
+    u = model.add(dd.Field("u", [X], resting_level=2.0))
+    p = model.add(Placeholder("p", [X], "Camera: reads a camera"))
+    u >> p >> u
+    assert not model.check()
+    data = dd.simulate(model, 5, record=["p.output", "u.activation"])
+    assert not np.any(data["p.output"]) and np.allclose(data["u.activation"], 2.0)

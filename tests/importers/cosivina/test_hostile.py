@@ -1,0 +1,265 @@
+"""Broken and hostile files: one clear error or a report, never anything else."""
+
+from __future__ import annotations
+
+import copy
+import json
+import random
+import string
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import DeodarError, DocumentError
+from deodar.importers.opening import Imported, read, tools
+from tests.importers.cosivina.files import SAMPLES, element, text, written
+
+FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
+VALUES = [None, -1, 0, 1e308, 10**400, "", "_NaN_", "_Inf_", "../../etc/passwd", "\ud800", "\0", [], {}, [[]], [1, [2]], True, [[1, 2], [3]], -0.5]
+VALUES += [{"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}, {"_ArrayType_": "double", "_ArraySize_": [9], "_ArrayData_": [1]}]
+VALUES += ["os.system('true')", "__import__", [10**9, 10**9], [3, 3], "output", "field u", 3, 1e-300, [0.5], "a" * 100_000]
+
+
+def tried(content: bytes | str) -> Imported | None:
+    """The file read, or its one error; anything else fails the test. A model that says it is good compiles nothing here, but is complete."""
+    data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
+    tool = tools()["cosivina"]
+    try:
+        done = tool.read(data, "file.json", random.random() < 0.5)
+    except DeodarError as error:
+        assert str(error) and "Traceback" not in str(error)
+        return None
+    assert done.report.text() and json.dumps(done.report.data())
+    assert done.model.to_json()
+    done.model.check()
+    return done
+
+
+def mutated(data: object, rng: random.Random, times: int) -> object:
+    """A copy with some of its values changed, taken away, moved or doubled."""
+    data = copy.deepcopy(data)
+    for _ in range(times):
+        holder: object = data
+        for _ in range(rng.randint(1, 7)):
+            inner = list(holder.values()) if isinstance(holder, dict) else holder if isinstance(holder, list) else []
+            inner = [v for v in inner if isinstance(v, (dict, list)) and v]
+            if not inner:
+                break
+            holder = rng.choice(inner)
+        if isinstance(holder, dict) and holder:
+            key = rng.choice(list(holder))
+            what = rng.randrange(4)
+            if what == 0:
+                del holder[key]
+            elif what == 1:
+                holder[rng.choice(["label", "class", "size", "input", "".join(rng.choices(string.printable, k=5))])] = holder.pop(key)
+            else:
+                holder[key] = copy.deepcopy(rng.choice(VALUES))
+        elif isinstance(holder, list) and holder:
+            place = rng.randrange(len(holder))
+            what = rng.randrange(4)
+            if what == 0:
+                del holder[place]
+            elif what == 1:
+                holder.append(copy.deepcopy(holder[place]))
+            elif what == 2:
+                rng.shuffle(holder)
+            else:
+                holder[place] = copy.deepcopy(rng.choice(VALUES))
+    return data
+
+
+def fuzz(path: Path, count: int, seed: int = 0) -> tuple[int, int]:
+    """So many mutations of a file, of its text and of its content: how many were read, how many refused."""
+    rng = random.Random(f"{path.stem} {seed}")
+    source = path.read_text()
+    data = json.loads(source)
+    found = [0, 0]
+    for k in range(count):
+        if k % 4 == 0:
+            cut = bytearray(source.encode())
+            for _ in range(rng.randint(1, 8)):
+                cut[rng.randrange(len(cut))] = rng.randrange(256)
+            content: bytes | str = bytes(cut[: rng.randrange(len(cut))] if rng.random() < 0.3 else cut)
+        else:
+            content = json.dumps(mutated(data, rng, rng.randint(1, 12)))
+        found[tried(content) is None] += 1
+    return found[0], found[1]
+
+
+@pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
+def test_mutations_of_every_sample(path):
+    good, _ = fuzz(path, 100 if path.stat().st_size < 20_000 else 25)
+    assert good > 0
+
+
+def test_mutations_that_are_good_run():
+    rng = random.Random(7)
+    data = json.loads(next(p for p in SAMPLES if "OneLayer" in p.stem).read_text())
+    ran = 0
+    for _ in range(8):
+        done = tried(json.dumps(mutated(data, rng, 4)))
+        if done is not None and not done.model.check():
+            try:
+                dd.simulate(done.model, done.model.document.step * 2, every=done.model.document.step * 2)
+                ran += 1
+            except DeodarError as error:
+                assert str(error)
+    assert ran > 3
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        (b"", "is not JSON"),
+        (b'{"simulator": {"deltaT": 1, "elements": [{"label": "u",', "is not JSON"),
+        (b'{"simulator": ' + b"[" * 100_000, "nested deeper"),
+        (b'{"simulator": {"elements": ' + b"[" * 80 + b"]" * 80 + b"}}", "nested deeper"),
+        (b'{"simulator": 3}', "no simulator"),
+        (b"[1, 2]", "no simulator"),
+        (b'{"simulator": {"elements": [], "deltaT": ' + b"9" * 9000 + b"}}", "digits"),
+        (text([element("u", "NeuralField", FIELD)]).encode("utf-16"), ""),
+        (text([element("feld \u00fc", "NeuralField", FIELD)]).encode().replace(b"\\u00fc", b"\xfc"), ""),
+    ],
+)
+def test_what_is_no_file_of_cosivina_is_one_error(content, says, tmp_path):
+    path = tmp_path / "x.json"
+    path.write_bytes(content)
+    if says:
+        with pytest.raises(DocumentError) as caught:
+            tools()["cosivina"].read(content, "x.json", False)
+        assert says in str(caught.value) and "\n" not in str(caught.value)
+        with pytest.raises(DocumentError, match=r"x\.json"):
+            dd.load(path)
+    else:
+        assert len(dd.load(path).document.entries) == 1
+
+
+def test_a_file_of_100_megabytes_is_refused_before_it_is_read(tmp_path):
+    path = tmp_path / "large.json"
+    with path.open("wb") as file:
+        file.write(b'{"simulator": {"elements": [')
+        file.truncate(100 * 2**20)
+    with pytest.raises(DocumentError, match="100 MiB"):
+        dd.load(path)
+
+
+def test_sizes_that_cannot_be_meant_become_placeholders(tmp_path):
+    done = read(written(tmp_path, [element("u", "NeuralField", {**FIELD, "size": [10**6, 10**6]}), element("v", "NeuralField", FIELD)]))
+    assert [(line.where, line.verdict) for line in done.report.lines if line.part == "element"] == [("u", "dropped"), ("v", "carried")]
+
+
+def test_names_are_only_names(tmp_path):
+    names = ["../../up", "/etc/passwd", "u.output", "a\nb", "..", 'q"uote', "{}", "$HOME", "u -> u (global)", " "]
+    done = read(written(tmp_path, [element(n, "NeuralField", FIELD) for n in names]))
+    dd.save(done.model, tmp_path / "out" if (tmp_path / "out").mkdir() else tmp_path / "out" / "m.json")
+    assert [p.name for p in (tmp_path / "out").iterdir()] == ["m.json"]
+    assert dd.load(tmp_path / "out" / "m.json").document == done.model.document
+    dd.simulate(done.model, 2)
+
+
+def test_a_label_that_occurs_twice_is_numbered(tmp_path):
+    parts = [
+        element("u", "NeuralField", FIELD),
+        element("u", "NeuralField", {**FIELD, "h": 1}),
+        element("k", "ScaleInput", {"size": [1, 10]}, [("u", "output")]),
+    ]
+    done = read(written(tmp_path, parts))
+    assert {e.path for e in done.model.document.entries} == {"u", "u (2)", "k"}
+    assert [line.where for line in done.report.losses] == ["u (2)"]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_loops_without_a_state_run(count, tmp_path):
+    """A ring of couplings, or one that reads itself: what cosivina computes one step later."""
+    ring = [element(f"s{k}", "ScaleInput", {"size": [1, 3], "amplitude": 0.5}, [(f"s{(k + 1) % count}", "output")]) for k in range(count)]
+    field = element("u", "NeuralField", {**FIELD, "size": [1, 3]}, [("s0", "output")])
+    done = read(written(tmp_path, [*ring, field]))
+    assert done.model.check() == [] and done.report.faithful
+    assert np.allclose(dd.simulate(done.model, 5, every=5)["u.activation"], -5)
+
+
+def test_a_loop_through_a_sum_runs(tmp_path):
+    kernel = {"size": [1, 3], "sigmaExc": 1, "amplitudeExc": 0.1, "sigmaInh": 1, "amplitudeInh": 0, "amplitudeGlobal": 0}
+    parts = [
+        element("s", "SumInputs", {"size": [1, 3]}, [("k", "fullSum"), ("k", "output"), ("b", "output")]),
+        element("k", "LateralInteractions1D", kernel, [("s", "output")]),
+        element("b", "BoostStimulus", {"amplitude": 1}),
+    ]
+    done = read(written(tmp_path, parts))
+    assert done.model.check() == [] and done.report.faithful
+    found = dd.simulate(done.model, 3, every=3, record=["s.output"])["s.output"].values[-1]
+    assert np.isfinite(found).all() and found.min() > 1
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        {"label": "v", "component": "output"},
+        [{"label": "v", "component": "output"}],
+        [[{"label": "v", "component": "output"}]],
+        {"label": ["v"], "component": ["output"]},
+        {"label": "v"},
+        "v",
+    ],
+)
+def test_shapes_of_one_input(shape, tmp_path):
+    parts = [element("v", "NeuralField", FIELD), {**element("u", "NeuralField", FIELD), "input": shape}]
+    model = read(written(tmp_path, parts)).model
+    assert [(c.source_port, c.reads) for c in model.document.connections] == [("output", "current")]
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        None,
+        [],
+        {},
+        {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None},
+        {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": []},
+        [None],
+        [{"label": {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}, "component": None}],
+    ],
+)
+def test_shapes_of_no_input(shape, tmp_path):
+    done = read(written(tmp_path, [{**element("u", "NeuralField", FIELD), "input": shape}]))
+    assert done.report.faithful and not done.model.document.connections
+
+
+def test_one_element_may_stand_without_a_list(tmp_path):
+    data = json.loads(text([element("u", "NeuralField", FIELD)]))
+    data["simulator"]["elements"] = data["simulator"]["elements"][0]
+    (tmp_path / "one.json").write_text(json.dumps(data))
+    assert len(dd.load(tmp_path / "one.json").document.entries) == 1
+
+
+def test_wrong_values_are_told_and_replaced(tmp_path):
+    done = read(written(tmp_path, [element("u", "NeuralField", {"size": [1, 10], "tau": "fast", "h": "_NaN_", "beta": -1, "colour": 3})], dt=-1))
+    told = {(line.what, line.verdict) for line in done.report.losses}
+    assert told == {("tau", "approximated"), ("h", "approximated"), ("beta", "approximated"), ("colour", "dropped"), ("deltaT", "approximated")}
+    assert done.model["u"].element.tau == 10 and done.model["u"].element.resting_level == -5
+
+
+def test_connections_that_cannot_be_are_told(tmp_path):
+    parts = [
+        element("u", "NeuralField", FIELD, [("absent", "output"), ("v", "noise"), ("v", "output"), ("u", "activation")]),
+        element("v", "NeuralField", {**FIELD, "size": [1, 7]}),
+        element("k", "ScaleInput", {"size": [1, 10], "amplitude": 1}),
+    ]
+    done = read(written(tmp_path, parts))
+    assert [line.why for line in done.report.losses] == [
+        "there is no such element",
+        "'v' gives no 'noise' here; it gives output, activation",
+        "its size does not fit: [1, 7] into [1, 10]",
+        "nothing is connected to it; zero arrives",
+    ]
+    dd.simulate(done.model, 2)
+
+
+if __name__ == "__main__":  # the long form: python -m tests.importers.cosivina.test_hostile 1000
+    for sample in SAMPLES:
+        read_, refused = fuzz(sample, int(sys.argv[1]) if len(sys.argv) > 1 else 1000, seed=1)
+        sys.stdout.write(f"{sample.stem}: {read_} read, {refused} refused\n")

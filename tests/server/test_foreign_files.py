@@ -1,0 +1,53 @@
+"""Files of other tools in the studio: opened as documents without a file, and applied as presets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from tests.importers.cosivina.files import element, text, written
+from tests.server.page import Page, play, studio
+
+FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
+KERNEL = {"size": [1, 10], "sigma": 2, "amplitude": 1, "circular": 1, "normalized": 1, "cutoffFactor": 5}
+
+
+def parts(**changes: Any) -> list[dict[str, Any]]:
+    return [element("u", "NeuralField", FIELD | changes, [("k", "output")]), element("k", "GaussKernel1D", KERNEL, [("u", "output")])]
+
+
+def test_a_file_of_another_tool_opens_runs_and_takes_a_preset(tmp_path: Path) -> None:
+    written(tmp_path, parts(), name="simulator.json")
+    written(tmp_path, [*parts(h=-3)[:1], element("new", "BoostStimulus", {"amplitude": 1})], name="preset.json")
+    before = (tmp_path / "simulator.json").read_bytes()
+
+    async def scene(p: Page) -> None:
+        await p.open("open_file", path="simulator.json")
+        assert {e["path"] for e in p.document["elements"]} == {"u", "k"} and "cosivina" in p.document["notes"]
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 5)
+        assert (await p.ask("save"))["problems"]  # it has no file of its own yet
+        answer = await p.do("apply_preset", path="preset.json")
+        assert [line.split(":")[0] for line in answer["unmatched"]] == ["k", "new"]
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("step", n=400)
+        await p.until(lambda: 1 in p.frames and abs(p.frames[1][1] + 3).max() < 0.01)
+        await p.do("undo")
+        await p.do("step", n=400)
+        await p.until(lambda: abs(p.frames[1][1] + 5).max() < 0.01)
+        assert (await p.ask("apply_preset", path="absent.json"))["problems"]
+        await p.do("save", path="own.json")
+
+    with studio(tmp_path) as address:
+        play(address, scene)
+    assert (tmp_path / "simulator.json").read_bytes() == before
+    assert '"deodar"' in (tmp_path / "own.json").read_text()
+
+
+def test_a_file_of_another_tool_may_be_dropped(tmp_path: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("open_text", name="simulator.json", text=text(parts()))
+        assert {e["path"] for e in p.document["elements"]} == {"u", "k"}
+
+    with studio(tmp_path) as address:
+        play(address, scene)
