@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import typing
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,9 +18,11 @@ P = TypeVar("P", bound=Part)
 # ------------------------------------------------------------------------------------------------ traced leaves
 
 
-def leaves(part: Any, prefix: str = "") -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
-    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`."""
+def leaves(part: Any, prefix: str = "", only: Container[str] | None = None) -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
+    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`. `only`: of parameters with these names."""
     for p in parameters(type(part)):
+        if only is not None and p.name not in only:
+            continue
         value, path = getattr(part, p.name), prefix + p.name
         if value is None:
             continue

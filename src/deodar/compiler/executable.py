@@ -19,6 +19,7 @@ from jax import lax
 from deodar.compiler import cache
 from deodar.compiler import device as devices
 from deodar.compiler.body import Body, batched
+from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Port, Program, array_key, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
@@ -104,14 +105,11 @@ class Executable:
         values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.trials or 1, np.uint32)
         self._prepare, constants = self.compile(self.program.prepare, values, options=RARELY)
         self._init, (state, keys) = self.compile(self._start, values, seed, trials, options=RARELY)
-        zero, count = np.zeros((), self.program.dtype), np.int32(0)
-        clock = {"tick": np.uint32(0), "start": zero, "rest": zero, "dt": zero, "period": np.uint32(1)}
         if body is not None:
             body.world.reset(0, [0] * batch.size, precision)
             shared, state, keys = self.embodied(body.world, state, keys)
             values = {**values, "world": shared}
-        counts = {"head": count, "every": count, "records": count}
-        self._example = (values, constants, state, keys, self.blind(), clock, counts)
+        self._example = (values, constants, state, keys, self.blind(), *packed({"period": 1}, self.program.dtype))
         self.seconds = time.process_time() - began
 
     # -------------------------------------------------------------------------------- values
@@ -181,7 +179,7 @@ class Executable:
 
     def new_reader(self, ports: Sequence[Port]) -> Any:
         """The same, for a caller that keeps it itself."""
-        return self.compile(lambda *a: self._read(ports, *a), *self._example[:-1])[0]
+        return self.compile(lambda *a: self._read(ports, *a), *self._example)[0]
 
     def call(self, executable: Any, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
@@ -219,15 +217,17 @@ class Executable:
         return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
 
     def _chunk(
-        self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree, counts: Any
+        self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, whole: Any, real: Any
     ) -> Any:
+        clock = unpacked(whole, real)
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
-            return self._run(ports, capacity, values, constants, state, keys, sensed, clock, counts)
+            return self._run(ports, capacity, values, constants, state, keys, sensed, clock)
 
         return self._batched(one, values, constants, state, keys)
 
-    def _read(self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Any:
+    def _read(self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, whole: Any, real: Any) -> Any:
+        clock = unpacked(whole, real)
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
             constants = self.program.settle(values, constants)
@@ -247,14 +247,12 @@ class Executable:
     def _swept_axes(self, values: Tree) -> Tree:
         return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
-    def _run(
-        self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree, counts: Any
-    ) -> Any:
+    def _run(self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Any:
         """`head` steps, a record, then `every` steps and a record until there are `records`; without ports `head` steps."""
         program = self.program
         constants = program.settle(values, constants)
         still = program.steady(values, constants, sensed)
-        head, every, records = counts["head"], counts["every"], counts["records"]
+        head, every, records = (clock[name].astype(jnp.int32) for name in ("head", "every", "records"))
         leaves_of, tree = jax.tree.flatten(state)
         shapes = [leaf.shape for leaf in leaves_of]
 

@@ -162,15 +162,15 @@ class Program:
                 self._output(call, buffers, values, constants, state["groups"][call.group], keys, sensed, time, tick, now=True)
         return tuple(self._port(p, buffers) for p in ports)
 
-    def finite(self, state: Tree) -> list[Array]:
-        """For each group, which rows hold finite numbers only."""
+    def finite(self, state: Tree) -> tuple[Array, list[Array]]:
+        """Whether all numbers are finite, and for each group of which rows."""
         out: list[Array] = []
         for g, group in enumerate(self.plan.groups):
             good = jnp.ones((group.rows,), bool)
             for leaf in jax.tree.leaves(state["groups"][g]):
                 good = good & jnp.all(jnp.isfinite(leaf).reshape(group.rows, -1), axis=1)
             out.append(good)
-        return out
+        return jnp.all(jnp.stack([jnp.all(good) for good in out])) if out else jnp.ones((), bool), out
 
     # -------------------------------------------------------------------------------- one group
 

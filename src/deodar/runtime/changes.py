@@ -42,6 +42,6 @@ def _of_element(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] 
     plain = all(p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float) for name, p in moved.items())
     if not plain and structure(old) != structure(new):
         return None
-    was = {path: value for path, value, _ in leaves(old) if path.partition(".")[0] in moved}
-    now = [(path, value, p) for path, value, p in leaves(new) if path in was]
+    was = {path: value for path, value, _ in leaves(old, only=moved)}
+    now = [(path, value, p) for path, value, p in leaves(new, only=moved) if path in was]
     return [(path, value, cost(p), p.off and value == p.neutral) for path, value, p in now if value is not was[path] and np.any(value != was[path])]

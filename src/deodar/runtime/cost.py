@@ -18,6 +18,7 @@ import numpy as np
 from jax import lax
 
 from deodar.compiler.executable import Executable
+from deodar.compiler.moment import packed
 from deodar.compiler.plan import Plan
 from deodar.compiler.program import Port, Program, array_key
 from deodar.errors import TimeError
@@ -165,7 +166,7 @@ def _buffers(at: Moment, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str]
     if not ports:
         return {}
     reader = at.program.new_reader(ports)
-    seen = at.program.call(reader, at.values, at.constants, at.state, at.keys, at.sensed, at.clock)
+    seen = at.program.call(reader, at.values, at.constants, at.state, at.keys, at.sensed, *packed(at.clock, at.program.program.dtype))
     return {(p.group, p.name): rows for p, rows in zip(ports, seen, strict=True)}
 
 
@@ -174,8 +175,8 @@ def _together(at: Moment) -> Callable[[int], object]:
     chunk, _ = at.program.chunk(())
 
     def call(n: int) -> object:
-        counts = {"head": np.int32(n), "every": np.int32(0), "records": np.int32(0)}
-        return at.program.call(chunk, at.values, at.constants, at.state, at.keys, at.sensed, at.clock, counts)
+        now = packed({**at.clock, "head": n}, at.program.program.dtype)
+        return at.program.call(chunk, at.values, at.constants, at.state, at.keys, at.sensed, *now)
 
     return call
 

@@ -27,6 +27,7 @@ from deodar.runtime.pace import Pace, require_longest
 from deodar.runtime.run import require_step
 from deodar.runtime.session import Session
 from deodar.runtime.trace import Trace, Wish
+from deodar.runtime.track import Track
 from deodar.worlds._base import World
 
 T = TypeVar("T")
@@ -68,6 +69,7 @@ class Engine:
         pace: how fast it is to go, and how fast it goes.
         bill: what elements cost, as far as somebody asked.
         traces: time courses by wish; the engine alone adds samples.
+        track: the world from above, and where its bodies went.
     """
 
     def __init__(self, changed: Callable[[], None]) -> None:
@@ -96,6 +98,7 @@ class Engine:
         self.busy = ""
         self.pace = Pace()
         self.bill = Bill()
+        self.track = Track()
         self._thread.start()
 
     # -------------------------------------------------------------------------------- from other threads
@@ -202,6 +205,11 @@ class Engine:
             self.session.world = world
         self.failure, self._stale = ((), ()), True
 
+    def rearrange(self, how: Callable[[Session], None]) -> None:
+        """Let a hand change what stands in the world: `how` calls `Session.move`, `place` or `remove`."""
+        how(self._require())
+        self._stale = True
+
     def push(self, hand: Hand | None) -> None:
         """Reach into the running model; None lets go."""
         if hand is not None and self.session is not None:
@@ -249,11 +257,12 @@ class Engine:
         n = min(self._steps, self.pace.most()) if self._steps else self.pace.due(session)
         if n == 0:
             return self.pace.rest(session)
-        parts = max(1, min(n, SAMPLES)) if self.traces else 1
+        parts = max(1, min(n, SAMPLES)) if self.traces or self.track.scene is not None else 1
         before, began = session.time, time.perf_counter()
         for k in range(parts):
             self._advance(session, n * (k + 1) // parts - n * k // parts)
             self._take_samples(session)
+            self.track.follow(session)
         self.pace.took(session, n, session.time - before, time.perf_counter() - began)
         if self.running:
             self.pace.lengthen(session)
@@ -313,6 +322,7 @@ class Engine:
         arrays: Mapping[Place, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
             arrays = self._with_hand(session.look(seen, self._places), session)
+        self.track.follow(session)
         moment = (session.time, session.tick) if session is not None else (0.0, 0)
         self.shot = Shot(self.shot.number + 1, *moment, arrays)
         self._shown = now

@@ -13,6 +13,7 @@ import numpy as np
 
 from deodar.compiler.body import unbatched
 from deodar.compiler.executable import Executable
+from deodar.compiler.moment import packed
 from deodar.compiler.program import Port
 from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
@@ -159,8 +160,7 @@ class Run:
         began = time.perf_counter()
         before = self.state
         state, seen, finite = self._call(chunk, before, counts)
-        finite = [np.asarray(f) for f in finite]
-        if not all(f.all() for f in finite):
+        if not np.asarray(finite[0]).all():
             self._report(before, used)
         self.state = state
         self.clock = self.clock.after(used)
@@ -170,20 +170,19 @@ class Run:
         return seen
 
     def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
-        given = {k: np.int32(min(v, 2**31 - 1)) for k, v in counts.items()}
-        return self.program.call(chunk, self._values(), self.constants, state, self.keys, self.sensed, self._now(), given)
+        return self.program.call(chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts))
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
         """Ports at the present state."""
         self._sense()
         reader = self.program.reader(ports)
-        seen = self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, self._now())
+        seen = self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
         return [np.asarray(a) for a in seen]
 
     def look(self, reader: Any) -> Sequence[Any]:
         """What a reader that the caller keeps sees in the present state."""
         self._sense()
-        return self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, self._now())
+        return self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
         """The state of one element of a single run."""
@@ -202,12 +201,12 @@ class Run:
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
         self.forget()
 
-    def _now(self) -> dict[str, Any]:
-        dtype = self.program.program.dtype
-        start = dtype.type(self.clock.time)
-        rest = dtype.type(self.clock.time - float(start))
-        period = np.uint32(self._period() if self.exchange.inside else 1)
-        return {"tick": np.uint32(self.clock.tick % 2**32), "start": start, "rest": rest, "dt": dtype.type(self.clock.dt), "period": period}
+    def _now(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
+        dtype, time = self.program.program.dtype, self.clock.time
+        start = float(dtype.type(time))
+        period = self._period() if self.exchange.inside else 1
+        about = {"tick": self.clock.tick % 2**32, "period": period, "start": start, "rest": time - start, "dt": self.clock.dt}
+        return packed(about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, dtype)
 
     def _values(self) -> Tree:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
@@ -248,7 +247,7 @@ class Run:
 
         def bad(n: int) -> list[np.ndarray]:
             _, _, finite = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
-            return [~np.asarray(f) for f in finite]
+            return [~np.asarray(f) for f in finite[1]]
 
         low, high = 0, max(used, 1)  # finite after `low` steps, not after `high`
         while high - low > 1:

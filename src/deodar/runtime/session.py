@@ -21,7 +21,7 @@ from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
-from deodar.runtime import memory
+from deodar.runtime import memory, rearrange
 from deodar.runtime.changes import Changed, changed_leaves
 from deodar.runtime.cost import SECONDS, Costs, Moment, costs, moment
 from deodar.runtime.live import run_live
@@ -30,6 +30,7 @@ from deodar.runtime.meter import Meter
 from deodar.runtime.run import Run, require_duration, require_step, whole
 from deodar.runtime.snapshot import Snapshot, fill, rows
 from deodar.worlds._base import World
+from deodar.worlds._scene import Scene
 
 LARGEST_SEED = 2**32 - 1
 
@@ -58,8 +59,8 @@ class Session:
 
     Attributes:
         device: where it runs, as it was given.
-        journal: every change of a parameter or of dt, every reset and restore, with its tick; with seed and document it repeats the
-            session.
+        journal: every change of a parameter or of dt, every reset and restore, every hand in the world, with its tick; with seed and document
+            it repeats the session.
     """
 
     def __init__(
@@ -78,6 +79,7 @@ class Session:
         self._precision = precision
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
+        self._ports: dict[str, tuple[Executable, Port]] = {}
         doc = require_model(model).document
         model.require()
         memory.require(resolve(doc)[0], precision, 1, 0)
@@ -217,6 +219,7 @@ class Session:
     def edit(self, document: Document) -> str:
         """Go on with another document; elements that stay (by id) keep their states."""
         cost = self._adopt(document)
+        self._ports.clear()
         self.journal.append(Change(self.tick, "document", document))
         return cost
 
@@ -239,11 +242,35 @@ class Session:
             run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
             if snapshot.document != self.document:
                 run.load(self.compiled(snapshot.document), snapshot.document)
+                self._ports.clear()
         except BaseException:
             run.clock, run.seed = clock, seed
             raise
         fill(run, snapshot.states)
         run.exchange.put(snapshot.world)
+
+    # -------------------------------------------------------------------------------- a hand in the world
+
+    def scene(self) -> Scene | None:
+        """The world from above, as it was exchanged with last; None where there is none, or nothing to draw."""
+        return None if self.world is None else self.world.scene()
+
+    def move(self, name: str, center: Sequence[float]) -> None:
+        """Put a thing of the world, or its goal, elsewhere: x and y of its middle. Refused where it does not fit."""
+        self._note(*rearrange.move(self, name, center))
+
+    def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
+        """Put a thing into the world, or another one in the place of one of that name. Refused where it does not fit."""
+        self._note(*rearrange.place(self, name, center, size))
+
+    def remove(self, name: str) -> None:
+        """Take a thing out of the world."""
+        self._note(*rearrange.remove(self, name))
+
+    def _note(self, what: str, value: Any) -> None:
+        if self.journal and (self.journal[-1].tick, self.journal[-1].what) == (self.tick, what):
+            self.journal.pop()  # of several moves between two steps the last counts
+        self.journal.append(Change(self.tick, what, value))
 
     # -------------------------------------------------------------------------------- properties
 
@@ -316,13 +343,17 @@ class Session:
     # -------------------------------------------------------------------------------- inside
 
     def _port(self, path: str | Handle) -> Port:
-        entry, name = find.port(self.document, path_of(path))
-        return self._run.program.port(entry.id, name)
+        path, program = path_of(path), self._run.program
+        if self._ports.get(path, (None,))[0] is not program:  # found once for each program: a renamed element has another path
+            entry, name = find.port(self.document, path)
+            self._ports[path] = (program, program.port(entry.id, name))
+        return self._ports[path][1]
 
     def _adopt(self, doc: Document) -> str:
         run = self._run
-        self.require(doc)
         changed = changed_leaves(run.doc, doc)
+        if changed is None or any(path == "tau" for (_, path), *_ in changed):  # other leaves leave steps and sensors as they are
+            self.require(doc)
         if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
         states = rows(run.program, run.state)

@@ -1,0 +1,22 @@
+"""A moment of a run, as a program gets it: when it is, and how many steps and records there are to be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+WHOLE = ("tick", "period", "head", "every", "records")
+REAL = ("start", "rest", "dt")
+
+
+def packed(now: Mapping[str, Any], dtype: Any) -> tuple[np.ndarray, np.ndarray]:
+    """When it is, and how many steps and records there are to be, as two arrays: each argument of a program costs microseconds."""
+    whole = np.array([now.get(name, 0) for name in WHOLE], np.uint32)
+    return whole, np.array([now.get(name, 0.0) for name in REAL], dtype)
+
+
+def unpacked(whole: Any, real: Any) -> dict[str, Any]:
+    """The same by name."""
+    return {name: whole[k] for k, name in enumerate(WHOLE)} | {name: real[k] for k, name in enumerate(REAL)}
