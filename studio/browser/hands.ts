@@ -49,7 +49,7 @@ export async function type(page: Page, path: string, text: string, where?: strin
 /** Choose from a menu behind a button. */
 export async function choose(page: Page, name: string, item: string | RegExp): Promise<void> {
   await button(page, name).click();
-  await page.getByRole("menuitem", { name: item }).click();
+  await page.getByRole("menuitem", { name: item, exact: typeof item === "string" }).click();
   await page.getByRole("menu").waitFor({ state: "detached" });
 }
 

@@ -2,6 +2,7 @@
 import { decode, type Frame } from "../src/frames";
 import type { Announced, Answer, Changed, Clock, DocumentView, ElementView, Lost, ToPage, ToServer } from "../src/protocol";
 import { replaced, valueAt } from "../src/values";
+import { Live } from "../src/world/live";
 
 /** Longest time that anything may take; a failure, not a measure. */
 const PATIENCE = 60_000;
@@ -16,6 +17,8 @@ interface Stream {
 export class Observer {
   document: DocumentView | null = null;
   clock: Clock | undefined;
+  /** The world from above; where its bodies are after `watch_world`. */
+  readonly world = new Live();
   private session = 0;
   private last = 0;
   private ended = "";
@@ -157,6 +160,10 @@ export class Observer {
       }
       case "answer":
         this.answers.set(message.request, message);
+        break;
+      case "scene":
+      case "bodies":
+        this.world.take(message);
         break;
       case "clock":
         this.clock = message;

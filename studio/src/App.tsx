@@ -72,11 +72,10 @@ function useAskBeforeLeaving(): void {
   }, [unsaved]);
 }
 
-// Another document: what was said of the one before is over, and so is the look into the gallery.
+// Another document: the look into the gallery is over.
 function useFreshStart(): void {
   const session = useStudio((state) => state.session);
   useEffect(() => {
     useView.setState({ gallery: false });
-    useStudio.setState({ notices: [] });
   }, [session]);
 }

@@ -20,7 +20,8 @@ export type Announced = {
 };
 
 // The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
-// with discard) or `replace` (send it again with replace). `cost` is what a change cost, `unmatched` what a preset could not change.
+// with discard) or `replace` (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it changed
+// and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file of another tool that was opened.
 export type Answer = {
   type: "answer";
   request: number;
@@ -28,7 +29,9 @@ export type Answer = {
   ask?: "" | "replace" | "unsaved";
   cost?: "" | "live" | "rebuild" | "recompile";
   file?: string;
+  carried?: number;
   unmatched?: string[];
+  imported?: string;
 };
 
 // Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
@@ -37,6 +40,14 @@ export type ApplyPreset = {
   type: "apply_preset";
   request?: number;
   path: string;
+};
+
+// The same with the content of a file of the person's own.
+export type ApplyPresetText = {
+  type: "apply_preset_text";
+  request?: number;
+  name: string;
+  text: string;
 };
 
 // Change parts of the layout: each key given replaces that key of the document's layout, None takes it away.
@@ -56,6 +67,34 @@ export type AxisView = {
   samples: number;
   periodic: boolean;
   unit: string;
+};
+
+// Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was known of it before is over.
+export type Bodies = {
+  type: "bodies";
+  bodies: BodyView[];
+  fresh: boolean;
+  way: number[][];
+};
+
+// Something round that moves by itself, and where it looks (rad; 0 along x, counter-clockwise).
+export type BodyView = {
+  name: string;
+  x: number;
+  y: number;
+  heading: number;
+  radius: number;
+};
+
+// Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1); `fixed`: it cannot be moved.
+export type BoxView = {
+  name: string;
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  color: number[];
+  fixed: boolean;
 };
 
 // One parameter has another value; nothing else differs from the document of the version before.
@@ -279,10 +318,27 @@ export type Lost = {
   problem: Problem;
 };
 
+// A place in the world that has a name, such as a goal; `fixed`: it cannot be moved.
+export type MarkView = {
+  name: string;
+  x: number;
+  y: number;
+  fixed: boolean;
+};
+
 // Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is done.
 export type MeasureCosts = {
   type: "measure_costs";
   request?: number;
+};
+
+// Put a thing or a mark of the world elsewhere: x and y of its middle.
+export type MoveThing = {
+  type: "move_thing";
+  request?: number;
+  name: string;
+  x: number;
+  y: number;
 };
 
 // Open one of the examples, as a document without a file.
@@ -341,6 +397,17 @@ export type ParameterForm = {
 export type Pause = {
   type: "pause";
   request?: number;
+};
+
+// Put a new thing into the world: its middle and its size.
+export type PlaceThing = {
+  type: "place_thing";
+  request?: number;
+  name: string;
+  x: number;
+  y: number;
+  width: number;
+  height: number;
 };
 
 // Run on.
@@ -402,6 +469,13 @@ export type RemoveKnob = {
   name: string;
 };
 
+// Take a thing out of the world.
+export type RemoveThing = {
+  type: "remove_thing";
+  request?: number;
+  name: string;
+};
+
 // State, time and noise back to the start; with a seed, another one from then on. Parameters stay.
 export type Reset = {
   type: "reset";
@@ -416,6 +490,20 @@ export type Save = {
   request?: number;
   path?: string;
   replace?: boolean;
+};
+
+// The world from above, whenever something in it was moved; None: there is nothing to see from above.
+export type Scene = {
+  type: "scene";
+  scene: SceneView | null;
+};
+
+// What stands in the world, in its unit of length; `border` is lower x, lower y, upper x, upper y.
+export type SceneView = {
+  unit: string;
+  border: number[];
+  boxes: BoxView[];
+  marks: MarkView[];
 };
 
 // Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of that name.
@@ -453,6 +541,8 @@ export type ToPage =
   | Changed
   | Clock
   | Costs
+  | Scene
+  | Bodies
   | Announced
   | Lost
   | Folder
@@ -475,6 +565,7 @@ export type ToServer =
   | RemoveKnob
   | Arrange
   | ApplyPreset
+  | ApplyPresetText
   | Undo
   | Redo
   | Play
@@ -488,6 +579,10 @@ export type ToServer =
   | Release
   | UseWorld
   | UseWorldContent
+  | WatchWorld
+  | MoveThing
+  | PlaceThing
+  | RemoveThing
   | Watch
   | Trace
   | Unwatch
@@ -557,6 +652,13 @@ export type Watch = {
   element: string;
   port: string;
   most?: number;
+};
+
+// Send `bodies` from now on, or no longer.
+export type WatchWorld = {
+  type: "watch_world";
+  request?: number;
+  on: boolean;
 };
 
 // First message on a connection: what there is, whatever is open.

@@ -3,6 +3,7 @@
 import { decode } from "./frames";
 import type { Answer, Folder, ToPage, ToServer } from "./protocol";
 import { useStudio } from "./store";
+import { live } from "./world/live";
 import { Streams } from "./streams";
 
 type Reply = { answer: Answer; folder: Folder | null };
@@ -74,6 +75,10 @@ class Socket {
         break;
       case "folder":
         this.folders.set(message.request, message);
+        break;
+      case "scene":
+      case "bodies":
+        live.take(message);
         break;
       case "announced":
         this.streams.announce(message);

@@ -6,7 +6,10 @@ import { replaced } from "./values";
 
 export type Connection = "connecting" | "open" | "lost";
 
-export type Notice = { id: number; problem: Problem; level: "error" | "info" };
+// What can be done about a notice, by a button.
+export type Offer = { label: string; run: () => unknown };
+
+export type Notice = { id: number; problem: Problem; level: "error" | "info"; offer?: Offer };
 
 export type Studio = {
   connection: Connection;
@@ -26,7 +29,7 @@ export type Studio = {
   take: (message: ToPage) => void;
   connect: (connection: Connection) => void;
   select: (ids: string[]) => void;
-  notify: (problem: Problem, level?: Notice["level"]) => void;
+  notify: (problem: Problem, level?: Notice["level"], offer?: Offer) => void;
   dismiss: (id: number) => void;
 };
 
@@ -50,8 +53,8 @@ export const useStudio = create<Studio>((set) => ({
   take: (message) => set((state) => taken(state, message)),
   connect: (connection) => set({ connection }),
   select: (selected) => set({ selected }),
-  notify: (problem, level = "error") =>
-    set((state) => ({ notices: [...state.notices, { id: ++lastNotice, problem, level }].slice(-MOST_NOTICES) })),
+  notify: (problem, level = "error", offer) =>
+    set((state) => ({ notices: [...state.notices, { id: ++lastNotice, problem, level, offer }].slice(-MOST_NOTICES) })),
   dismiss: (id) => set((state) => ({ notices: state.notices.filter((n) => n.id !== id) })),
 }));
 
@@ -70,6 +73,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
         document: message.document,
         elements,
         selected: fresh ? [] : state.selected.filter((id) => elements.has(id)),
+        // what was said of the document before is over
+        notices: fresh ? [] : state.notices,
       };
     }
     case "changed":

@@ -22,12 +22,16 @@ def test_a_file_of_another_tool_opens_runs_and_takes_a_preset(tmp_path: Path) ->
     before = (tmp_path / "simulator.json").read_bytes()
 
     async def scene(p: Page) -> None:
-        await p.open("open_file", path="simulator.json")
+        opened = await p.do("open_file", path="simulator.json")
+        await p.runs()
+        assert opened["imported"].startswith("Imported from simulator.json (cosivina): 2 elements")
+        assert p.document["notes"].startswith(opened["imported"])
         assert {e["path"] for e in p.document["elements"]} == {"u", "k"} and "cosivina" in p.document["notes"]
         await p.do("step", n=5)
         await p.until(lambda: p.clock["tick"] == 5)
         assert (await p.ask("save"))["problems"]  # it has no file of its own yet
         answer = await p.do("apply_preset", path="preset.json")
+        assert answer["carried"] == 1
         assert [line.split(":")[0] for line in answer["unmatched"]] == ["k", "new"]
         await p.do("watch", stream=1, element=p.element("u"), port="activation")
         await p.do("step", n=400)
@@ -46,8 +50,16 @@ def test_a_file_of_another_tool_opens_runs_and_takes_a_preset(tmp_path: Path) ->
 
 def test_a_file_of_another_tool_may_be_dropped(tmp_path: Path) -> None:
     async def scene(p: Page) -> None:
-        await p.open("open_text", name="simulator.json", text=text(parts()))
+        opened = await p.do("open_text", name="simulator.json", text=text(parts()))
+        await p.runs()
+        assert "2 elements" in opened["imported"]
         assert {e["path"] for e in p.document["elements"]} == {"u", "k"}
+        answer = await p.do("apply_preset_text", name="preset.json", text=text(parts(h=-3, beta=2)))
+        assert (answer["carried"], answer["unmatched"]) == (2, [])
+        await p.until(lambda: p.document["undo"] == 1)
+        assert (await p.ask("apply_preset_text", name="preset.json", text="{"))["problems"]
+        broken = await p.do("open_text", name="preset.json", text=text(parts())[:-1], discard=True)
+        assert broken["imported"] == "" and p.said["trouble"]["problems"]
 
     with studio(tmp_path) as address:
         play(address, scene)

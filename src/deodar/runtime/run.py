@@ -154,7 +154,7 @@ class Run:
                 progress(before + done)
 
     def _chunk(self, chunk: Any, counts: dict[str, int], used: int) -> tuple[Any, ...]:
-        self._sense()
+        self.sense()
         if used:
             self.exchange.tell(self.clock.tick, self._period(), self._commands)
         began = time.perf_counter()
@@ -174,14 +174,14 @@ class Run:
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
         """Ports at the present state."""
-        self._sense()
+        self.sense()
         reader = self.program.reader(ports)
         seen = self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
         return [np.asarray(a) for a in seen]
 
     def look(self, reader: Any) -> Sequence[Any]:
         """What a reader that the caller keeps sees in the present state."""
-        self._sense()
+        self.sense()
         return self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
@@ -231,7 +231,8 @@ class Run:
         """Steps until the world is to be read again."""
         return self.exchange.steps(self.clock.tick, self._period() if self.exchange.live else 0)
 
-    def _sense(self) -> None:
+    def sense(self) -> None:
+        """Bring the world to the present, and what is sensed with it; a second time it changes nothing."""
         if self.exchange.live:
             now = Moment(self.clock.tick, self.clock.time, self._unit())
             self.exchange.read(now, self._period(), self.clock.dt, self.program.program.dtype, self.sensed)

@@ -252,8 +252,11 @@ class Session:
     # -------------------------------------------------------------------------------- a hand in the world
 
     def scene(self) -> Scene | None:
-        """The world from above, as it was exchanged with last; None where there is none, or nothing to draw."""
-        return None if self.world is None else self.world.scene()
+        """The world from above, now; None where there is none, or nothing to draw."""
+        if self.world is None:
+            return None
+        self._run.sense()  # a hand finds the world at the present, whether or not somebody looked before
+        return self.world.scene()
 
     def move(self, name: str, center: Sequence[float]) -> None:
         """Put a thing of the world, or its goal, elsewhere: x and y of its middle. Refused where it does not fit."""

@@ -17,10 +17,11 @@ import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from deodar.errors import DeodarError
-from deodar.server import requests, view
+from deodar.server import requests, scene, view
 from deodar.server.project import Asks
+from deodar.server.scene import Follower
 from deodar.server.stream import Stream
-from deodar.server.to_page import Answer, Clock, Costs, Folder, Gallery, Opened, Problem, ToPage, Trouble
+from deodar.server.to_page import Answer, Clock, Costs, Folder, Gallery, Opened, Problem, Scene, ToPage, Trouble
 from deodar.server.to_server import Drawn, ToServer
 
 if TYPE_CHECKING:
@@ -40,12 +41,14 @@ class Connection:
     Attributes:
         streams: what the page watches, by its numbers.
         pushes: whether the hand that reaches in is this page's.
+        follower: what the page knows of the bodies in the world; None: it does not look.
     """
 
     def __init__(self, socket: WebSocket, hub: Hub) -> None:
         self.hub = hub
         self.streams: dict[int, Stream] = {}
         self.pushes = False
+        self.follower: Follower | None = None
         self._socket = socket
         self._news = asyncio.Event()
         self._room = asyncio.Event()
@@ -187,9 +190,12 @@ class Connection:
             file, problems = project.trouble
             self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
         self._new("costs", self.hub.costs(), out)
-        return out
+        track = self.hub.engine.track
+        self._new("scene", scene.scene(track.scene), out)
+        moved = None if self.follower is None else self.follower.news(track)
+        return out if moved is None else [*out, moved]
 
-    def _new(self, what: str, message: Gallery | Trouble | Clock | Costs, out: list[ToPage]) -> None:
+    def _new(self, what: str, message: Gallery | Trouble | Clock | Costs | Scene, out: list[ToPage]) -> None:
         if self._known.get(what) != message:
             self._known[what] = message
             out.append(message)

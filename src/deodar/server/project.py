@@ -22,7 +22,7 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.runtime.engine import Engine
 from deodar.runtime.session import Session
-from deodar.server import view
+from deodar.server import content, view
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper
 from deodar.server.to_page import Changed, DocumentView, Problem
@@ -108,29 +108,23 @@ class Project:
 
     # -------------------------------------------------------------------------------- opening and closing
 
-    async def open_file(self, path: Path, discard: bool) -> None:
-        """Open a document, or a file of another tool as a document without a file; what is wrong with it becomes the trouble that the page shows."""
+    async def open_file(self, path: Path, discard: bool) -> str:
+        """Open a document, or a file of another tool as a document without a file; what is wrong with it becomes the trouble that the page shows.
+
+        Of a file of another tool it answers in a sentence what became of it, otherwise nothing.
+        """
         foreign = opening.tool_of(path) is not None
         await self._open(lambda: opening.load(path).document, None if foreign else path, str(path), discard)
+        return self._reported() if foreign else ""
 
     async def open_copy(self, path: Path, title: str, discard: bool) -> None:
         """Open a document as one without a file: an example."""
         await self._open(lambda: files.load(path), None, title, discard)
 
-    async def open_text(self, text: str, title: str, discard: bool) -> None:
-        """Open a document given as text."""
-
-        def read() -> Document:
-            tool = opening.tool_for(text.encode())
-            if tool is not None:
-                return tool.read(text.encode(), title).model.document
-            data = files.parse(text)
-            if isinstance(data, dict) and "arrays" in data:
-                fix = "Put both files below the studio's folder and open the document by its name"
-                raise DocumentError("has its arrays in a file beside it, which was not dropped with it", where=title, fix=fix)
-            return files.from_data(data, {})
-
-        await self._open(read, None, title, discard)
+    async def open_text(self, text: str, title: str, discard: bool) -> str:
+        """Open a document, or a file of another tool, given as text; answers as `open_file` does."""
+        await self._open(lambda: content.read(text, title), None, title, discard)
+        return "" if opening.tool_for(text.encode()) is None else self._reported()
 
     async def recover(self, name: str, discard: bool) -> None:
         """Go on with unsaved edits that were kept."""
@@ -362,6 +356,10 @@ class Project:
         await asyncio.sleep(0)  # the edit enters the history first
         if self.model is not None and not check(self.model.document):
             await self._start(self.session)
+
+    def _reported(self) -> str:
+        """What became of the file that was just imported: the first line of the notes, where its report begins."""
+        return "" if self.model is None else self.model.document.notes.partition("\n")[0]
 
     def _require(self) -> Model:
         if self.model is None:

@@ -16,8 +16,10 @@ from deodar.importers.report import Line
 from deodar.model import edit
 from deodar.numerics.axes import Axes
 from deodar.runtime.engine import Hand
+from deodar.runtime.session import Session
 from deodar.runtime.trace import Wish
-from deodar.server import gallery, project, to_server
+from deodar.server import content, gallery, project, to_server
+from deodar.server.scene import Follower
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
 
@@ -41,16 +43,18 @@ async def do(page: Connection, message: Any) -> Answers:
 # ------------------------------------------------------------------------------------------------ files
 
 
-async def _open_file(page: Connection, m: to_server.OpenFile) -> None:
-    await page.hub.project.open_file(page.hub.workspace.inside(m.path), m.discard)
+async def _open_file(page: Connection, m: to_server.OpenFile) -> Answer:
+    imported = await page.hub.project.open_file(page.hub.workspace.inside(m.path), m.discard)
+    return Answer(request=m.request, imported=imported)
 
 
 async def _open_example(page: Connection, m: to_server.OpenExample) -> None:
     await page.hub.project.open_copy(gallery.example_file(m.name), m.name, m.discard)
 
 
-async def _open_text(page: Connection, m: to_server.OpenText) -> None:
-    await page.hub.project.open_text(m.text, m.name, m.discard)
+async def _open_text(page: Connection, m: to_server.OpenText) -> Answer:
+    imported = await page.hub.project.open_text(m.text, m.name, m.discard)
+    return Answer(request=m.request, imported=imported)
 
 
 async def _recover(page: Connection, m: to_server.Recover) -> None:
@@ -116,15 +120,25 @@ async def _arrange(page: Connection, m: to_server.Arrange) -> None:
 
 async def _apply_preset(page: Connection, m: to_server.ApplyPreset) -> Answer:
     preset = await asyncio.to_thread(opening.load, page.hub.workspace.inside(m.path))
+    return await _take_over(page, m.request, preset.document)
+
+
+async def _apply_preset_text(page: Connection, m: to_server.ApplyPresetText) -> Answer:
+    return await _take_over(page, m.request, await asyncio.to_thread(content.read, m.text, m.name))
+
+
+async def _take_over(page: Connection, request: int, preset: edit.Document) -> Answer:
+    """Change the values of what is open to those of another document."""
     lines: list[Line] = []
 
     def change(doc: edit.Document) -> edit.Document:
-        new, found = presets.applied(doc, preset.document)
+        new, found = presets.applied(doc, preset)
         lines.extend(found)
         return new
 
     cost = await page.hub.project.change(change)
-    return Answer(request=m.request, cost=cost, unmatched=[str(line) for line in lines if line.verdict == "dropped"])
+    unmatched = [str(line) for line in lines if line.verdict == "dropped"]
+    return Answer(request=request, cost=cost, carried=len(lines) - len(unmatched), unmatched=unmatched)
 
 
 async def _undo(page: Connection, m: to_server.Undo) -> None:
@@ -217,6 +231,27 @@ async def _use_world_content(page: Connection, m: to_server.UseWorldContent) -> 
     await page.hub.project.embody(world)
 
 
+async def _watch_world(page: Connection, m: to_server.WatchWorld) -> None:
+    page.follower = Follower() if m.on else None
+
+
+async def _move_thing(page: Connection, m: to_server.MoveThing) -> None:
+    await _rearrange(page, lambda session: session.move(m.name, (m.x, m.y)))
+
+
+async def _place_thing(page: Connection, m: to_server.PlaceThing) -> None:
+    await _rearrange(page, lambda session: session.place(m.name, (m.x, m.y), (m.width, m.height)))
+
+
+async def _remove_thing(page: Connection, m: to_server.RemoveThing) -> None:
+    await _rearrange(page, lambda session: session.remove(m.name))
+
+
+async def _rearrange(page: Connection, how: Callable[[Session], None]) -> None:
+    page.hub.project.require_run()
+    await _engine(page, lambda: page.hub.engine.rearrange(how))
+
+
 # ------------------------------------------------------------------------------------------------ watching
 
 
@@ -248,9 +283,11 @@ _DO: dict[type[Any], Callable[[Connection, Any], Awaitable[Any]]] = {
     to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save, to_server.ListFolder: _list_folder, to_server.Set: _set,
     to_server.Describe: _describe, to_server.AddKnob: _add_knob, to_server.Link: _link, to_server.Unlink: _unlink,
     to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.ApplyPreset: _apply_preset,
+    to_server.ApplyPresetText: _apply_preset_text,
     to_server.Undo: _undo, to_server.Redo: _redo, to_server.Play: _play,
     to_server.Pause: _pause, to_server.Step: _step, to_server.Reset: _reset, to_server.Speed: _speed,
     to_server.Lengthen: _lengthen, to_server.MeasureCosts: _measure_costs, to_server.Push: _push,
-    to_server.Release: _release, to_server.UseWorld: _use_world, to_server.UseWorldContent: _use_world_content, to_server.Watch: _watch,
+    to_server.Release: _release, to_server.UseWorld: _use_world, to_server.UseWorldContent: _use_world_content, to_server.WatchWorld: _watch_world,
+    to_server.MoveThing: _move_thing, to_server.PlaceThing: _place_thing, to_server.RemoveThing: _remove_thing, to_server.Watch: _watch,
     to_server.Trace: _trace, to_server.Unwatch: _unwatch,
 }  # fmt: skip

@@ -244,6 +244,60 @@ class Costs(Message, frozen=True, tag="costs"):
     problems: list[Problem]
 
 
+class BoxView(Data, frozen=True):
+    """Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1); `fixed`: it cannot be moved."""
+
+    name: str
+    x: float
+    y: float
+    width: float
+    height: float
+    color: list[float]
+    fixed: bool
+
+
+class MarkView(Data, frozen=True):
+    """A place in the world that has a name, such as a goal; `fixed`: it cannot be moved."""
+
+    name: str
+    x: float
+    y: float
+    fixed: bool
+
+
+class BodyView(Data, frozen=True):
+    """Something round that moves by itself, and where it looks (rad; 0 along x, counter-clockwise)."""
+
+    name: str
+    x: float
+    y: float
+    heading: float
+    radius: float
+
+
+class SceneView(Data, frozen=True):
+    """What stands in the world, in its unit of length; `border` is lower x, lower y, upper x, upper y."""
+
+    unit: str
+    border: list[float]
+    boxes: list[BoxView]
+    marks: list[MarkView]
+
+
+class Scene(Message, frozen=True, tag="scene"):
+    """The world from above, whenever something in it was moved; None: there is nothing to see from above."""
+
+    scene: SceneView | None
+
+
+class Bodies(Message, frozen=True, tag="bodies"):
+    """Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was known of it before is over."""
+
+    bodies: list[BodyView]
+    fresh: bool
+    way: list[list[float]]
+
+
 class Announced(Message, frozen=True, tag="announced"):
     """What a stream holds from now on: its shape, and the axes as they are thinned. `folded` names axes over which the maximum is taken, because
     an array has more than two dimensions; `channels`: a picture. A time course has the shape [2]: pairs of time and value.
@@ -275,7 +329,8 @@ class Folder(Message, frozen=True, tag="folder"):
 
 class Answer(Message, frozen=True, tag="answer"):
     """The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
-    with discard) or `replace` (send it again with replace). `cost` is what a change cost, `unmatched` what a preset could not change.
+    with discard) or `replace` (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it changed
+    and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file of another tool that was opened.
     """
 
     request: int
@@ -283,7 +338,9 @@ class Answer(Message, frozen=True, tag="answer"):
     ask: Literal["", "unsaved", "replace"] = ""
     cost: Literal["", "live", "rebuild", "recompile"] = ""
     file: str = ""
+    carried: int = 0
     unmatched: list[str] = []
+    imported: str = ""
 
 
-ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Costs | Announced | Lost | Folder | Answer
+ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Costs | Scene | Bodies | Announced | Lost | Folder | Answer

@@ -140,6 +140,13 @@ class ApplyPreset(Request, frozen=True, kw_only=True, tag="apply_preset"):
     path: Text
 
 
+class ApplyPresetText(Request, frozen=True, kw_only=True, tag="apply_preset_text"):
+    """The same with the content of a file of the person's own."""
+
+    name: Text
+    text: str
+
+
 class Undo(Request, frozen=True, kw_only=True, tag="undo"):
     """Take the last change back."""
 
@@ -212,6 +219,36 @@ class UseWorldContent(Request, frozen=True, kw_only=True, tag="use_world_content
     content: str
 
 
+class WatchWorld(Request, frozen=True, kw_only=True, tag="watch_world"):
+    """Send `bodies` from now on, or no longer."""
+
+    on: bool
+
+
+class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
+    """Put a thing or a mark of the world elsewhere: x and y of its middle."""
+
+    name: Text
+    x: float
+    y: float
+
+
+class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
+    """Put a new thing into the world: its middle and its size."""
+
+    name: Text
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+class RemoveThing(Request, frozen=True, kw_only=True, tag="remove_thing"):
+    """Take a thing out of the world."""
+
+    name: Text
+
+
 class Watch(Request, frozen=True, kw_only=True, tag="watch"):
     """Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples along each axis (0: all)."""
 
@@ -245,6 +282,6 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 ToServer = (
     OpenFile | OpenExample | OpenText | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink | RemoveKnob
-    | Arrange | ApplyPreset | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
-    | Release | UseWorld | UseWorldContent | Watch | Trace | Unwatch | Drawn
+    | Arrange | ApplyPreset | ApplyPresetText | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
+    | Release | UseWorld | UseWorldContent | WatchWorld | MoveThing | PlaceThing | RemoveThing | Watch | Trace | Unwatch | Drawn
 )  # fmt: skip

@@ -10,6 +10,7 @@ import numpy as np
 
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, shape
+from deodar.worlds._scene import Scene
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,22 @@ class World:
 
     def put(self, kept: Any) -> None:
         """Back to a moment that `keep` kept."""
+
+    def scene(self) -> Scene | None:
+        """What there is to see from above, now; None: nothing that could be drawn so."""
+        return None
+
+    def move(self, name: str, center: Sequence[float]) -> None:
+        """Put a thing or a mark of the scene elsewhere: x and y of its middle."""
+        raise WorldError(f"nothing in the world {type(self).__name__} can be moved", where=name)
+
+    def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
+        """Put a thing there, or another one in the place of one of that name: x and y of its middle, its size along both."""
+        raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
+
+    def remove(self, name: str) -> None:
+        """Take a thing away."""
+        raise WorldError(f"nothing can be taken out of the world {type(self).__name__}", where=name)
 
     def describe(self) -> dict[str, Any]:
         """What a record keeps of the world, as plain data."""

@@ -67,6 +67,11 @@ class Furniture:
         """What stands there all the time."""
         return [t for t, w in zip(self.things, self.windows, strict=True) if t is not None and (w == ALWAYS).all()]
 
+    def there(self, period: int, trial: int) -> list[Thing]:
+        """What stands there in a period of a trial."""
+        rows = ((t, w[min(trial, len(w) - 1)]) for t, w in zip(self.things, self.windows, strict=True) if t is not None)
+        return [thing for thing, (start, stop) in rows if start <= period < stop]
+
     # -------------------------------------------------------------------------------- arrays
 
     def boxes(self) -> np.ndarray:

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
+from deodar.worlds._layout import UNITS
 
 FLOOR = (0.96, 0.96, 0.94)
 OUTSIDE = (0.25, 0.25, 0.25)
@@ -19,10 +20,10 @@ def covers(axes: Axes, boxes: Any, scale: float) -> Any:
     Args:
         axes: two of them; x is the one called x, else the first.
         boxes: (n, 4), m.
-        scale: metres in a unit of the axes.
+        scale: metres in a unit of axes that name no unit of length of their own.
     """
     across = 0 if axes[1].name != "x" else 1
-    sides = [_along(axes[d], boxes[:, k], boxes[:, k + 2], scale) for d, k in ((0, across), (1, 1 - across))]
+    sides = [_along(axes[d], boxes[:, k], boxes[:, k + 2], UNITS.get(axes[d].unit, scale)) for d, k in ((0, across), (1, 1 - across))]
     return sides[0][:, :, None] * sides[1][:, None, :]
 
 

@@ -27,10 +27,12 @@ from deodar.worlds._layout import UNITS, load, make
 from deodar.worlds._places import Places, of, rows_of
 from deodar.worlds._pure import PureWorld, Tree
 from deodar.worlds._room import Room
+from deodar.worlds._scene import Body, Box, Mark, Scene
 from deodar.worlds._vehicle import Vehicle, drive, limited, wrapped
 from deodar.worlds._view import coloured, covers, require_plane
 
 CONTACTS = ("slide", "stick")
+GOAL = "goal"
 WRAP = 2.0**15
 """Encoders count from -WRAP to WRAP and begin again, as those of the e-puck (16 bits)."""
 
@@ -151,8 +153,11 @@ class Arena(PureWorld):
         self.furniture.place(make(name, center, size, color, self.scale), windows)
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Put a thing elsewhere: x and y of its middle."""
-        self.furniture.move(name, center, self.scale)
+        """Put a thing elsewhere: x and y of its middle. What is called `goal` and is no thing is the goal."""
+        if name == GOAL and self.goals is not None and name not in [t.name for t in self.furniture.things if t is not None]:
+            self.aim(center)
+        else:
+            self.furniture.move(name, center, self.scale)
 
     def remove(self, name: str) -> None:
         """Take a thing away."""
@@ -167,6 +172,24 @@ class Arena(PureWorld):
         if problems:
             raise WorldError(problems)
         self.goals = goals
+
+    def scene(self) -> Scene:
+        """The arena from above, in its unit: what stands in it now for the first copy, its goals, and the vehicle of each copy once it has begun."""
+        state, trials = (self._now(), self._trials) if hasattr(self, "_state") else (None, (0,))
+        now = 0 if state is None else int(np.asarray(state["tick"])[0])
+        scale, k = self.scale, trials[0]
+        standing = self.furniture.there(now, k)
+        boxes = tuple(Box(t.name, (t.center[0] / scale, t.center[1] / scale), (t.size[0] / scale, t.size[1] / scale), t.color) for t in standing)
+        goals = () if self.goals is None else tuple((float(x), float(y)) for x, y in self.goals / scale)
+        marks = tuple(Mark(GOAL if len(goals) == 1 else f"{GOAL} {n}", goal, len(goals) > 1) for n, goal in enumerate(goals))
+        bodies: list[Body] = []
+        if state is not None:
+            places, headings, name = np.asarray(state["position"]) / scale, np.asarray(state["heading"]), self.vehicle.name
+            for n, trial in enumerate(trials):
+                called = name if len(trials) == 1 else f"{name} {trial}"
+                bodies.append(Body(called, (float(places[n, 0]), float(places[n, 1])), float(headings[n]), self.vehicle.radius / scale))
+        border = self.layout.border
+        return Scene(self.unit, (border[0] / scale, border[1] / scale, border[2] / scale, border[3] / scale), boxes, marks, tuple(bodies))
 
     # -------------------------------------------------------------------------------- arrays
 

@@ -10,7 +10,10 @@ import { useTrouble } from "./trouble";
 
 export function Pill({ element: id }: { element: string }) {
   const path = useStudio((state) => state.elements.get(id)?.path ?? "");
-  const label = useStudio((state) => labelOf(state.elements.get(id)?.name ?? "", state.kinds.get(state.elements.get(id)?.kind ?? "")?.title ?? ""));
+  const label = useStudio(({ elements, kinds }) => {
+    const { name = "", kind = "" } = elements.get(id) ?? {};
+    return labelOf(name, kind, kinds.get(kind)?.title ?? "");
+  });
   const selected = useStudio((state) => state.selected.includes(id));
   const trouble = useTrouble(id);
   const number = useStudio(({ elements, kinds, document }) => {

@@ -13,6 +13,8 @@ test("the failure of the run comes before the problems of the document", () => {
 });
 
 test("a name made from a connection gives way to the kind", () => {
-  expect(labelOf("colour>Gain", "Gain")).toBe("Gain");
-  expect(labelOf("strength", "Gain")).toBe("strength");
+  expect(labelOf("colour>Convolve", "Convolve", "Convolution")).toBe("Convolution");
+  expect(labelOf("colour>Gain2", "Gain", "Gain")).toBe("Gain");
+  expect(labelOf("strength", "Gain", "Gain")).toBe("strength");
+  expect(labelOf("u -> v", "Gain", "Gain"), "a name that somebody gave").toBe("u -> v");
 });

@@ -1,6 +1,6 @@
 // A file below the root, or one of the person's own.
 
-import { Button, FileButton, Group } from "@mantine/core";
+import { Button, FileButton, Group, Text } from "@mantine/core";
 import { useState } from "react";
 
 import { useStudio } from "../store";
@@ -9,7 +9,7 @@ import type { Asking } from "./dialogs";
 import { parent } from "./paths";
 import { useFolder } from "./useFolder";
 
-const ACCEPTED = { files: "application/json,.json", pictures: "image/*" };
+const ACCEPTED = { files: "application/json,.json", pictures: "image/*", values: "application/json,.json" };
 
 export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) {
   const file = useStudio((state) => state.document?.file ?? "");
@@ -17,7 +17,12 @@ export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) 
   const listing = useFolder(path);
   return (
     <>
-      <FolderBrowser path={path} listing={listing} wants={wants} onFolder={setPath} onFile={answer} marked={file} first />
+      {wants === "values" && (
+        <Text size="sm" mb="sm">
+          Elements of the same name and kind take the values that they have in the file. Connections stay, and undo takes all of it back.
+        </Text>
+      )}
+      <FolderBrowser path={path} listing={listing} wants={wants === "pictures" ? "pictures" : "files"} onFolder={setPath} onFile={answer} marked={file} first />
       <Group gap="xs" mt="md" justify="space-between">
         <FileButton accept={ACCEPTED[wants]} onChange={(chosen) => chosen !== null && answer(chosen)}>
           {(props) => (

@@ -3,9 +3,11 @@
 import { Modal } from "@mantine/core";
 
 import { ChooseDialog } from "./ChooseDialog";
+import { NotesDialog } from "./NotesDialog";
 import { ReplaceDialog } from "./ReplaceDialog";
 import { SaveAsDialog } from "./SaveAsDialog";
 import { ShortcutsDialog } from "./ShortcutsDialog";
+import { TakenDialog } from "./TakenDialog";
 import { UnsavedDialog } from "./UnsavedDialog";
 import { type Asked, useDialogs } from "./dialogs";
 
@@ -30,10 +32,16 @@ function contentOf(asked: Asked) {
       return <ChooseDialog {...asked} />;
     case "save_as":
       return <SaveAsDialog {...asked} />;
+    case "taken":
+      return <TakenDialog {...asked} />;
+    case "notes":
+      return <NotesDialog />;
     case "shortcuts":
       return <ShortcutsDialog />;
   }
 }
+
+const WANTED = { files: "Open a file", pictures: "Choose a picture", values: "Take over the values of a file" };
 
 function titleOf(asked: Asked): string {
   switch (asked.name) {
@@ -42,9 +50,13 @@ function titleOf(asked: Asked): string {
     case "replace":
       return "Write over the file?";
     case "choose":
-      return asked.question.wants === "files" ? "Open a file" : "Choose a picture";
+      return WANTED[asked.question.wants];
     case "save_as":
       return "Save as";
+    case "taken":
+      return "What did not match";
+    case "notes":
+      return "Notes";
     case "shortcuts":
       return "Keys and mouse";
   }
@@ -55,6 +67,7 @@ function sizeOf(asked: Asked | null): number {
     case "unsaved":
     case "replace":
       return 440;
+    case "notes":
     case "shortcuts":
       return 660;
     default:

@@ -1,11 +1,13 @@
 // The mark of deodar and, behind it, everything about files.
 
 import { Menu, UnstyledButton } from "@mantine/core";
-import { IconChevronDown, IconDeviceFloppy, IconFileExport, IconFolderOpen, IconHistory, IconLayoutGrid, IconX } from "@tabler/icons-react";
+import { IconChevronDown, IconDeviceFloppy, IconFileExport, IconFileImport, IconFolderOpen, IconHistory, IconLayoutGrid, IconNotes, IconX } from "@tabler/icons-react";
 
 import { useStudio } from "../store";
 import { Mark } from "./Mark";
+import { ask } from "./dialogs";
 import { leave, open, save, saveAs } from "./flows";
+import { takeValues } from "./values";
 import { useView } from "./view";
 import { keysText } from "../shortcuts";
 import classes from "./FileMenu.module.css";
@@ -14,6 +16,7 @@ const ICON = { size: 16, stroke: 1.6 };
 
 export function FileMenu() {
   const recent = useStudio((state) => state.gallery?.recent);
+  const noted = useStudio((state) => (state.document?.notes ?? "") !== "");
   return (
     <Menu position="bottom-start" shadow="md" width={260} withinPortal>
       <Menu.Target>
@@ -49,6 +52,13 @@ export function FileMenu() {
         </Menu.Item>
         <Menu.Item leftSection={<IconFileExport {...ICON} />} rightSection={<Keys keys="Ctrl+Shift+S" />} onClick={() => void saveAs()}>
           Save as…
+        </Menu.Item>
+        <Menu.Divider />
+        <Menu.Item leftSection={<IconFileImport {...ICON} />} onClick={() => void takeValues()}>
+          Take over values…
+        </Menu.Item>
+        <Menu.Item leftSection={<IconNotes {...ICON} />} disabled={!noted} onClick={() => void ask("notes", null)}>
+          Notes
         </Menu.Item>
         <Menu.Divider />
         <Menu.Item leftSection={<IconX {...ICON} />} onClick={() => void leave({ type: "close" })}>

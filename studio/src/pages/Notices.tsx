@@ -1,6 +1,6 @@
-// What the studio has to say, at the lower right: errors stay until they are put away, the rest goes by itself.
+// What the studio has to say, at the lower right: errors and offers stay until they are put away, the rest goes by itself.
 
-import { CloseButton } from "@mantine/core";
+import { Button, CloseButton } from "@mantine/core";
 import { IconAlertTriangle, IconCircleCheck } from "@tabler/icons-react";
 import { useEffect } from "react";
 
@@ -21,21 +21,26 @@ export function Notices() {
   );
 }
 
-function NoticeCard({ notice: { id, level, problem } }: { notice: Notice }) {
+function NoticeCard({ notice: { id, level, problem, offer } }: { notice: Notice }) {
   const dismiss = useStudio((state) => state.dismiss);
   useEffect(() => {
-    if (level === "error") {
+    if (level === "error" || offer !== undefined) {
       return;
     }
     const timer = setTimeout(() => dismiss(id), INFO_MS);
     return () => clearTimeout(timer);
-  }, [id, level, dismiss]);
+  }, [id, level, offer, dismiss]);
   const Icon = level === "error" ? IconAlertTriangle : IconCircleCheck;
   return (
     <div className={classes.notice} data-level={level}>
       <Icon size={18} className={classes.icon} aria-label={level === "error" ? "Problem" : "Done"} />
       <div className={classes.text}>
         <ProblemText problem={problem} />
+        {offer !== undefined && (
+          <Button size="compact-xs" variant="light" mt={6} onClick={() => (dismiss(id), offer.run())}>
+            {offer.label}
+          </Button>
+        )}
       </div>
       <CloseButton size="sm" aria-label="Dismiss" onClick={() => dismiss(id)} />
     </div>

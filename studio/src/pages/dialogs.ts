@@ -7,9 +7,13 @@ type Conversations = {
   unsaved: { question: { title: string }; answer: "save" | "discard" | "cancel" };
   // A file is in the way; where it is the document's own, it was changed by something else.
   replace: { question: { path: string; own: boolean }; answer: "replace" | "elsewhere" | "cancel" };
-  // A file below the root (its path), or one of the person's own.
-  choose: { question: { wants: "files" | "pictures" }; answer: string | File | null };
+  // A file below the root (its path), or one of the person's own: to open it, to show it to the sensors, or for its values.
+  choose: { question: { wants: "files" | "pictures" | "values" }; answer: string | File | null };
   save_as: { question: { path: string }; answer: string | null };
+  // What became of the values of a file.
+  taken: { question: { file: string; carried: number; unmatched: readonly string[] }; answer: "keep" | "undo" };
+  // The notes of the document, with the report on a file of another tool.
+  notes: { question: null; answer: null };
   shortcuts: { question: null; answer: null };
 };
 
@@ -28,7 +32,7 @@ const nothingAsked: Dialogs = { asked: null, cancel: () => {} };
 
 export const useDialogs = create<Dialogs>(() => nothingAsked);
 
-const CANCELLED: { [K in Name]: AnswerTo<K> } = { unsaved: "cancel", replace: "cancel", choose: null, save_as: null, shortcuts: null };
+const CANCELLED: { [K in Name]: AnswerTo<K> } = { unsaved: "cancel", replace: "cancel", choose: null, save_as: null, taken: "keep", notes: null, shortcuts: null };
 
 // Ask the person. A question that still stands is cancelled.
 export function ask<K extends Name>(name: K, question: Question<K>): Promise<AnswerTo<K>> {

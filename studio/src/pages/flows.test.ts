@@ -116,6 +116,15 @@ describe("opening", () => {
     expect(sent).toEqual([{ type: "open_text", name: "a.json", text: '{"deodar": 1}' }]);
   });
 
+  it("says what became of a file of another tool, and offers the report", async () => {
+    server({ imported: "Imported from a.json (another tool): 1 element." });
+    expect(await takeFile(new File(["{}"], "a.json"))).toBe(true);
+    expect(notices()).toEqual(["info: Imported from a.json (another tool): 1 element."]);
+    const questions = person(null);
+    await useStudio.getState().notices[0]?.offer?.run();
+    expect(questions.map((q) => q.name)).toEqual(["notes"]);
+  });
+
   it("may be given up", async () => {
     server();
     person(null);

@@ -15,7 +15,7 @@ type Leaving = OpenFile | OpenExample | OpenText | Recover | Close;
 export async function leave(message: Leaving): Promise<boolean> {
   const { answer } = await socket.ask(message);
   if (answer.ask !== "unsaved") {
-    return done(answer);
+    return done(answer) && arrived(answer);
   }
   const choice = await ask("unsaved", { title: useStudio.getState().document?.title ?? "" });
   switch (choice) {
@@ -69,8 +69,8 @@ export async function saveAs(): Promise<boolean> {
 
 // A file that was dropped or chosen: a document is opened, a picture is what the sensors read from now on.
 export async function takeFile(file: File): Promise<boolean> {
-  if (file.size > MOST_BYTES) {
-    return refuse({ what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`, fix: "Put it below the studio's folder and open it there." });
+  if (isTooLarge(file)) {
+    return false;
   }
   switch (sortOf(file)) {
     case "document":
@@ -80,6 +80,14 @@ export async function takeFile(file: File): Promise<boolean> {
     case "other":
       return refuse({ what: `${file.name} is neither a document (.json) nor a picture.` });
   }
+}
+
+// Whether a file is more than one message may hold; then that is said.
+export function isTooLarge(file: File): boolean {
+  if (file.size > MOST_BYTES) {
+    refuse({ what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`, fix: "Put it below the studio's folder and open it there." });
+  }
+  return file.size > MOST_BYTES;
 }
 
 export async function choosePicture(): Promise<boolean> {
@@ -101,8 +109,16 @@ async function showPicture(picture: string | File): Promise<boolean> {
   return (answer.problems ?? []).length === 0;
 }
 
+// What became of a file of another tool is said where it was opened.
+function arrived({ imported = "" }: Answer): boolean {
+  if (imported !== "") {
+    useStudio.getState().notify({ what: imported }, "info", { label: "Show the report", run: () => ask("notes", null) });
+  }
+  return true;
+}
+
 // Problems become notices.
-function done(answer: Answer): boolean {
+export function done(answer: Answer): boolean {
   const problems = answer.problems ?? [];
   for (const problem of problems) {
     useStudio.getState().notify(problem);

@@ -2,16 +2,18 @@
 
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useRef, useState, useSyncExternalStore } from "react";
 import { Costs } from "../costs/Costs";
 import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
 import { Pins } from "../pins/Pins";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { live } from "../world/live";
+import { World } from "../world/World";
 import { restore, signature } from "./arrangement";
 import { Empty } from "./Empty";
-import { setDock } from "./openPlot";
+import { openTool, setDock } from "./openPlot";
 import { PlotPanel } from "./PlotPanel";
 import "./dock.css";
 
@@ -20,6 +22,7 @@ const COMPONENTS = {
   inspector: () => <Inspector />,
   pins: () => <Pins />,
   costs: () => <Costs />,
+  world: () => <World />,
   plot: PlotPanel,
 };
 
@@ -67,6 +70,14 @@ export function Dock() {
       [...watch, ...ends].forEach((end) => end.dispose());
     };
   }, [api, session]);
+
+  // A world that can be seen from above is shown, unless the document says how panels stand.
+  const seen = useSyncExternalStore(live.listen, () => live.scene() !== null);
+  useEffect(() => {
+    if (api !== null && seen && useStudio.getState().document?.layout["panels"] === undefined) {
+      openTool("world");
+    }
+  }, [api, session, seen]);
 
   return (
     <div className="dock">

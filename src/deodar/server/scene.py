@@ -1,0 +1,46 @@
+"""The world from above, for a page: the scene when it changed, and the bodies with what is new of their way."""
+
+from __future__ import annotations
+
+from deodar.runtime.track import Track, Way
+from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, Scene, SceneView
+from deodar.worlds import _scene
+
+DIGITS = 6
+"""Digits of a place that are sent: more than a screen shows."""
+
+
+def scene(seen: _scene.Scene | None) -> Scene:
+    """What stands still, unless a hand moves it."""
+    if seen is None:
+        return Scene(scene=None)
+    boxes = [
+        BoxView(name=b.name, x=b.center[0], y=b.center[1], width=b.size[0], height=b.size[1], color=list(b.color), fixed=b.fixed) for b in seen.boxes
+    ]
+    marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
+    return Scene(scene=SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks))
+
+
+class Follower:
+    """What one page knows of the bodies and of their way."""
+
+    def __init__(self) -> None:
+        self._way: Way | None = None
+        self._taken = 0
+        self._bodies: list[BodyView] = []
+
+    def news(self, track: Track) -> Bodies | None:
+        """Where the bodies are, and the places of their way that the page does not have; None where nothing moved."""
+        seen, way = track.scene, track.way
+        bodies = [] if seen is None else [_body(b) for b in seen.bodies]
+        fresh = way is not self._way
+        taken = 0 if fresh else self._taken
+        count = len(way.places)  # it may grow meanwhile
+        if not fresh and count == taken and bodies == self._bodies:
+            return None
+        self._way, self._taken, self._bodies = way, count, bodies
+        return Bodies(bodies=bodies, fresh=fresh, way=[[round(v, DIGITS) for v in place] for place in way.places[taken:count]])
+
+
+def _body(body: _scene.Body) -> BodyView:
+    return BodyView(name=body.name, x=body.center[0], y=body.center[1], heading=body.heading, radius=body.radius)

@@ -1,0 +1,119 @@
+import { afterAll, beforeAll, expect, test } from "vitest";
+
+import { frameOf, type Point, toPixels } from "../src/world/place";
+import { button, colours, panel } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+const PLAN = {
+  arena: { x: [0, 3], y: [0, 2] },
+  walls: [{ name: "wall", center: [2.2, 1.7], size: [0.1, 0.6] }],
+  boxes: [{ name: "crate", center: [0.8, 1.5], size: [0.2, 0.3] }],
+  start: [0.2, 1.0],
+  goal: [2.7, 0.5],
+};
+const axisless = (kind: string, id: string, more: object) => ({ kind, id, axes: [], ...more });
+const DRIVING = {
+  deodar: 1,
+  name: "driving",
+  dt: 64,
+  axes: {},
+  elements: {
+    "go left": axisless("Boost", "00000001", { amplitude: 1000 }),
+    left: axisless("Motor", "00000002", { motor: "left" }),
+    "go right": axisless("Boost", "00000003", { amplitude: 1000 }),
+    right: axisless("Motor", "00000004", { motor: "right" }),
+  },
+  connections: [
+    { source: "go left.output", target: "left.input" },
+    { source: "go right.output", target: "right.input" },
+  ],
+};
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  const files = { "driving.json": JSON.stringify(DRIVING), "plan.json": JSON.stringify(PLAN) };
+  studio = await startStudio({ files, file: "driving.json", words: ["--world", "arena:plan.json"] });
+  observer = await studio.observe();
+  await observer.runs();
+  await observer.ask({ type: "watch_world", on: true });
+});
+
+afterAll(() => studio.stop());
+
+const world = () => panel(studio.page, "World");
+const canvas = () => world().getByRole("img", { name: /^The world from above/ });
+const told = () => world().getByRole("status");
+const thing = (name: string) => [...(observer.world.now.scene?.boxes ?? []), ...(observer.world.now.scene?.marks ?? [])].find((one) => one.name === name);
+const robot = () => observer.world.now.bodies[0]?.x ?? Number.NaN;
+
+/** Where a place in the world is on the page. */
+async function onPage(place: Point): Promise<Point> {
+  const area = await canvas().boundingBox();
+  if (area === null) throw new Error("The world is not in sight.");
+  const { x, y } = toPixels(frameOf([0, 0, 3, 2], area.width, area.height), place);
+  return { x: area.x + x, y: area.y + y };
+}
+
+async function drag(from: Point, to: Point): Promise<void> {
+  const { mouse } = studio.page;
+  const [start, end] = [await onPage(from), await onPage(to)];
+  await mouse.move(start.x, start.y);
+  await mouse.down();
+  await mouse.move(end.x, end.y, { steps: 8 });
+  await mouse.up();
+}
+
+test("the world stands there by itself, and the mouse over a thing tells its name and place", async () => {
+  await canvas().waitFor();
+  await expect.poll(() => colours(canvas())).toBeGreaterThan(4);
+  const { x, y } = await onPage({ x: 0.8, y: 1.5 });
+  await studio.page.mouse.move(x, y);
+  await expect.poll(() => told().textContent()).toBe("crate: 0.80, 1.50 m");
+});
+
+test("a crate that is dragged before the robot while it runs stops it; dragged away, the robot goes on", async () => {
+  await observer.ask({ type: "speed", factor: 1 });
+  await button(studio.page, "Play").click();
+  await observer.until(() => observer.running);
+  await drag({ x: 0.8, y: 1.5 }, { x: 1.6, y: 1.05 });
+  await observer.until(() => Math.abs((thing("crate")?.x ?? 0) - 1.6) < 0.05 && Math.abs((thing("crate")?.y ?? 0) - 1.05) < 0.05);
+  await observer.until(() => robot() > 1.4);
+  const { time } = observer;
+  await observer.until(() => observer.time > time + 2000);
+  expect(robot()).toBeLessThan((thing("crate")?.x ?? 0) - 0.1 - 0.036);
+  await shot(studio.page, "studio-world");
+  await drag({ x: thing("crate")?.x ?? 0, y: thing("crate")?.y ?? 0 }, { x: 1.0, y: 0.3 });
+  await observer.until(() => robot() > 1.8);
+  expect(observer.world.now.way.length).toBeGreaterThan(20);
+  await button(studio.page, "Pause").click();
+  await observer.until(() => !observer.running);
+});
+
+test("a goal moves too; what does not fit is refused with its reason, and stays", async () => {
+  await drag({ x: 2.7, y: 0.5 }, { x: 2.5, y: 0.2 });
+  await observer.until(() => Math.abs((thing("goal")?.x ?? 0) - 2.5) < 0.02);
+  const before = thing("goal");
+  const { mouse } = studio.page;
+  const [from, to] = [await onPage({ x: before?.x ?? 0, y: before?.y ?? 0 }), await onPage({ x: 2.2, y: 1.7 })];
+  await mouse.move(from.x, from.y);
+  await mouse.down();
+  await mouse.move(to.x, to.y);
+  await expect.poll(() => told().textContent()).toMatch(/^goal: .* lies inside 'wall'/);
+  await mouse.up();
+  expect(thing("goal")).toEqual(before);
+});
+
+test("a double click places a box, arrow keys move it, Delete takes it away", async () => {
+  const { x, y } = await onPage({ x: 0.4, y: 0.4 });
+  await studio.page.mouse.dblclick(x, y);
+  await observer.until(() => thing("box 1"));
+  await world().getByLabel("Thing to move").selectOption("box 1");
+  const before = thing("box 1")?.x ?? Number.NaN;
+  await canvas().press("ArrowRight");
+  await observer.until(() => Math.abs((thing("box 1")?.x ?? 0) - before - 0.03) < 1e-9);
+  await canvas().press("Delete");
+  await observer.until(() => thing("box 1") === undefined);
+});

@@ -1,0 +1,33 @@
+// What did not match when the values of a file were taken over.
+
+import { Button, Group, Text } from "@mantine/core";
+
+import type { Asking } from "./dialogs";
+import { takenText } from "./values";
+import classes from "./TakenDialog.module.css";
+
+export function TakenDialog({ question: { file, carried, unmatched }, answer }: Asking<"taken">) {
+  const label = unmatched.length === 1 ? "1 thing did not match" : `${unmatched.length} things did not match`;
+  return (
+    <>
+      <Text size="sm" style={{ overflowWrap: "anywhere" }}>
+        {takenText(carried, file)} {label} and stays as it is here:
+      </Text>
+      <ul className={classes.list} aria-label={label} tabIndex={0}>
+        {unmatched.map((line, i) => (
+          <li key={i}>{line}</li>
+        ))}
+      </ul>
+      <Group gap="xs" mt="lg" justify="flex-end">
+        {carried > 0 && (
+          <Button variant="default" onClick={() => answer("undo")}>
+            Undo
+          </Button>
+        )}
+        <Button onClick={() => answer("keep")} data-autofocus autoFocus>
+          {carried > 0 ? "Keep" : "Close"}
+        </Button>
+      </Group>
+    </>
+  );
+}

@@ -1,0 +1,44 @@
+// The values of another file, taken over by the document that is open.
+
+import type { Answer } from "../protocol";
+import { request, socket } from "../socket";
+import { useStudio } from "../store";
+import { ask } from "./dialogs";
+import { done, isTooLarge } from "./flows";
+import { lastPart } from "./paths";
+
+// Ask for a file and take its values over. What did not match is shown. True where something was taken over and kept.
+export async function takeValues(): Promise<boolean> {
+  const chosen = await ask("choose", { wants: "values" });
+  if (chosen === null || (chosen instanceof File && isTooLarge(chosen))) {
+    return false;
+  }
+  const answer = await sent(chosen);
+  if (!done(answer)) {
+    return false;
+  }
+  const { carried = 0, unmatched = [] } = answer;
+  const file = typeof chosen === "string" ? lastPart(chosen) : chosen.name;
+  if (unmatched.length === 0) {
+    useStudio.getState().notify({ what: takenText(carried, file) }, "info");
+    return carried > 0;
+  }
+  if ((await ask("taken", { file, carried, unmatched })) === "undo") {
+    await request({ type: "undo" });
+    return false;
+  }
+  return carried > 0;
+}
+
+async function sent(chosen: string | File): Promise<Answer> {
+  const message =
+    typeof chosen === "string"
+      ? ({ type: "apply_preset", path: chosen } as const)
+      : ({ type: "apply_preset_text", name: chosen.name, text: await chosen.text() } as const);
+  return (await socket.ask(message)).answer;
+}
+
+// How many values changed, in a sentence.
+export function takenText(carried: number, file: string): string {
+  return carried === 0 ? `No value of ${file} differs from what is open.` : `${carried === 1 ? "1 value was" : `${carried} values were`} taken over from ${file}.`;
+}

@@ -1,0 +1,174 @@
+// The panel of the world: what a robot drives in, from above and to scale. Things and goals are moved by hand while it runs.
+
+import "./world.css";
+
+import { NativeSelect, useComputedColorScheme } from "@mantine/core";
+import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState, useSyncExternalStore } from "react";
+
+import { pageLook } from "../plots/look";
+import { request, socket } from "../socket";
+import { useStudio } from "../store";
+import { Carrier } from "./carrier";
+import { draw } from "./draw";
+import { live } from "./live";
+import { type Frame, frameOf, freeName, inside, placeText, type Point, things, toWorld, under } from "./place";
+
+const HELP = "Drag a thing. A double click places a box, Delete takes one away, arrow keys move what is chosen.";
+// A box that is placed, and a step of an arrow key, as shares of the shorter and of the longer side.
+const BOX = 0.06;
+const STEP = 0.01;
+const ARROWS: Record<string, Point> = { ArrowLeft: { x: -1, y: 0 }, ArrowRight: { x: 1, y: 0 }, ArrowUp: { x: 0, y: 1 }, ArrowDown: { x: 0, y: -1 } };
+
+export function World() {
+  const scene = useSyncExternalStore(live.listen, live.scene);
+  const open = useStudio((state) => state.connection === "open");
+  const shade = useComputedColorScheme();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const frame = useRef<Frame | null>(null);
+  const grip = useRef<Point | null>(null);
+  const redraw = useRef(() => {});
+  const [hovered, setHovered] = useState<string | null>(null);
+  const [selected, setSelected] = useState<string | null>(null);
+  const [carrier, setCarrier] = useState<{ held: Carrier["held"]; refused: string }>({ held: null, refused: "" });
+  const hand = useRef<Carrier | null>(null);
+  hand.current ??= new Carrier(
+    async (message) => (await socket.ask(message)).answer,
+    () => hand.current !== null && setCarrier({ held: hand.current.held, refused: hand.current.refused }),
+  );
+
+  useEffect(() => {
+    if (open) {
+      socket.post({ type: "watch_world", on: true });
+      return () => socket.post({ type: "watch_world", on: false });
+    }
+    return undefined;
+  }, [open]);
+
+  useEffect(() => {
+    const element = canvas.current;
+    if (element === null) {
+      return;
+    }
+    let due = 0;
+    const paint = () => {
+      due = 0;
+      const { clientWidth: width, clientHeight: height } = element;
+      const ctx = element.getContext("2d");
+      const border = live.now.scene?.border;
+      if (ctx === null || border === undefined || width === 0) {
+        return;
+      }
+      const fine = devicePixelRatio;
+      if (element.width !== Math.round(width * fine) || element.height !== Math.round(height * fine)) {
+        element.width = Math.round(width * fine);
+        element.height = Math.round(height * fine);
+      }
+      ctx.setTransform(fine, 0, 0, fine, 0, 0);
+      ctx.clearRect(0, 0, width, height);
+      frame.current = frameOf(border, width, height);
+      const { held, refused } = carrier;
+      draw(ctx, frame.current, live.now, { hovered, selected, held: held === null ? null : { ...held, refused: refused !== "" } }, pageLook());
+    };
+    redraw.current = () => {
+      due ||= requestAnimationFrame(paint);
+    };
+    const sizes = new ResizeObserver(() => redraw.current());
+    sizes.observe(element);
+    const end = live.listen(() => redraw.current());
+    redraw.current();
+    return () => {
+      cancelAnimationFrame(due);
+      sizes.disconnect();
+      end();
+    };
+  }, [scene === null, hovered, selected, carrier, shade]);
+
+  if (scene === null) {
+    return (
+      <p className="world-none dim" role="status">
+        Nothing to see from above. Start the studio with a world that has a plan, for example: deodar studio FILE --world arena:blocks
+      </p>
+    );
+  }
+
+  const all = things(scene);
+  const find = (name: string | null) => all.find((thing) => thing.name === name);
+  const at = ({ nativeEvent: { offsetX: x, offsetY: y } }: { nativeEvent: MouseEvent }): Point => ({ x, y });
+  const down = (event: PointerEvent<HTMLCanvasElement>) => {
+    const thing = frame.current === null || event.button !== 0 ? null : under(scene, frame.current, at(event));
+    setSelected(thing?.name ?? null);
+    hand.current?.forgive();
+    if (thing !== null && !thing.fixed && frame.current !== null) {
+      const place = toWorld(frame.current, at(event));
+      grip.current = { x: thing.x - place.x, y: thing.y - place.y };
+      event.currentTarget.setPointerCapture(event.pointerId);
+    }
+  };
+  const move = (event: PointerEvent<HTMLCanvasElement>) => {
+    if (frame.current === null) {
+      return;
+    }
+    if (grip.current === null || selected === null) {
+      setHovered(under(scene, frame.current, at(event))?.name ?? bodyUnder(frame.current, at(event)));
+      return;
+    }
+    const place = toWorld(frame.current, at(event));
+    hand.current?.carry(selected, inside(frame.current, { x: place.x + grip.current.x, y: place.y + grip.current.y }));
+  };
+  const up = () => {
+    grip.current = null;
+    hand.current?.drop();
+  };
+  const put = (event: { nativeEvent: MouseEvent }) => {
+    if (frame.current !== null && under(scene, frame.current, at(event)) === null) {
+      const [x0, y0, x1, y1] = frame.current.border;
+      const size = BOX * Math.min(x1 - x0, y1 - y0);
+      void request({ type: "place_thing", name: freeName(scene), ...inside(frame.current, toWorld(frame.current, at(event))), width: size, height: size });
+    }
+  };
+  const key = (event: KeyboardEvent) => {
+    const [thing, arrow, border] = [find(selected), ARROWS[event.key], frame.current?.border];
+    if (thing === undefined || border === undefined || frame.current === null) {
+      return;
+    }
+    if (arrow !== undefined) {
+      const step = STEP * Math.max(border[2] - border[0], border[3] - border[1]);
+      hand.current?.carry(thing.name, inside(frame.current, { x: thing.x + step * arrow.x, y: thing.y + step * arrow.y }));
+      hand.current?.drop();
+    } else if (event.key === "Delete" || event.key === "Backspace") {
+      void request({ type: "remove_thing", name: thing.name });
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation(); // keys of the page do other things
+  };
+
+  const looked = find(carrier.held?.name ?? hovered ?? selected) ?? live.now.bodies.find(({ name }) => name === hovered);
+  const told = looked === undefined ? HELP : `${looked.name}: ${placeText(carrier.held?.at ?? looked, scene.border, scene.unit)}`;
+  return (
+    <section className="world" aria-label="World from above">
+      <header className="world-head">
+        <NativeSelect size="xs" variant="unstyled" aria-label="Thing to move" value={selected ?? ""}
+          data={[{ value: "", label: "nothing chosen" }, ...all.filter(({ fixed }) => !fixed).map(({ name }) => ({ value: name, label: name }))]}
+          onChange={(event) => setSelected(event.currentTarget.value || null)}
+        />
+        <span className={`world-told one-line numbers${carrier.refused === "" ? "" : " world-refused"}`} role="status" title={carrier.refused === "" ? told : carrier.refused}>
+          {carrier.refused === "" ? told : carrier.refused}
+        </span>
+      </header>
+      <div className="world-body">
+        <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The world from above: ${all.map(({ name }) => name).join(", ")}`}
+          style={{ cursor: grip.current !== null ? "grabbing" : find(hovered)?.fixed === false ? "grab" : "default" }}
+          onPointerDown={down} onPointerMove={move} onPointerUp={up} onPointerCancel={up} onPointerLeave={() => setHovered(null)}
+          onDoubleClick={put} onKeyDown={key}
+        />
+      </div>
+    </section>
+  );
+}
+
+function bodyUnder(frame: Frame, pixel: Point): string | null {
+  const { x, y } = toWorld(frame, pixel);
+  return live.now.bodies.find((body) => Math.hypot(body.x - x, body.y - y) <= body.radius)?.name ?? null;
+}

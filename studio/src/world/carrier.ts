@@ -1,0 +1,67 @@
+// Carries a thing to where the pointer is: one request at a time, the newest place next, so that a slow run is asked no more than it can do.
+
+import type { Answer, ToServer } from "../protocol";
+import type { Point } from "./place";
+
+type Ask = (message: ToServer) => Promise<Answer>;
+
+export class Carrier {
+  // What is being carried, and where to; null: nothing.
+  held: { name: string; at: Point } | null = null;
+  // Why the last place was refused; empty where it was not.
+  refused = "";
+  private asking = false;
+  private due = false;
+  private down = false;
+
+  // `told` runs when something of the above changed.
+  constructor(
+    private ask: Ask,
+    private told: () => void,
+  ) {}
+
+  carry(name: string, at: Point): void {
+    this.held = { name, at };
+    this.down = false;
+    this.due = true;
+    this.told();
+    void this.go();
+  }
+
+  // Let go: the thing stays at the last place that was not refused.
+  drop(): void {
+    this.down = true;
+    this.settle();
+  }
+
+  // What was refused before is told no longer.
+  forgive(): void {
+    this.refused = "";
+    this.told();
+  }
+
+  private async go(): Promise<void> {
+    if (this.asking) {
+      return;
+    }
+    this.asking = true;
+    while (this.due && this.held !== null) {
+      this.due = false;
+      const { name, at } = this.held;
+      const { problems } = await this.ask({ type: "move_thing", name, x: at.x, y: at.y });
+      const [problem] = problems ?? [];
+      this.refused = problem === undefined ? "" : [problem.where, problem.what].filter((part) => part !== undefined && part !== "").join(": ");
+      this.told();
+    }
+    this.asking = false;
+    this.settle();
+  }
+
+  private settle(): void {
+    if (this.down && !this.asking) {
+      this.held = null;
+      this.down = false;
+      this.told();
+    }
+  }
+}

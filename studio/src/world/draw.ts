@@ -1,0 +1,147 @@
+// Draws a world from above: floor, axes, what stands there, the way of the bodies, marks, bodies.
+
+import type { BodyView, BoxView, MarkView } from "../protocol";
+import { font, type Look } from "../plots/look";
+import type { Seen } from "./live";
+import { type Frame, type Point, ticks, toPixels } from "./place";
+
+const FLOOR = "#f5f5f0";
+const INK = "#1c2420";
+const GOAL = "#00734f";
+const REFUSED = "#b3261e";
+// Of several bodies; colours that most people can tell apart (Okabe and Ito).
+const BODIES = ["#0050a0", "#b85c00", "#00734f", "#9b3a78"];
+const APART = 54;
+const SHORT = 4;
+
+export type Held = { name: string; at: Point; refused: boolean };
+export type Picked = { hovered: string | null; selected: string | null; held: Held | null };
+
+export function draw(ctx: CanvasRenderingContext2D, frame: Frame, { scene, bodies, way }: Seen, picked: Picked, look: Look): void {
+  if (scene === null) {
+    return;
+  }
+  const [x0, y0, x1, y1] = frame.border;
+  const low = toPixels(frame, { x: x0, y: y0 });
+  const high = toPixels(frame, { x: x1, y: y1 });
+  drawAxes(ctx, frame, scene.unit, look);
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(low.x, high.y, high.x - low.x, low.y - high.y);
+  ctx.fillStyle = FLOOR;
+  ctx.fill();
+  ctx.clip();
+  const held = picked.held;
+  for (const box of scene.boxes) {
+    drawBox(ctx, frame, box, box.name === picked.selected || box.name === picked.hovered);
+  }
+  bodies.forEach((_, n) => drawWay(ctx, frame, way, n, bodies[n] as BodyView));
+  for (const mark of scene.marks) {
+    drawMark(ctx, frame, mark, mark.name === picked.selected || mark.name === picked.hovered);
+  }
+  bodies.forEach((body, n) => drawBody(ctx, frame, body, BODIES[n % BODIES.length] as string));
+  if (held?.refused === true) {
+    const box = scene.boxes.find(({ name }) => name === held.name);
+    drawGhost(ctx, frame, held.at, box);
+  }
+  ctx.restore();
+}
+
+function drawAxes(ctx: CanvasRenderingContext2D, frame: Frame, unit: string, look: Look): void {
+  const [x0, y0, x1, y1] = frame.border;
+  const low = toPixels(frame, { x: x0, y: y0 });
+  const high = toPixels(frame, { x: x1, y: y1 });
+  ctx.strokeStyle = look.dim;
+  ctx.fillStyle = look.dim;
+  ctx.lineWidth = 1;
+  ctx.font = font(look);
+  ctx.strokeRect(low.x - 0.5, high.y - 0.5, high.x - low.x + 1, low.y - high.y + 1);
+  ctx.textAlign = "center";
+  ctx.textBaseline = "top";
+  const across = ticks(x0, x1, frame.scale, APART);
+  for (const x of across.values) {
+    const at = toPixels(frame, { x, y: y0 });
+    line(ctx, at.x, at.y, at.x, at.y + SHORT);
+    ctx.fillText(x.toFixed(across.digits), at.x, at.y + SHORT + 2);
+  }
+  const named = unit === "" ? "" : ` (${unit})`;
+  ctx.fillText(`x${named}`, (low.x + high.x) / 2, low.y + 20);
+  ctx.textAlign = "right";
+  ctx.textBaseline = "middle";
+  const up = ticks(y0, y1, frame.scale, APART / 1.5);
+  for (const y of up.values) {
+    const at = toPixels(frame, { x: x0, y });
+    line(ctx, at.x - SHORT, at.y, at.x, at.y);
+    ctx.fillText(y.toFixed(up.digits), at.x - SHORT - 3, at.y);
+  }
+  ctx.save();
+  ctx.translate(low.x - 38, (low.y + high.y) / 2);
+  ctx.rotate(-Math.PI / 2);
+  ctx.textAlign = "center";
+  ctx.fillText(`y${named}`, 0, 0);
+  ctx.restore();
+}
+
+function drawBox(ctx: CanvasRenderingContext2D, frame: Frame, box: BoxView, marked: boolean): void {
+  const corner = toPixels(frame, { x: box.x - box.width / 2, y: box.y + box.height / 2 });
+  const [r, g, b] = box.color.map((part) => Math.round(255 * part));
+  ctx.fillStyle = `rgb(${r} ${g} ${b})`;
+  ctx.fillRect(corner.x, corner.y, box.width * frame.scale, box.height * frame.scale);
+  if (marked && !box.fixed) {
+    ctx.strokeStyle = INK;
+    ctx.lineWidth = 2;
+    ctx.strokeRect(corner.x + 1, corner.y + 1, box.width * frame.scale - 2, box.height * frame.scale - 2);
+  }
+}
+
+function drawGhost(ctx: CanvasRenderingContext2D, frame: Frame, at: Point, box: BoxView | undefined): void {
+  const width = (box?.width ?? 0) * frame.scale || 16;
+  const height = (box?.height ?? 0) * frame.scale || 16;
+  const middle = toPixels(frame, at);
+  ctx.strokeStyle = REFUSED;
+  ctx.lineWidth = 2;
+  ctx.setLineDash([4, 3]);
+  ctx.strokeRect(middle.x - width / 2, middle.y - height / 2, width, height);
+  ctx.setLineDash([]);
+}
+
+function drawWay(ctx: CanvasRenderingContext2D, frame: Frame, way: number[][], n: number, body: BodyView): void {
+  ctx.strokeStyle = BODIES[n % BODIES.length] as string;
+  ctx.lineWidth = 1.5;
+  ctx.lineJoin = "round";
+  ctx.beginPath();
+  for (const places of [...way.map((row) => ({ x: row[2 * n] as number, y: row[2 * n + 1] as number })), body]) {
+    const at = toPixels(frame, places);
+    ctx.lineTo(at.x, at.y);
+  }
+  ctx.stroke();
+}
+
+function drawMark(ctx: CanvasRenderingContext2D, frame: Frame, mark: MarkView, marked: boolean): void {
+  const { x, y } = toPixels(frame, mark);
+  const reach = marked ? 8 : 6;
+  ctx.strokeStyle = GOAL;
+  ctx.lineWidth = marked ? 3 : 2;
+  line(ctx, x - reach, y, x + reach, y);
+  line(ctx, x, y - reach, x, y + reach);
+}
+
+function drawBody(ctx: CanvasRenderingContext2D, frame: Frame, body: BodyView, colour: string): void {
+  const { x, y } = toPixels(frame, body);
+  const radius = Math.max(3, body.radius * frame.scale);
+  ctx.fillStyle = "#ffffff";
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 2;
+  ctx.beginPath();
+  ctx.arc(x, y, radius, 0, 2 * Math.PI);
+  ctx.fill();
+  ctx.stroke();
+  line(ctx, x, y, x + radius * Math.cos(body.heading), y - radius * Math.sin(body.heading));
+}
+
+function line(ctx: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {
+  ctx.beginPath();
+  ctx.moveTo(x0, y0);
+  ctx.lineTo(x1, y1);
+  ctx.stroke();
+}

@@ -1,0 +1,35 @@
+// The world as the server showed it last: what stands in it, where its bodies are, and the way they came. Many pictures a second pass through
+// here, so that React is told only of what stands still.
+
+import type { Bodies, BodyView, Scene, SceneView } from "../protocol";
+
+export type Seen = { scene: SceneView | null; bodies: BodyView[]; way: number[][] };
+
+export class Live {
+  private seen: Seen = { scene: null, bodies: [], way: [] };
+  private listeners = new Set<() => void>();
+
+  get now(): Seen {
+    return this.seen;
+  }
+
+  // What stands still, as React asks for it: the same object until it changes.
+  readonly scene = (): SceneView | null => this.seen.scene;
+
+  readonly listen = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  take(message: Scene | Bodies): void {
+    if (message.type === "scene") {
+      this.seen = { ...this.seen, scene: message.scene };
+    } else {
+      const { bodies, fresh, way } = message;
+      this.seen = { ...this.seen, bodies, way: fresh ? way : [...this.seen.way, ...way] };
+    }
+    this.listeners.forEach((listener) => listener());
+  }
+}
+
+export const live = new Live();

@@ -1,0 +1,145 @@
+"""The world from above, over a real socket: what a page is sent, and what a hand on it moves."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
+from deodar.worlds.arena import Arena
+from tests.server.page import Page, page, play, studio
+
+LAYOUT: dict[str, Any] = {
+    "arena": {"x": [0, 3], "y": [0, 2]},
+    "boxes": [{"name": "crate", "center": [0.8, 1.5], "size": [0.2, 0.2], "color": [0.7, 0.5, 0.3]}],
+    "start": [0.2, 1.0],
+    "goal": [2.5, 0.5],
+}
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    """A robot that drives straight on."""
+    model = dd.Model("driving", dt=64)
+    for name in ("left", "right"):
+        model.add(Boost(f"go {name}", [], 1000.0)) >> model.add(Motor(name, [], name))
+    dd.save(model, tmp_path / "driving.json")
+    return tmp_path / "driving.json"
+
+
+def scene(one: Page) -> dict[str, Any]:
+    return one.said["scene"]["scene"]
+
+
+def box(one: Page, name: str) -> dict[str, Any]:
+    return next((b for b in scene(one)["boxes"] if b["name"] == name), {})
+
+
+def way(one: Page) -> list[list[float]]:
+    """All places that the page was told of, as a page keeps them."""
+    out: list[list[float]] = []
+    for message in one.all:
+        if message["type"] == "bodies":
+            out = ([] if message["fresh"] else out) + message["way"]
+    return out
+
+
+async def shown(one: Page) -> None:
+    await one.runs()
+    await one.until(lambda: one.said.get("scene", {}).get("scene"))
+
+
+def test_a_page_is_shown_the_world_and_where_the_robot_went(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        assert scene(one)["unit"] == "m" and scene(one)["border"] == [0, 0, 3, 2]
+        assert box(one, "crate") == {"name": "crate", "x": 0.8, "y": 1.5, "width": 0.2, "height": 0.2, "color": [0.7, 0.5, 0.3], "fixed": False}
+        assert scene(one)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
+        assert "bodies" not in one.said, "it did not ask"
+        await one.do("watch_world", on=True)
+        await one.do("speed", factor=None)
+        await one.do("step", n=60)
+        await one.until(lambda: one.clock["tick"] == 60 and one.said["bodies"]["bodies"][0]["x"] > 0.5)
+        body = one.said["bodies"]["bodies"][0]
+        assert body["name"] == "e-puck" and body["radius"] == pytest.approx(0.037)
+        gaps = [math.dist(a, b) for a, b in zip(way(one), way(one)[1:], strict=False)]
+        assert way(one)[0] == pytest.approx([0.2, 1.0]) and len(gaps) > 5 and math.dist(way(one)[-1], (body["x"], body["y"])) < 0.02
+        scenes = [m for m in one.all if m["type"] == "scene" and m["scene"]]
+        assert len(scenes) == 1, "what stands still is sent once"
+        async with page_of(one) as late:
+            await late.do("watch_world", on=True)
+            await late.until(lambda: way(late) == way(one))
+        await one.do("reset")
+        await one.until(lambda: way(one) == [pytest.approx([0.2, 1.0])])
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        page_of.address = address  # type: ignore[attr-defined]
+        play(address, story)
+
+
+def page_of(one: Page) -> Any:
+    """A further page before the same studio."""
+    return page(page_of.address)  # type: ignore[attr-defined]
+
+
+def test_a_thing_that_is_moved_while_it_runs_stops_the_robot(file: Path) -> None:
+    arena = Arena(LAYOUT)
+
+    async def story(one: Page) -> None:
+        await shown(one)
+        await one.do("watch_world", on=True)
+        await one.do("speed", factor=8)
+        await one.do("play")
+        await one.do("move_thing", name="crate", x=1.2, y=1.0)
+        await one.until(lambda: box(one, "crate")["x"] == 1.2)
+        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.06)
+        tick = one.clock["tick"]
+        await one.until(lambda: one.clock["tick"] > tick + 30)
+        assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), "it stands before the crate"
+        await one.do("move_thing", name="goal", x=2.0, y=0.4)
+        await one.until(lambda: scene(one)["marks"][0]["x"] == 2.0)
+        await one.do("remove_thing", name="crate")
+        await one.until(lambda: not scene(one)["boxes"])
+        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.3)
+        await one.do("place_thing", name="block", x=1.0, y=0.3, width=0.1, height=0.2)
+        await one.until(lambda: box(one, "block").get("height") == 0.2)
+
+    with studio(file.parent, file, world=arena) as address:
+        play(address, story)
+    assert [t.name for t in arena.furniture.standing()] == ["block"]
+
+
+def test_what_does_not_fit_is_refused_by_name_and_nothing_moves(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        for request, said in [
+            ({"type": "move_thing", "name": "crate", "x": 0.2, "y": 1.0}, "stand on 'e-puck'"),
+            ({"type": "move_thing", "name": "crate", "x": 9, "y": 1.0}, "outside the border"),
+            ({"type": "move_thing", "name": "goal", "x": 0.8, "y": 1.5}, "inside 'crate'"),
+            ({"type": "move_thing", "name": "crat", "x": 1, "y": 1}, "'crat'"),
+            ({"type": "remove_thing", "name": "goal"}, "is a mark"),
+            ({"type": "place_thing", "name": "flat", "x": 1, "y": 1, "width": 0.1, "height": 0}, "no area"),
+        ]:
+            (problem,) = (await one.ask(**request))["problems"]
+            assert said in problem["what"], problem
+        assert box(one, "crate")["x"] == 0.8
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        play(address, story)
+
+
+def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
+    async def story(one: Page) -> None:
+        await one.open("open_file", path="node.json")
+        await one.do("watch_world", on=True)
+        assert one.said["scene"] == {"type": "scene", "scene": None}
+        (problem,) = (await one.ask("move_thing", name="crate", x=1, y=1))["problems"]
+        assert "no world that is seen from above" in problem["what"] and "--world" in problem["fix"]
+
+    with studio(root) as address:
+        play(address, story)
