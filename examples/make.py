@@ -14,11 +14,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import deodar as dd
+from deodar.architectures import plan as line
 from deodar.architectures import saliency as published
+from deodar.architectures import spa as planner
 from deodar.elements.attractor import Attractor
 from deodar.elements.boost import Boost
 from deodar.elements.box_stimulus import BoxStimulus
 from deodar.numerics.windows import Window
+from deodar.worlds.arena import Arena
 
 HERE = Path(__file__).parent
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
@@ -231,6 +234,30 @@ def saliency() -> dd.Model:
     return model
 
 
+def plan() -> dd.Model:
+    """A plan on a line: `deodar.architectures.plan`."""
+    model = line.plan()
+    model.describe(
+        notes="Plan. A wave of motivation spreads from a goal until it meets the walker, who then goes there. Billing, Lowe & Sandamirskaya (2015),"
+        " figure 3. The goal is at 40 cm; in `left.motivation` the wave spreads to the right at a constant speed. Near step 85 it is at 100 cm,"
+        " where the walker stands: its place releases the precondition, `left.intention` rises, and it walks (`gone`). At step 450 the goal goes to"
+        " 150 cm: the plan decays, another one spreads, and it walks back. Time is in steps of 64 ms. Run it for 1200 steps."
+    )
+    return model
+
+
+def spa() -> dd.Model:
+    """The architecture of `deodar demo spa`, for the Z-maze in metres."""
+    model = planner.spa(Arena("z"))
+    model.describe(
+        notes="Simultaneous planning and action. A robot plans its way through a maze by a wave of motivation, and follows it. Billing, Lowe &"
+        " Sandamirskaya (2015), figure 4. It is run in an arena: --world arena:z. Four behaviours go north, south, west and east; each has a"
+        " motivation, a precondition, an intention and a condition of satisfaction over the whole maze. Where the wave meets the robot, an intention"
+        " rises, and the action field turns the wheels. Time is in steps of 64 ms. Run it for 1000 steps."
+    )
+    return model
+
+
 EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     detection,
     selection,
@@ -244,6 +271,8 @@ EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     groups,
     motor_attractor,
     saliency,
+    plan,
+    spa,
 )
 
 

@@ -23,6 +23,9 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import deodar as dd
+from deodar.architectures.plan import START
+from deodar.architectures.spa import maze
+from deodar.architectures.spa import spa as planner
 from deodar.demos.saliency import photographs
 
 HERE = Path(__file__).parent
@@ -189,6 +192,34 @@ def saliency() -> Figure:
     return figure
 
 
+def plan() -> Figure:
+    """The wave that goes left first and right later, and the walker's way."""
+    figure = blank()
+    data = dd.simulate(dd.load(HERE / "plan.json"), 1200, record=["left.motivation.activation", "gone.activation"], every=5, progress=False)
+    axes = part(figure)
+    heat(axes, data["left.motivation.activation"].values, -12, 10, threshold=False)
+    axes.plot(np.arange(len(data["time"])) + 0.5, START + data["gone.activation"].values, color="white", linewidth=2.2)
+    return figure
+
+
+def spa() -> Figure:
+    """The motivation to go north when the plan is complete, and the robot's way to the goal."""
+    figure = blank()
+    arena = maze("z")
+    model = planner(arena)
+    data = dd.simulate(model, 220, record=["north.motivation.activation"], every=220, world=arena, progress=False)
+    pose = dd.simulate(model, 760, record=["pose.output"], every=5, world=arena, progress=False)["pose.output"].values
+    u = data["north.motivation.activation"].isel(time=-1)
+    x, y = u["x"].values, u["y"].values
+    axes = part(figure)
+    axes.imshow(
+        u.values.T, extent=(x[0], x[-1], y[0], y[-1]), cmap=COLORS, vmin=-12, vmax=10, interpolation="bilinear", aspect="auto", origin="lower"
+    )
+    axes.plot(pose[:, 0], pose[:, 1], color="white", linewidth=2.2)
+    axes.plot(pose[0, 0], pose[0, 1], "o", color="white", markersize=7)
+    return figure
+
+
 PICTURES: tuple[Callable[[], Figure], ...] = (
     detection,
     selection,
@@ -202,6 +233,8 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
     groups,
     motor_attractor,
     saliency,
+    plan,
+    spa,
 )
 
 

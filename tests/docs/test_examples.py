@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import xarray
 import deodar as dd
 from deodar.analysis.peaks import peaks
 from deodar.demos.saliency import photographs
+from deodar.worlds.arena import Arena
 from tests.docs.source import EXAMPLES, module
 
 make = module(EXAMPLES / "make.py")
@@ -39,8 +41,8 @@ def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[floa
 
 def test_documents_are_fresh(tmp_path: Path) -> None:
     make.main(tmp_path)
-    made = {p.name: p.read_text(encoding="utf-8") for p in tmp_path.iterdir()}
-    kept = {p.name: p.read_text(encoding="utf-8") for p in EXAMPLES.glob("*.json")}
+    made = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    kept = {p.name: p.read_bytes() for ending in ("json", "npz") for p in EXAMPLES.glob(f"*.{ending}")}
     assert kept == made, "the documents are not what examples/make.py makes: run it"
 
 
@@ -175,3 +177,22 @@ def test_own_function() -> None:
 def test_no_example_is_without_a_test() -> None:
     tested = {n.removeprefix("test_") for n in globals() if n.startswith("test_")}
     assert {p.stem for p in EXAMPLES.iterdir() if p.suffix in (".json", ".py")} - {"make", "pictures"} <= tested
+
+
+def test_plan() -> None:
+    data = dd.simulate(
+        dd.load(EXAMPLES / "plan.json"), 1200, record=["left.motivation.activation", "left.strongest.output", "gone.activation"], every=5
+    )
+    u, x = data["left.motivation.activation"], data["x"].values
+    fronts = [x[u.sel(time=t).values > 0].max() for t in (30, 60, 90, 120)]
+    assert all(15 < b - a < 28 for a, b in itertools.pairwise(fronts))
+    assert float(data["left.strongest.output"].sel(time=slice(105, 200)).min()) > 0.5
+    gone = data["gone.activation"]
+    assert abs(float(gone.sel(time=60))) < 3 and abs(float(gone.sel(time=440)) + 60) < 7 and abs(float(gone[-1]) - 50) < 8
+
+
+def test_spa() -> None:
+    """Its first steps in the arena that the notes name: the wave spreads from the goal."""
+    data = dd.simulate(dd.load(EXAMPLES / "spa.json"), 60, record=["north.motivation.activation"], every=20, world=Arena("z"))
+    areas = [(u > 0).sum() for u in data["north.motivation.activation"].values]
+    assert areas[0] == 0 < areas[1] < areas[2] < areas[3]

@@ -1,0 +1,43 @@
+"""The demo `spa` on the command line: a run with a bar, and what is written of it."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from deodar.analysis.claims import Claim
+
+
+def run(args: argparse.Namespace, out: Path) -> tuple[list[Claim], dict[str, Any], str, str]:
+    """Run it and write the folder; claims, settings, names of files, and a sentence."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    from deodar.analysis.claims import results
+    from deodar.architectures.spa import DIRECTIONS
+    from deodar.demos import spa
+    from deodar.demos.spa_figure import figure
+    from deodar.demos.spa_film import film
+    from deodar.figures._files import save as save_figure
+    from deodar.recording import files, places
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
+    with Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=args.no_progress) as bar:
+        task = bar.add_task("planning and driving", total=spa.DURATION * 1.1)
+        result = spa.go(args.seed, spa.DURATION, done=lambda done: bar.update(task, completed=done))
+        bar.update(task, description="drawing")
+        claims = spa.claims(result)
+        settings = {"demo": args.name, "seed": args.seed, "duration": spa.DURATION, "obstacle_at": spa.COMES, "noise": "low"}
+
+        def fill(folder: Path) -> None:
+            save_figure(figure(result), folder / "spa.png")
+            film(result, folder / "spa.gif")
+            # the motivation fields are as large as a film: what they showed stands in the pictures
+            files.save(result.record[["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]], folder / "spa.zarr")
+            (folder / "results.json").write_text(results(claims, settings))
+
+        places.write_folder(out, fill, replace=args.force)
+    return claims, settings, "spa.png, spa.gif, the record (spa.zarr)", spa.sentence(result)

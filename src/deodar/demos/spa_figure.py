@@ -1,0 +1,108 @@
+"""The figure of the planning demo: where the robot went, what was motivated when the plan was complete, and how that changed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from deodar.architectures.spa import DIRECTIONS
+from deodar.demos.spa import COMES, EVERY, SITES, Result
+from deodar.figures._style import COLORS, DIVERGING, DOUBLE, THRESHOLD, style
+from deodar.figures._style import figure as sheet
+
+COLOUR = dict(zip(DIRECTIONS, COLORS, strict=False))
+BEFORE = 20
+"""Steps before it is on the southern route at which its second plan is shown."""
+
+RANGE = 10.0
+"""Activation at both ends of the colour scale; inhibition by walls goes beyond."""
+
+
+def figure(result: Result) -> Figure:
+    """Path (as figure 11 of the paper), motivation fields at two moments (figure 12), and at four places over time (figure 10)."""
+    r = result
+    with style():
+        out = sheet(DOUBLE, 6.6)
+        halves: Any = out.subfigures(2, 1, height_ratios=(1.0, 1.5))
+        places: Any = halves[0].subfigures(1, 3, width_ratios=(1.12, 1.0, 1.0))
+        _path(places[0].subplots(), r)
+        before = None if r.south is None else r.south - BEFORE
+        for place, what, step in zip(places[1:], ("plan complete", "another plan"), (r.planned, before), strict=True):
+            place.suptitle(f"{what}, step {step}" if step is not None else f"{what}: never", fontsize=8)
+            for axes, name in zip(place.subplots(2, 2).flat, DIRECTIONS, strict=True):
+                _motivation(axes, r, name, step)
+                axes.set_title(name, color=COLOUR[name], fontweight="bold", pad=2)
+        _courses(halves[1], r)
+    return out
+
+
+def _path(axes: Any, r: Result) -> None:
+    _walls(axes, r, "#777777")
+    for thing in r.arena.furniture.things:
+        if thing is not None and thing.name == "obstacle":
+            x0, y0, x1, y1 = (100 * v for v in thing.box)
+            axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#e0c8a0", edgecolor="#8a6d3b", linewidth=0.6))
+            axes.text((x0 + x1) / 2, (y0 + y1) / 2, f"from\n{COMES}", ha="center", va="center", fontsize=6)
+    axes.plot(*r.path[:, :2].T, color=COLORS[0])
+    axes.plot(*r.path[:: 100 // EVERY, :2].T, ".", color=COLORS[0], markersize=4)
+    for number, site in enumerate(r.sites, 1):
+        axes.plot(*site, "x", color=COLORS[1], markersize=5)
+        axes.annotate(f"{number}", site, xytext=(5, -3), textcoords="offset points", fontsize=8, color=COLORS[1], fontweight="bold")
+    axes.plot(*r.goal, "+", color=COLORS[2], markersize=9, markeredgewidth=1.8)
+    axes.set_title("path, a dot every 100 steps")
+    axes.set_xlabel("x (cm)")
+    axes.set_ylabel("y (cm)")
+
+
+def _walls(axes: Any, r: Result, colour: str) -> None:
+    left, low, right, high = (100 * v for v in r.arena.layout.border)
+    for thing in r.arena.layout.things:
+        x0, y0, x1, y1 = (100 * v for v in thing.box)
+        axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor=colour, linewidth=0))
+    axes.set_xlim(left, right)
+    axes.set_ylim(low, high)
+    axes.set_aspect("equal")
+    for spine in axes.spines.values():
+        spine.set_visible(True)
+
+
+def _motivation(axes: Any, r: Result, name: str, step: int | None) -> None:
+    axes.axis("off")
+    if step is None:
+        return
+    u = r.record[f"{name}.motivation.activation"].isel(time=step // EVERY)
+    x, y = u["x"].values, u["y"].values
+    extent = (x[0] - 0.5, x[-1] + 0.5, y[0] - 0.5, y[-1] + 0.5)
+    axes.imshow(u.values.T, extent=extent, cmap=DIVERGING, vmin=-RANGE, vmax=RANGE)
+    axes.contour(x, y, u.values.T, levels=[0.0], colors="black", linewidths=0.4)
+    axes.plot(*r.record["pose.output"].values[step // EVERY, :2], "o", markerfacecolor="white", markeredgecolor="black", markersize=3.5)
+    axes.plot(*r.goal, "+", color="white", markersize=5)
+    left, low, right, high = (100 * v for v in r.arena.layout.border)
+    axes.set_xlim(left, right)
+    axes.set_ylim(low, high)
+
+
+def _courses(place: Any, r: Result) -> None:
+    rows = place.subplots(len(SITES) + 1, 1, sharex=True)
+    times = r.record["time"].values
+    for number, (axes, (x, y)) in enumerate(zip(rows, r.sites, strict=False), 1):
+        for name in DIRECTIONS:
+            here = r.record[f"{name}.motivation.activation"].sel(x=x, y=y, method="nearest").values
+            axes.plot(times, here, color=COLOUR[name], linewidth=0.7, label=name)
+        axes.axhline(0, color=THRESHOLD, linewidth=0.5, linestyle=":")
+        axes.set_ylabel(f"location {number}")
+    for name in DIRECTIONS:
+        rows[-1].plot(times, r.record[f"{name}.strongest.output"].values, color=COLOUR[name], linewidth=0.7, label=name)
+    rows[-1].set_ylabel("intention")
+    rows[-1].set_xlabel("time (steps of 64 ms)")
+    rows[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.1))
+    rows[0].set_title("activation of the motivation fields at four places; below: largest output of the intention fields")
+    for axes in rows:
+        for step, words in ((r.planned, "planned"), (COMES, "obstacle"), (r.arrived, "arrived")):
+            if step is not None:
+                axes.axvline(step, color="#999999", linewidth=0.5)
+                if axes is rows[-1]:
+                    axes.text(step, 1.02, f" {words}", fontsize=6, color="#555555", va="bottom", ha="left", transform=axes.get_xaxis_transform())
+    rows[0].set_xlim(0, times[-1] if r.arrived is None else min(times[-1], r.arrived + 50))

@@ -1,0 +1,74 @@
+"""Following a carrot: the steering by hand, and whole batches in the same arena as architectures drive in."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from deodar.analysis.paths import clearance, until
+from deodar.analysis.shortest import grid, shortest
+from deodar.architectures.follow_the_carrot import Carrot, follow
+from deodar.errors import ParameterError
+from deodar.worlds.arena import Arena
+
+BEND = {"unit": "cm", "arena": {"x": [0, 60], "y": [0, 60]}, "walls": [{"name": "bar", "center": [20, 30], "size": [40, 4]}]}
+START, GOAL = [(10, 10, 0), (10, 15, 2.0)], [(10, 50), (15, 45)]
+
+
+def arena(**given):
+    return Arena(BEND, START, GOAL, "cm", **given)
+
+
+def planned():
+    boxes = [(0, 28, 40, 32)]
+    on = grid(boxes, (0, 0, 60, 60))
+    return [shortest(on, s[:2], g) for s, g in zip(START, GOAL, strict=True)]
+
+
+def test_it_turns_towards_the_carrot():
+    paths = np.asarray([[(0.0, 0), (0, 1), (0, 5)], [(1.0, 0), (2, 0), (3, 0)], [(0.0, 0), (0, 0), (0, 0)]])
+    wheels = Carrot(speed=300, gain=100).wheels(np.zeros((3, 2)), np.asarray([np.pi / 2, 0.3, 0.0]), paths)
+    np.testing.assert_allclose(wheels[0], [300, 300])  # straight ahead
+    np.testing.assert_allclose(wheels[1], [300 + 15, 300 - 15])  # 0.3 rad to the right
+    np.testing.assert_allclose(wheels[2], [300, 300])  # it stands on its carrot
+
+
+def test_the_shorter_turn_is_taken():
+    paths = np.asarray([[(-1.0, -0.2), (-1, -0.2)]])
+    left, right = Carrot(gain=100).wheels(np.zeros((1, 2)), np.asarray([3.0]), paths)[0]
+    assert right > left and right - left == pytest.approx(100 * (2 * np.pi - 3.0 - np.arctan2(0.2, -1)))
+
+
+def test_the_carrot_is_the_point_nearest_to_what_lies_ahead():
+    line = np.asarray([[(0.0, 0), (1, 0.5), (1, -3)]])
+    assert np.diff(Carrot(ahead=1.0).wheels(np.zeros((1, 2)), np.zeros(1), line)[0]) > 0
+    assert np.diff(Carrot(ahead=3.0).wheels(np.zeros((1, 2)), np.asarray([-np.pi / 2]), line)[0]) > 0
+
+
+@pytest.mark.parametrize("contact", ["slide", "stick"])
+def test_it_reaches_the_goals_round_a_wall(contact):
+    world = arena(contact=contact, place_noise=0.5, place_every=2)
+    paths = planned()
+    done = follow(world, paths, [0, 1], limit=900)
+    assert (done.steps < 900).all() and done.pose.shape == (done.steps.max() + 1, 2, 3)
+    for k in range(2):
+        course = done.pose[: done.steps[k] + 1, k]
+        assert np.hypot(*(course[-1, :2] - GOAL[k])) < 7 and until(course, GOAL[k], 7.0) is not None
+        assert clearance(course[:, :2], [(0, 28, 40, 32)], (0, 0, 60, 60)).min() > 3.69
+
+
+def test_noise_belongs_to_the_trial():
+    paths = planned()
+    both = follow(arena(place_noise=1.0), paths, [0, 1], limit=60)
+    one = follow(arena(place_noise=1.0), paths[1:], [1], limit=60)
+    np.testing.assert_allclose(both.pose[:, 1], one.pose[:, 0], atol=1e-4)
+
+
+def test_a_copy_stays_at_the_limit():
+    done = follow(arena(), planned(), [0, 1], limit=5)
+    assert (done.steps == 5).all() and len(done.pose) == 6
+
+
+def test_parameters_that_cannot_be_are_refused():
+    with pytest.raises(ParameterError, match="above 0"):
+        Carrot(speed=0)

@@ -1,0 +1,69 @@
+"""The planning demo: its first 300 steps, and claims that are computed from the record."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from PIL import Image
+
+from deodar.architectures.spa import DIRECTIONS, maze
+from deodar.cli import main
+from deodar.demos import spa
+
+
+def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
+    """A record as a run gives it, without noise in it: north intends what is given, nobody else anything."""
+    time, x, y = np.arange(len(pose)) * float(spa.EVERY), np.arange(-104.0, -4), np.arange(5.0, 105)
+    data: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
+    for name in DIRECTIONS:
+        data[f"{name}.strongest.output"] = (("time",), intention if name == "north" else np.zeros(len(pose)))
+        data[f"{name}.motivation.activation"] = (("time", "x", "y"), np.full((len(pose), 100, 100), -5.0, np.float32))
+    return xarray.Dataset(data, {"time": time, "x": x, "y": y})
+
+
+def way(*corners: tuple[float, float], each: int) -> np.ndarray:
+    """A path over corners, so many records from one to the next."""
+    pieces = [np.linspace(a, b, each, endpoint=False) for a, b in itertools.pairwise(corners)]
+    line = np.concatenate([*pieces, [corners[-1]]])
+    return np.column_stack([line, np.zeros(len(line))])
+
+
+def test_claims_follow_from_the_record() -> None:
+    start, north, back, south, goal = (-45.0, 55.0), (-48.0, 90.0), (-25.0, 66.0), (-25.0, 25.0), (-65.0, 65.0)
+    pose = np.concatenate([way(start, start, each=110), way(start, north, back, south, goal, each=100)])
+    intention = (np.arange(len(pose)) >= 105).astype(float)
+    found = spa.read(record(pose, intention), maze("z"))
+    assert (found.planned, found.left) == (210, pytest.approx(236, abs=4))
+    assert found.north is not None and found.south is not None and found.arrived is not None
+    assert found.left < found.north < found.south < found.arrived
+    assert [c.holds for c in spa.claims(found) if c.kind == "required"] == [True] * 4
+    for late, straight in ((intention * 0, pose), (intention, pose[:300]), (intention, np.concatenate([pose[:110], way(start, goal, each=200)]))):
+        wrong = spa.read(record(straight, late[: len(straight)]), maze("z"))
+        assert any(c.holds is False for c in spa.claims(wrong) if c.kind == "required")
+    assert "never planned" in spa.sentence(spa.read(record(pose, intention * 0), maze("z")))
+
+
+def test_the_command_writes_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(spa, "DURATION", 300)
+    out = tmp_path / "planned"
+    assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, "in 300 steps it does not arrive, which is a required claim"
+    said = capsys.readouterr().out
+    claims = json.loads((out / "results.json").read_text())["claims"]
+    assert claims[0]["holds"] is True and abs(claims[0]["value"] - 210) <= 21
+    assert [c["holds"] for c in claims if "arrives within" in c["name"]] == [False]
+    assert "never at the goal" in said.splitlines()[-1]
+    with Image.open(out / "spa.gif") as film:
+        assert film.n_frames == 31 and film.size == (400, 400)
+    with Image.open(out / "spa.png") as picture:
+        assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100
+    assert (out / "spa.zarr").is_dir()
+
+
+def test_options_of_another_demo(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["demo", "spa", "--cue", "30"]) != 0
+    assert "--cue belongs to the demo saliency" in capsys.readouterr().err
