@@ -1,0 +1,84 @@
+"""Paths of a robot in the plane: how long they are, where they enter a disc, how far from things they keep."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import AnalysisError
+from deodar.parameters import show
+
+
+def points(path: Any) -> np.ndarray:
+    """A path as an array (points, 2); what stands in further columns (a heading) is left out."""
+    array = np.asarray(path, float)
+    if array.ndim != 2 or array.shape[1] < 2 or not len(array) or not np.isfinite(array[:, :2]).all():
+        raise AnalysisError(f"a path is rows of x and y, all of them finite, not {show(path)}")
+    return array[:, :2]
+
+
+def length(path: Any) -> float:
+    """Sum of the distances from each point to the next, in the unit of the path."""
+    return float(np.linalg.norm(np.diff(points(path), axis=0), axis=1).sum())
+
+
+def until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
+    """The path up to where it first enters the disc round a goal, the last point on its edge; None: it never does.
+
+    Args:
+        path: rows of x and y.
+        goal: x and y of the middle of the disc.
+        radius: of the disc, above 0.
+    """
+    line = points(path)
+    away = line - np.asarray(goal, float)[:2]
+    inside = np.flatnonzero(np.linalg.norm(away, axis=1) <= radius)
+    if not len(inside):
+        return None
+    k = int(inside[0])
+    if k == 0:
+        return line[:1]
+    # where the last straight piece crosses the circle: |a + s (b - a)|^2 = radius^2, the smaller root
+    a, step = away[k - 1], away[k] - away[k - 1]
+    square, across = float(step @ step), float(a @ step)
+    share = (-across - np.sqrt(max(across**2 - square * (float(a @ a) - radius**2), 0.0))) / square
+    return np.concatenate([line[:k], [line[k - 1] + np.clip(share, 0.0, 1.0) * (line[k] - line[k - 1])]])
+
+
+def divergence(path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float) -> float | None:
+    """Lp / Lo: the length of a path over that of the shortest one, both ending where they enter the disc round the goal.
+
+    None where the path never enters it, or where the shortest begins inside.
+
+    Reference:
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.1.
+    """
+    gone, least = until(path, goal, radius), until(shortest, goal, radius)
+    if gone is None or least is None or length(least) == 0:
+        return None
+    return length(gone) / length(least)
+
+
+def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
+    """Distance of each place to the nearest box or to the border, negative nowhere: 0 inside a box or outside the border.
+
+    Args:
+        places: (..., 2).
+        boxes: rows of lower x, lower y, upper x, upper y.
+        border: the same four numbers of what encloses all.
+    """
+    at = np.asarray(places, float)
+    x, y = at[..., 0], at[..., 1]
+    left, low, right, high = border
+    nearest = np.minimum(np.minimum(x - left, right - x), np.minimum(y - low, high - y))
+    for x0, y0, x1, y1 in np.asarray(boxes, float).reshape(-1, 4):
+        nearest = np.minimum(nearest, np.hypot(np.maximum(np.maximum(x0 - x, x - x1), 0), np.maximum(np.maximum(y0 - y, y - y1), 0)))
+    return np.maximum(nearest, 0.0)
+
+
+def speeds(path: Any, times: Any, over: int = 1) -> np.ndarray:
+    """Speed at each point but the first `over`: the way from the point `over` before, in the unit of the path over that of time."""
+    line, at = points(path), np.asarray(times, float)
+    return np.linalg.norm(line[over:] - line[:-over], axis=1) / (at[over:] - at[:-over])

@@ -1,0 +1,115 @@
+"""The shortest path on a grid, by A*: what planned paths are compared with."""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from deodar.analysis.paths import clearance
+from deodar.errors import AnalysisError
+
+SLACK = 1e-6
+"""Share of a cell by which a place may miss the clearance: rounding of walls that were given in metres."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Places at which the middle of a robot may be, on a square grid.
+
+    Attributes:
+        x, y: coordinates of its columns and rows.
+        cell: distance between two of them.
+        free: which places keep the clearance, (x, y).
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    cell: float
+    free: np.ndarray
+
+    def place(self, index: tuple[int, int]) -> tuple[float, float]:
+        """Coordinates of a cell."""
+        return float(self.x[index[0]]), float(self.y[index[1]])
+
+    def nearest(self, place: Sequence[float] | np.ndarray) -> tuple[int, int]:
+        """The free cell nearest to a place."""
+        if not self.free.any():
+            raise AnalysisError("there is no free cell on the grid", fix="Take less clearance, or a finer grid")
+        far = (self.x[:, None] - place[0]) ** 2 + (self.y[None, :] - place[1]) ** 2
+        i, j = np.unravel_index(int(np.argmin(np.where(self.free, far, np.inf))), self.free.shape)
+        return int(i), int(j)
+
+    def regions(self) -> np.ndarray:
+        """A number for each cell, the same for all that can be reached from each other; 0 where it is not free."""
+        from scipy.ndimage import label
+
+        found: Any = label(self.free, np.ones((3, 3)))
+        return np.asarray(found[0])
+
+
+def grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
+    """The grid of an arena: cells from its lower left corner on, free where they keep a distance from all things and the border.
+
+    Args:
+        boxes: rows of lower x, lower y, upper x, upper y.
+        border: the same four numbers of the arena.
+        cell: of the grid.
+        least: smallest distance from anything, in the same unit.
+    """
+    left, low, right, high = border
+    if not (cell > 0 and least >= 0 and right - left > cell and high - low > cell):
+        raise AnalysisError(f"cells of {cell:g} with a clearance of {least:g} do not fit into an arena of {right - left:g} x {high - low:g}")
+    x = left + cell * np.arange(math.floor((right - left) / cell + 1e-9) + 1)
+    y = low + cell * np.arange(math.floor((high - low) / cell + 1e-9) + 1)
+    places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    return Grid(x, y, cell, clearance(places, boxes, border) >= least - SLACK * cell)
+
+
+def shortest(on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float] | np.ndarray) -> np.ndarray | None:
+    """The shortest path (points, 2) over eight neighbours from the free cell nearest the start to that nearest the goal; None: there is none.
+
+    A* with the distance on an empty grid as its estimate: ``cell * (max(dx, dy) + (sqrt(2) - 1) * min(dx, dy))``. Of several shortest paths
+    the same one is taken every time.
+
+    Reference:
+        Hart, Nilsson & Raphael (1968), IEEE Trans. Syst. Sci. Cybern. 4(2), 100-107; as used by Billing, Lowe & Sandamirskaya (2015),
+        Adapt. Behav. 23(5), section 5.1 and appendix B.
+    """
+    first, last = on.nearest(start), on.nearest(goal)
+    width = on.free.shape[1] + 2  # a frame that is not free, so that neighbours need no bounds
+    free = np.pad(on.free, 1).ravel().tolist()
+    begin, end = ((i + 1) * width + j + 1 for i, j in (first, last))
+    aim_i, aim_j, diagonal = last[0] + 1, last[1] + 1, math.sqrt(2.0)
+    moves = [(di * width + dj, diagonal if di and dj else 1.0) for di in (-1, 0, 1) for dj in (-1, 0, 1) if di or dj]
+    cost = [math.inf] * len(free)
+    before = [-1] * len(free)
+    closed = [False] * len(free)
+    cost[begin] = 0.0
+    waiting = [(0.0, begin)]
+    while waiting:
+        _, at = heapq.heappop(waiting)
+        if at == end:
+            break
+        if closed[at]:
+            continue
+        closed[at] = True
+        here = cost[at]
+        for move, weight in moves:
+            to = at + move
+            if free[to] and not closed[to] and here + weight < cost[to]:
+                cost[to] = here + weight
+                before[to] = at
+                di, dj = abs(to // width - aim_i), abs(to % width - aim_j)
+                ahead = di + (diagonal - 1) * dj if di > dj else dj + (diagonal - 1) * di
+                heapq.heappush(waiting, (here + weight + ahead, to))
+    if not math.isfinite(cost[end]):
+        return None
+    line = [end]
+    while line[-1] != begin:
+        line.append(before[line[-1]])
+    return np.asarray([on.place((k // width - 1, k % width - 1)) for k in reversed(line)])

@@ -1,0 +1,147 @@
+"""`deodar reproduce PAPER`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    from deodar.experiments.jobs import Job, Standing
+    from deodar.experiments.rows import Rows
+    from deodar.papers._report import Report
+
+HELP = "run the experiments of a paper again, and check what it says"
+EPILOG = """What is done is kept after each run: Ctrl-C, or a machine that goes down, loses nothing. The same call with --out FOLDER goes on,
+with the same results as if nothing had happened."""
+
+ROWS = "runs.jsonl"
+RESULTS = "results.json"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    from deodar import papers
+
+    parser.epilog = EPILOG
+    parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.names())}")
+    parser.add_argument("--quick", action="store_true", help="20 runs of each condition; a claim is false only where they exclude it")
+    parser.add_argument("--only", nargs="+", default=[], metavar="CONDITION", help="only conditions whose names begin so, for example z/carrot")
+    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to go on with (default: PAPER-001, PAPER-002, ... here)")
+    parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the runs among N processes of one core each")
+    _options.add_json(parser)
+    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Status 1 if a required claim is false, or if the runs were stopped."""
+    from deodar import papers
+    from deodar.compiler.device import find
+    from deodar.experiments.jobs import carry_out
+    from deodar.recording import places
+    from deodar.recording.provenance import made_by
+
+    _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
+    paper = papers.paper(args.paper)
+    jobs = _chosen(args, paper.jobs(args.quick))
+    out: Path = args.out or places.free(Path.cwd(), args.paper)
+    rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())})
+    try:
+        with _Bar(args.no_progress or args.json) as bar:
+            carry_out(jobs, rows, bar.show, args.workers or None)
+    except KeyboardInterrupt:
+        again = " ".join(["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)])
+        again += f" --only {' '.join(args.only)}" if args.only else ""
+        print(f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Go on with: {again}", file=sys.stderr)
+        return 1
+    settings = {"paper": args.paper, "quick": args.quick, "runs": len(rows.found), "of": sum(len(j.keys) for j in paper.jobs(args.quick))}
+    return _write(args, out, paper.report(rows.found, args.quick), settings)
+
+
+def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
+    """The jobs of the conditions that `--only` names, all without it."""
+    from deodar.errors import UnknownName, did_you_mean
+
+    conditions = sorted({key.rpartition("/")[0] for job in jobs for key in job.keys})
+    for name in args.only:
+        if not any(c.startswith(name) for c in conditions):
+            raise UnknownName(f"no condition begins with {name!r}", fix=did_you_mean(name, conditions))
+    return [job for job in jobs if not args.only or job.keys[0].startswith(tuple(args.only))]
+
+
+def _open(out: Path, about: Mapping[str, Any]) -> Rows:
+    """The rows in a folder: a new one, or one that an earlier call began; another folder is left alone."""
+    from deodar.errors import OutputExists
+    from deodar.experiments.rows import Rows
+    from deodar.recording import places
+
+    if out.is_dir() and any(out.iterdir()) and not (out / ROWS).is_file():
+        raise OutputExists("is not the folder of a reproduction, so nothing is written into it", where=str(out), fix="Choose another name")
+    if not out.is_dir():
+        places.claim_folder(out)
+        out.mkdir()
+    return Rows(out / ROWS, about)
+
+
+def _write(args: argparse.Namespace, out: Path, report: Report, settings: Mapping[str, Any]) -> int:
+    from deodar.analysis.claims import failed, results
+    from deodar.figures import _files
+    from deodar.model import output
+
+    text = results(report.claims, settings)
+    for name, figure in report.figures.items():
+        _files.save(figure, out / f"{name}.png", force=True)
+    for name, table in report.tables.items():
+        output.write(out / f"{name}.md", table.encode())
+    output.write(out / RESULTS, text.encode())
+    if args.json:
+        print(json.dumps({"out": str(out), **json.loads(text)}, indent=2, ensure_ascii=False))
+    else:
+        for c in report.claims:
+            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
+            interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
+            print(f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} (wanted {c.target}; n {c.n}{interval})")
+        names = ", ".join([ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)])
+        print(f"Written to {_options.shown(out)}: {names}.")
+        required = [c for c in report.claims if c.kind == "required"]
+        held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
+        print(f"{settings['runs']} of {settings['of']} runs. Of {len(required)} required claims {held} hold, {open_} are undecided.")
+    return 1 if failed(report.claims) else 0
+
+
+class _Bar:
+    """How many runs are done, and the time that is left."""
+
+    def __init__(self, hidden: bool) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn
+
+        columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TextColumn("{task.fields[left]}"))
+        self._bar = Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=hidden)
+        self._task = self._bar.add_task("", total=1.0, done="", left="")
+
+    def __enter__(self) -> _Bar:
+        self._bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def show(self, standing: Standing) -> None:
+        """Draw what is told."""
+        left = "" if standing.left is None else f"{lasting(standing.left)} left"
+        self._bar.update(self._task, completed=standing.share, done=f"{standing.rows} of {standing.of} runs", left=left)
+
+
+def lasting(seconds: float) -> str:
+    """A time in words: 40 s, 12 min, 3 h 5 min."""
+    minutes = round(seconds / 60)
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"

@@ -1,0 +1,1 @@
+"""Experiments: trials with actions, events and measures; one row each; carried out in any pieces with the same result."""

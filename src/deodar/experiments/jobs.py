@@ -1,0 +1,124 @@
+"""Jobs: the trials of an experiment in pieces that are carried out one by one, or in processes beside each other."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from typing import Any
+
+from deodar.errors import WorkerError
+from deodar.experiments.rows import Row, Rows
+from deodar.runtime.interrupt import stoppable
+
+
+@dataclass(frozen=True)
+class Job:
+    """A piece of an experiment: one trial, or several that are run as one batch.
+
+    What it gives depends on nothing but its arguments, so that it may be run at any time, in any process, and again.
+
+    Attributes:
+        keys: of the rows that it gives.
+        function: a function of a module, called with `arguments`, which gives the rows.
+        arguments: plain data.
+        cost: about how long it takes, in s; only their proportions matter, to tell the time that is left.
+    """
+
+    keys: tuple[str, ...]
+    function: Callable[..., Sequence[Row]]
+    arguments: Mapping[str, Any]
+    cost: float = 1.0
+
+    def run(self) -> Sequence[Row]:
+        """The rows."""
+        return self.function(**self.arguments)
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How far an experiment has come.
+
+    Attributes:
+        rows: trials that are done.
+        of: all trials.
+        share: of the work that is done, by its cost.
+        left: s that it will still take, at the speed of this run; None before anything is known.
+    """
+
+    rows: int
+    of: int
+    share: float
+    left: float | None
+
+
+def carry_out(jobs: Sequence[Job], rows: Rows, progress: Callable[[Standing], None] | None = None, workers: int | None = None) -> None:
+    """Run what is missing of the jobs and keep their rows. After a kill at any moment the same call goes on, with the same results.
+
+    Args:
+        jobs: all of the experiment.
+        rows: where they are kept; jobs whose rows are all there are not run again.
+        progress: told how far it has come, after each job.
+        workers: so many processes of one core each; none: here, one after another. A script that is run itself, and calls this with workers,
+            does so below `if __name__ == "__main__":`.
+
+    Raises:
+        KeyboardInterrupt: on Ctrl-C, when the jobs that run are done; the rows are kept.
+        WorkerError: a worker process has died.
+    """
+    missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
+    total, before = sum(job.cost for job in jobs), sum(job.cost for job in jobs) - sum(job.cost for job in missing)
+    began, done = time.monotonic(), 0.0
+
+    def tell() -> None:
+        seconds = time.monotonic() - began
+        left = seconds / done * (total - before - done) if done else None
+        kept = sum(key in rows.found for job in jobs for key in job.keys)
+        if progress is not None:
+            progress(Standing(kept, sum(len(job.keys) for job in jobs), (before + done) / total if total else 1.0, left))
+
+    tell()
+    for job, found in _in_workers(missing, workers) if workers else _here(missing):
+        rows.append(found)
+        done += job.cost
+        tell()
+
+
+def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
+    with stoppable() as check:
+        for job in jobs:
+            check()
+            yield job, job.run()
+        check()
+
+
+def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequence[Row]]]:
+    context = multiprocessing.get_context("spawn")
+    with stoppable() as check, concurrent.futures.ProcessPoolExecutor(workers, context, _begin) as pool:
+        waiting, running = list(reversed(jobs)), dict[concurrent.futures.Future[Sequence[Row]], Job]()
+        try:
+            while waiting or running:
+                while waiting and len(running) < workers:  # one for each worker: after Ctrl-C no more than those are waited for
+                    job = waiting.pop()
+                    running[pool.submit(job.run)] = job
+                done, _ = concurrent.futures.wait(running, 0.2, concurrent.futures.FIRST_COMPLETED)
+                for future in done:
+                    yield running.pop(future), future.result()
+                check()
+        except BrokenProcessPool:
+            raise WorkerError("a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers") from None
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _begin() -> None:
+    """One core, and no Ctrl-C: whoever started the worker ends it."""
+    os.environ["NPROC"] = "1"
+    with contextlib.suppress(ValueError):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,0 +1,89 @@
+"""The rows of an experiment in a file: appended as trials end, and read again when it goes on after whatever stopped it."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from deodar.errors import OutputError, OutputExists, RecordError
+from deodar.recording import places
+
+Row = dict[str, Any]
+"""What is kept of one trial, as plain data; `key` tells it from all others."""
+
+ABOUT, KEY = "about", "key"
+
+
+class Rows:
+    """A file of JSON lines: first what makes the experiment, then a row for each trial that has ended.
+
+    A file that is there is gone on with, if it is of the same experiment. A last line that was cut off when a process died is dropped.
+
+    Args:
+        path: the file; it is made where there is none.
+        about: what makes the experiment, as plain data: rows of another one are never mixed with these.
+
+    Attributes:
+        found: rows by their keys.
+
+    Raises:
+        OutputExists: the file holds another experiment.
+        RecordError: the file holds something else, or a line before the last is broken.
+        OutputError: it cannot be written.
+    """
+
+    def __init__(self, path: Path, about: Mapping[str, Any]) -> None:
+        self.path = path
+        self.found: dict[str, Row] = {}
+        told = json.loads(json.dumps({ABOUT: about}))
+        places.require_parent(path)
+        lines = self._lines()
+        if not lines:
+            self._write(json.dumps(told) + "\n", "w")
+            return
+        if not isinstance(lines[0].get(ABOUT), dict):
+            raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
+        if lines[0] != told:
+            changed = sorted(k for k in {*told[ABOUT], *lines[0][ABOUT]} if told[ABOUT].get(k) != lines[0][ABOUT].get(k))
+            raise OutputExists(f"holds runs of another experiment: {', '.join(changed)} differ", where=str(path), fix="Choose another name")
+        self.found = {row[KEY]: row for row in lines[1:]}
+
+    def append(self, rows: Iterable[Row]) -> None:
+        """Keep rows, on the disk when this returns; those of a key that is there already are left out."""
+        new = [row for row in rows if row[KEY] not in self.found]
+        if new:
+            self._write("".join(json.dumps(row, allow_nan=False) + "\n" for row in new), "a")
+            self.found |= {row[KEY]: json.loads(json.dumps(row)) for row in new}
+
+    def _lines(self) -> list[Row]:
+        if not self.path.exists():
+            return []
+        content = self.path.read_bytes()
+        whole = content.rfind(b"\n") + 1
+        lines: list[Row] = []
+        for number, line in enumerate(content[:whole].splitlines(), 1):
+            try:
+                found = json.loads(line)
+            except ValueError:
+                found = None
+            if not isinstance(found, dict) or (number > 1 and KEY not in found):
+                raise RecordError(f"line {number} is no row", where=str(self.path), fix="Take that line out, and the trial is run again")
+            lines.append(found)
+        if whole < len(content):
+            if not lines and b'{"' + ABOUT.encode() != content[: 3 + len(ABOUT) - 1]:
+                raise RecordError("holds no rows of an experiment", where=str(self.path), fix="Choose another name")
+            with self.path.open("r+b") as file:
+                file.truncate(whole)
+        return lines
+
+    def _write(self, text: str, mode: str) -> None:
+        try:
+            with self.path.open(mode, encoding="utf-8", newline="\n") as file:
+                file.write(text)
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise OutputError(f"cannot be written: {error.strerror or error}", where=str(self.path)) from None

@@ -1,0 +1,25 @@
+"""Published experiments, run again: one folder for each paper; the folder is the registry.
+
+A paper is a module or a package with `HELP` (one line), `about(quick)` (what makes its design, as plain data), `jobs(quick)` (its trials as
+`experiments.jobs.Job`) and `report(rows, quick)` (a `papers._report.Report` of the rows that are there). Heavy imports stand inside.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from types import ModuleType
+
+from deodar.errors import UnknownName, did_you_mean
+
+
+def names() -> list[str]:
+    """Every paper that can be reproduced."""
+    return sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
+
+
+def paper(name: str) -> ModuleType:
+    """A paper by its name; an unknown name is an error that suggests the nearest one."""
+    if name not in names():
+        raise UnknownName(f"there is no paper {name!r} to reproduce", fix=did_you_mean(name, names()))
+    return importlib.import_module(f"deodar.papers.{name}")

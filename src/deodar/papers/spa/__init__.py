@@ -1,0 +1,44 @@
+"""Billing, Lowe & Sandamirskaya (2015): the three test cases, run again.
+
+Cases 1 and 2: pairs of start and goal in two mazes, the planner with low and high noise, and following the carrot without, with low and with high
+noise. Case 3: an obstacle comes and goes while the robot plans or drives.
+
+Reference:
+    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), 243-264, sections 4 and 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from deodar.experiments.jobs import Job
+    from deodar.experiments.rows import Row
+    from deodar.papers._report import Report
+
+HELP = "Billing, Lowe & Sandamirskaya (2015): a robot plans its way through two mazes while it drives"
+
+
+def about(quick: bool) -> dict[str, Any]:
+    """What makes the design: rows of another one are not mixed with its own."""
+    from deodar.papers.spa import cases
+
+    return {"paper": "spa", "quick": quick, **cases.design(quick)}
+
+
+def jobs(quick: bool) -> Sequence[Job]:
+    """All trials, the quick ones first."""
+    from deodar.papers.spa import trials
+
+    return trials.jobs(quick)
+
+
+def report(rows: Mapping[str, Row], quick: bool) -> Report:
+    """Claims, figures and tables of the trials that are there."""
+    from deodar.papers._report import Report
+    from deodar.papers.spa import figures, sentences, tables, targets
+    from deodar.papers.spa.runs import Runs
+
+    runs = Runs(rows, quick)
+    return Report([*targets.claims(runs), *sentences.claims(runs)], figures.draw(runs), tables.write(runs))

@@ -1,0 +1,60 @@
+"""Which way a run of case 3 took, whether the obstacle came down on the robot, and how long it stood still."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from deodar.analysis.paths import points
+from deodar.architectures.spa import place
+
+NORTH, SOUTH, SWITCH, NONE = "north", "south", "switch", "none"
+NORTH_OF, SOUTH_OF = 30.0, 50.0
+"""Rows of the published fields beyond which a path is on the north or on the south route (the authors' scripts)."""
+
+SLOW = 0.05
+"""cm a step below which the robot counts as standing still; in the free it drives 0.2 to 0.4."""
+
+OVER = 10
+"""Steps over which its speed is taken."""
+
+ON_ROBOT: dict[str, tuple[tuple[tuple[float, float], ...], float]] = {
+    "full": (((10, 40), (15, 40), (20, 40)), 4.0),
+    "partial": (tuple((20, float(c)) for c in range(30, 51)), 8.0),
+}
+"""For each obstacle rows and columns, and the distance from them in cm within which it came down on the robot (the authors' rule)."""
+
+
+def route(path: Any) -> str:
+    """`north`, `south`, `switch` (first north, then south), or `none` of them."""
+    line = points(path)
+    rows = place(0, 0)[1] - line[:, 1]
+    north, south = np.flatnonzero(rows < NORTH_OF), np.flatnonzero(rows > SOUTH_OF)
+    if len(north):
+        return SWITCH if len(south) and south[-1] > north[0] else NORTH
+    return SOUTH if len(south) else NONE
+
+
+def covered(path: Any, obstacle: str) -> bool:
+    """Whether the robot was where the obstacle stands, on the part of its path that it drove while the obstacle was there.
+
+    Such runs are left out and counted, as the authors did.
+    """
+    line = np.asarray(path, float)
+    if not len(line):
+        return False
+    cells, reach = ON_ROBOT["full" if obstacle == "narrative" else obstacle]
+    middles = np.asarray([place(*cell) for cell in cells])
+    return bool((np.linalg.norm(line[:, None, :2] - middles[None], axis=-1) < reach).any())
+
+
+def stillness(path: Any) -> int:
+    """The longest time for which the robot stood still without a break, in steps; 0 of a path that is too short to tell."""
+    if len(path) <= OVER:
+        return 0
+    line = points(path)
+    slow = np.linalg.norm(line[OVER:] - line[:-OVER], axis=1) / OVER < SLOW
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], slow, [False]]).astype(int)))
+    runs = edges[1::2] - edges[::2]
+    return int(runs.max()) + OVER if len(runs) else 0

@@ -1,0 +1,72 @@
+"""Intervals against published numbers and against simulation, and what few runs may decide."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from deodar.analysis import statistics
+from deodar.errors import AnalysisError
+
+
+def test_wilson_is_the_published_interval():
+    # scipy computes it too; 81 of 263 is the example of Newcombe (1998), Stat. Med. 17, 857
+    low, high = statistics.wilson(81, 263)
+    assert (round(low, 4), round(high, 4)) == (0.2553, 0.3662)
+    other = stats.binomtest(19, 20).proportion_ci(method="wilson")
+    assert statistics.wilson(19, 20) == pytest.approx((other.low, other.high))
+
+
+def test_wilson_at_the_ends():
+    assert statistics.wilson(0, 0) is None
+    assert statistics.wilson(0, 10)[0] == 0.0 and statistics.wilson(10, 10)[1] == pytest.approx(1.0)
+    with pytest.raises(AnalysisError):
+        statistics.wilson(11, 10)
+
+
+def test_the_intervals_hold_what_they_promise():
+    draw = np.random.default_rng(1)
+    samples = draw.lognormal(size=(2000, 20))
+    middle = [statistics.median_interval(s) for s in samples]
+    assert np.mean([low <= 1.0 <= high for low, high in middle]) >= 0.94
+    normal = [statistics.mean_interval(s) for s in draw.normal(size=(2000, 20))]
+    assert 0.93 < np.mean([low <= 0.0 <= high for low, high in normal]) < 0.97
+
+
+def test_too_few_values_have_no_interval():
+    assert statistics.mean_interval([1.0]) is None
+    assert statistics.median_interval([1, 2, 3, 4, 5]) is None
+    assert statistics.ratio_interval([1.0] * 5, [1.0] * 9) is None
+
+
+def test_the_interval_of_a_ratio_holds_it():
+    draw = np.random.default_rng(2)
+    low, high = statistics.ratio_interval(2 + 0.1 * draw.normal(size=60), 1 + 0.1 * draw.normal(size=60))
+    assert low < 2.0 < high and high - low < 0.3
+
+
+def test_anova_tells_groups_apart():
+    draw = np.random.default_rng(3)
+    same = [draw.normal(size=30) for _ in range(3)]
+    assert statistics.anova(same)[1] > 0.05
+    assert statistics.anova([same[0], same[1] + 3])[1] < 1e-6
+    assert statistics.anova([[1.0, 1.0], [1.0, 1.0]]) is None and statistics.anova([[1.0, 2.0]]) is None
+
+
+def test_what_few_runs_may_decide():
+    decided = statistics.decided
+    assert decided(None, None, 0, 0, 1) is None
+    assert decided(0.97, (0.9, 0.99), 100, 0.95, 1) is True
+    assert decided(0.94, (0.88, 0.97), 100, 0.95, 1) is False  # all runs: the value decides
+    assert decided(0.94, (0.88, 0.97), 100, 0.95, 1, quick=True) is None
+    assert decided(0.5, (0.3, 0.7), 20, 0.95, 1, quick=True) is False  # excluded
+    assert decided(1.0, (0.4, 1.0), 3, 0.9, 1) is None
+    assert decided(0.0, (0.0, 0.56), 3, 0.9, 1) is False
+    assert decided(212, (210, 214), 12, 189, 231) is True  # the interval lies inside
+
+
+def test_a_share_is_a_claim():
+    claim = statistics.share("arrives", 19, 20, 0.95, quick=True)
+    assert claim.holds is True and claim.value == 0.95 and claim.n == 20 and claim.target == ">= 0.95"
+    assert statistics.share("arrives", 0, 0, 0.95).holds is None

@@ -1,0 +1,119 @@
+"""`deodar reproduce` with a paper of six short trials."""
+
+from __future__ import annotations
+
+import json
+import types
+
+import pytest
+from matplotlib.figure import Figure
+
+from deodar import cli, papers
+from deodar.analysis.claims import Claim
+from deodar.cli.reproduce import lasting
+from deodar.experiments.jobs import Job
+from deodar.papers._report import Report
+from tests.experiments import decisions
+
+
+@pytest.fixture
+def toy(monkeypatch, tmp_path):
+    """A paper in the place of all others, and an empty working folder."""
+    paper = types.SimpleNamespace(HELP="toy", least=6, ran=[])
+
+    def one(trial):
+        paper.ran.append(trial)
+        if trial == getattr(paper, "stops", None):
+            raise KeyboardInterrupt
+        return decisions.one(trial)
+
+    def jobs(quick):
+        return [Job((f"d/{k}",), one, {"trial": k}) for k in range(3 if quick else 6)]
+
+    def report(rows, quick):
+        claims = [Claim("trials", len(rows), f">= {paper.least}", len(rows) >= paper.least, n=len(rows)), Claim("heard", None, "?", None, "reported")]
+        return Report(claims, {"nothing": Figure((1, 1))}, {"table": "| a |\n"})
+
+    paper.jobs, paper.report, paper.about = jobs, report, lambda quick: {"paper": "toy", "quick": quick}
+    monkeypatch.setattr(papers, "names", lambda: ["toy"])
+    monkeypatch.setattr(papers, "paper", lambda name: paper)
+    monkeypatch.chdir(tmp_path)
+    return paper
+
+
+def call(*args):
+    return cli.main(["reproduce", "toy", *args, "--no-progress"])
+
+
+def test_it_runs_writes_and_says_what_holds(toy, capsys, tmp_path):
+    assert call() == 0
+    out = capsys.readouterr().out
+    assert "yes trials -> 6 (wanted >= 6; n 6)" in out and "?   heard -> nothing yet" in out and "6 of 6 runs. Of 1 required claims 1 hold" in out
+    assert {p.name for p in (tmp_path / "toy-001").iterdir()} == {"runs.jsonl", "results.json", "table.md", "nothing.png"}
+    found = json.loads((tmp_path / "toy-001" / "results.json").read_text())
+    assert found["settings"] == {"paper": "toy", "quick": False, "runs": 6, "of": 6} and found["claims"][0]["holds"] is True
+    call()
+    assert (tmp_path / "toy-002").is_dir()
+
+
+def test_a_required_claim_that_is_false_is_status_1(toy, capsys):
+    toy.least = 7
+    assert call("--json") == 1
+    assert json.loads(capsys.readouterr().out)["claims"][0]["holds"] is False
+
+
+def test_after_a_stop_the_same_call_goes_on_with_the_same_rows(toy, capsys, tmp_path):
+    call("--out", "whole")
+    toy.stops = 4
+    assert call("--out", "part") == 1
+    told = capsys.readouterr().err
+    assert "4 runs are kept. Go on with: deodar reproduce toy --out part" in told
+    assert not (tmp_path / "part" / "results.json").exists()
+    toy.stops, toy.ran = None, []
+    assert call("--out", "part") == 0 and toy.ran == [4, 5]
+    for name in ("runs.jsonl", "results.json"):
+        assert (tmp_path / "part" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+
+
+def test_what_is_to_be_typed_after_a_stop_says_all_that_was_asked(toy, capsys):
+    toy.stops = 1
+    assert call("--quick", "--only", "d", "--out", "some") == 1
+    assert capsys.readouterr().err.endswith("deodar reproduce toy --quick --out some --only d\n")
+
+
+def test_a_bar_tells_how_far_it_has_come(toy, capsys, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    assert cli.main(["reproduce", "toy", "--out", "here"]) == 0
+    shown = capsys.readouterr().err
+    assert "of 6 runs" in shown and "left" in shown
+
+
+def test_quick_is_another_experiment(toy, capsys):
+    toy.least = 3
+    assert call("--quick", "--out", "here") == 0
+    assert call("--out", "here") == 1
+    assert "holds runs of another experiment: quick differ" in capsys.readouterr().err
+
+
+def test_only_some_conditions(toy, capsys):
+    assert call("--only", "e") == 1
+    assert "no condition begins with 'e'" in capsys.readouterr().err
+    assert call("--only", "d") == 0
+
+
+def test_a_folder_of_something_else_is_left_alone(toy, capsys, tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.txt").write_text("all of it")
+    assert call("--out", "mine") == 1
+    assert "is not the folder of a reproduction" in capsys.readouterr().err
+    assert [p.name for p in (tmp_path / "mine").iterdir()] == ["thesis.txt"]
+
+
+def test_an_unknown_paper_is_told(capsys):
+    assert cli.main(["reproduce", "spaa"]) == 1
+    assert "there is no paper 'spaa' to reproduce. Did you mean 'spa'?" in capsys.readouterr().err
+
+
+def test_times_in_words():
+    assert [lasting(s) for s in (4.2, 100, 3000, 11000)] == ["4 s", "2 min", "50 min", "3 h 3 min"]

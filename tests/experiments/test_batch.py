@@ -1,0 +1,72 @@
+"""Batches: the same courses as one by one, and smaller programs as trials end."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler.executable import Batch
+from deodar.errors import ParameterError, WorldError
+from deodar.experiments.batch import run_batch
+from deodar.experiments.events import Crosses
+from deodar.experiments.run import run
+from tests.experiments.robots import decider, straight
+
+DECIDED = Crosses("decided", "u.activation")
+
+
+def sizes(model):
+    """Sizes of the batches for which a model has programs."""
+    return sorted(p.batch.size for p in model.programs.values() if p.batch != Batch())
+
+
+def test_the_courses_are_those_of_single_trials():
+    many = run_batch(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
+    assert len({c.duration for c in many}) > 2
+    for trial, course in zip([7, 0, 3, 1], many, strict=True):
+        one = run(decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64")
+        np.testing.assert_array_equal(course.times, one.times)
+        np.testing.assert_allclose(course.values["u.activation"], one.values["u.activation"], atol=1e-10)
+        assert (course.outcome, course.events) == (one.outcome, one.events)
+
+
+def test_trials_that_have_ended_leave_the_batch():
+    model, left = decider(), []
+    courses = run_batch(model, 600, range(16), events=[DECIDED], between=left.append)
+    assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left
+    assert sizes(model)[-1] == 16 and len(sizes(model)) >= 3
+    assert sum(course.outcome == "decided" for course in courses) > 8
+
+
+def test_the_same_call_gives_the_same_bits():
+    first, second = (run_batch(decider(), 300, range(6), ["u.activation"], [DECIDED], every=5) for _ in range(2))
+    for a, b in zip(first, second, strict=True):
+        np.testing.assert_array_equal(a.values["u.activation"], b.values["u.activation"])
+
+
+def test_the_mean_time_of_a_decision_falls_with_noise():
+    times = [np.median([c.duration for c in run_batch(decider(noise), 3000, range(40), events=[DECIDED], every=5)]) for noise in (2.0, 4.0)]
+    assert times[0] > 3 * times[1]
+
+
+def test_fields_are_looked_at_too():
+    model = dd.Model("line")
+    model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)], tau=10, resting_level=-1, noise=0.5))
+    courses = run_batch(model, 50, [4, 5], ["u.activation"], every=10)
+    assert [c.values["u.activation"].shape for c in courses] == [(6, 11)] * 2 and {c.outcome for c in courses} == {"time"}
+
+
+def test_what_cannot_be_is_refused():
+    with pytest.raises(ParameterError, match="each of them once"):
+        run_batch(decider(), 10, [1, 1])
+    with pytest.raises(ParameterError, match="each of them once"):
+        run_batch(decider(), 10, [])
+    with pytest.raises(ParameterError, match="nothing to look at"):
+        run_batch(decider(), 10, [1])
+    model = straight()
+    from deodar.elements.sensor import Sensor
+
+    model.add(Sensor("heading", sensor="heading"))
+    with pytest.raises(WorldError, match="no world was given"):
+        run_batch(model, 10, [1], ["heading.output"])

@@ -1,0 +1,68 @@
+"""Jobs: what is missing is run, in any pieces and processes, with the same rows in the end."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from deodar.experiments.jobs import Job, carry_out
+from deodar.experiments.rows import Rows
+from tests.experiments import decisions
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def jobs(n=6):
+    return [Job((f"d/{k}",), decisions.one, {"trial": k}, cost=1.0 + k) for k in range(n)]
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """The rows of all jobs, run here."""
+    return [row for job in jobs() for row in job.run()]
+
+
+def test_all_is_run_and_progress_grows_to_the_end(tmp_path, rows):
+    seen = []
+    kept = Rows(tmp_path / "runs.jsonl", {})
+    carry_out(jobs(), kept, seen.append)
+    assert list(kept.found.values()) == rows
+    assert [s.rows for s in seen] == list(range(7)) and {s.of for s in seen} == {6}
+    assert seen[0].left is None and seen[-1].left == 0 and seen[-1].share == 1
+    assert seen[3].share == pytest.approx(6 / 21)
+
+
+def test_only_what_is_missing_is_run(tmp_path, rows):
+    kept = Rows(tmp_path / "runs.jsonl", {})
+    kept.append([row | {"outcome": "kept"} for row in rows[:2]])
+    carry_out(jobs(), kept)
+    assert [r["outcome"] for r in kept.found.values()][:2] == ["kept"] * 2
+    assert list(kept.found.values())[2:] == rows[2:]
+
+
+def test_workers_give_the_same_rows(tmp_path, rows):
+    kept = Rows(tmp_path / "runs.jsonl", {})
+    carry_out(jobs(), kept, workers=2)
+    assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows
+
+
+def test_a_run_that_is_killed_goes_on_with_the_same_rows(tmp_path, rows):
+    file = tmp_path / "runs.jsonl"
+    code = (
+        "from pathlib import Path; from deodar.experiments.jobs import carry_out; from deodar.experiments.rows import Rows\n"
+        f"from tests.experiments.test_jobs import jobs; carry_out(jobs(), Rows(Path({str(file)!r}), {{}}))"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)})
+    while process.poll() is None and not (file.exists() and file.read_bytes().count(b"\n") >= 3):
+        time.sleep(0.002)
+    process.kill()
+    process.wait()
+    assert file.read_bytes().count(b"\n") >= 3
+    kept = Rows(file, {})
+    carry_out(jobs(), kept)
+    assert list(kept.found.values()) == rows

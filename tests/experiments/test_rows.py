@@ -1,0 +1,69 @@
+"""Rows on the disk: whatever cut the file off, what is whole is found again."""
+
+from __future__ import annotations
+
+import pytest
+
+from deodar.errors import OutputError, OutputExists, RecordError
+from deodar.experiments.rows import Rows
+
+ABOUT = {"experiment": "test", "runs": 3}
+ROWS = [{"key": f"a/{k}", "outcome": "reached", "path": [[0.5, k]]} for k in range(3)]
+
+
+def test_rows_are_found_again(tmp_path):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, ABOUT).append(ROWS)
+    assert list(Rows(file, ABOUT).found.values()) == ROWS
+    assert len(file.read_text().splitlines()) == 4
+
+
+@pytest.mark.parametrize("cut", range(1, 120, 7))
+def test_a_file_cut_off_anywhere_goes_on(tmp_path, cut):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, ABOUT).append(ROWS)
+    whole = file.read_bytes()
+    file.write_bytes(whole[:-cut])
+    again = Rows(file, ABOUT)
+    assert list(again.found.values()) == ROWS[: len(again.found)]
+    again.append(ROWS)
+    assert file.read_bytes() == whole
+
+
+def test_a_file_cut_off_in_its_first_line_begins_anew(tmp_path):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, ABOUT).append(ROWS)
+    whole = file.read_bytes()
+    file.write_bytes(whole[:20])
+    Rows(file, ABOUT).append(ROWS)
+    assert file.read_bytes() == whole
+
+
+def test_a_key_is_kept_once(tmp_path):
+    rows = Rows(tmp_path / "runs.jsonl", ABOUT)
+    rows.append(ROWS[:1])
+    rows.append([ROWS[0] | {"outcome": "time"}])
+    assert rows.found["a/0"]["outcome"] == "reached" and len(rows.path.read_text().splitlines()) == 2
+
+
+def test_another_experiment_is_refused_and_left_alone(tmp_path):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, ABOUT).append(ROWS)
+    before = file.read_bytes()
+    with pytest.raises(OutputExists, match="another experiment: runs, seed differ"):
+        Rows(file, {"experiment": "test", "runs": 4, "seed": 1})
+    assert file.read_bytes() == before
+
+
+@pytest.mark.parametrize("text", ["hello", '{"key": 1}\n', "[1]\n", '{"about": {}}\nhello\n'])
+def test_what_holds_no_rows_is_refused_and_left_alone(tmp_path, text):
+    file = tmp_path / "runs.jsonl"
+    file.write_text(text)
+    with pytest.raises(RecordError):
+        Rows(file, {})
+    assert file.read_text() == text
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(OutputError, match="there is no folder"):
+        Rows(tmp_path / "none" / "runs.jsonl", ABOUT)

@@ -1,0 +1,47 @@
+"""Rows made by hand, as if all had gone as the paper tells it."""
+
+from __future__ import annotations
+
+from deodar.papers.spa import cases
+
+PATH = [[-45.0, 55 + 0.36 * k] for k in range(110)] + [[-50 - 0.15 * k, 95.0] for k in range(200)]
+"""North, then west through the passage beside the partial obstacle."""
+
+
+def row(c, trial, **other):
+    """A row of a run that goes straight to its goal."""
+    made = {
+        "key": c.key(trial), "condition": c.name, "trial": trial, "success": True, "steps": 700, "arrival": 660, "length": 120.0, "shortest": 100.0,
+        "divergence": 1.1 + 0.001 * (trial % 7), "touching": 0, "touches_at_end": False, "clearance": 8.0, "shortest_clearance": 5.0,
+        "goal": [0.0, 0.0], "path": PATH,
+    }  # fmt: skip
+    if c.method == "planner":
+        made |= {
+            "plan": 150 + 60 * (trial % 3),
+            "moved": 225,
+            "opposed": 0.002,
+            "behaviours": ["north", "west", "south", "east"],
+            "shortest": 100.0 + 20 * (trial % 3),
+        }
+    if not c.many_starts:
+        made |= {"route": "north", "wave": 150, "plan": 212, "west_ends": 500, "east_begins": 550}
+    if c.obstacle:
+        onset, duration = (int(v) for v in cases.windows(c.obstacle)[trial])
+        made |= {"onset": onset, "duration": duration, "on_robot": trial == 3, "still": 0}
+        made["route"] = expected(c.obstacle, onset, duration)
+        if made["route"] == "switch":
+            made |= {"still": 150, "arrival": 1230}
+    return made | other
+
+
+def expected(obstacle, onset, duration):
+    """The route that the paper tells."""
+    if onset < 180:
+        return "south" if obstacle == "partial" or duration > 75 else "north"
+    return "switch" if obstacle != "partial" and onset < 480 and duration > 130 else "north"
+
+
+def all_rows(quick, change=lambda c, trial: {}):
+    """All rows of the design by their keys."""
+    found = [row(c, k, **change(c, k)) for c in cases.conditions(quick).values() for k in c.trials]
+    return {r["key"]: r for r in found}

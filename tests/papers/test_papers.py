@@ -1,0 +1,38 @@
+"""Every paper in the folder says what it is, and gives jobs whose rows have keys of their own."""
+
+from __future__ import annotations
+
+import json
+import pickle
+
+import pytest
+
+from deodar import papers
+from deodar.errors import UnknownName
+
+
+@pytest.mark.parametrize("name", papers.names())
+@pytest.mark.parametrize("quick", [True, False])
+def test_a_paper_is_what_the_command_needs(name, quick):
+    paper = papers.paper(name)
+    assert paper.HELP and "\n" not in paper.HELP and paper.__doc__
+    jobs = paper.jobs(quick)
+    keys = [key for job in jobs for key in job.keys]
+    assert len(keys) == len(set(keys)) and all(job.cost > 0 for job in jobs)
+    again = pickle.loads(pickle.dumps(jobs))  # they travel to workers
+    assert [job.arguments for job in again] == [dict(json.loads(json.dumps(job.arguments))) for job in jobs]
+    assert json.loads(json.dumps(paper.about(quick))) == json.loads(json.dumps(paper.about(quick)))
+
+
+@pytest.mark.parametrize("name", papers.names())
+def test_without_runs_nothing_is_decided(name):
+    report = papers.paper(name).report({}, True)
+    assert report.claims and not report.figures
+    assert all(c.holds is None for c in report.claims)
+    names = [c.name for c in report.claims]
+    assert len(names) == len(set(names))
+
+
+def test_an_unknown_paper_suggests_the_nearest():
+    with pytest.raises(UnknownName, match="Did you mean 'spa'"):
+        papers.paper("sba")
