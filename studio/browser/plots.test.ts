@@ -162,11 +162,17 @@ test("a hand makes a peak while the right button is held, or the key I", async (
   const over = plot("Curves of u").locator(".u-over");
   const place = await over.boundingBox();
   if (place === null) throw new Error("The plot is not in sight.");
-  await page.mouse.move(place.x + place.width * 0.25, place.y + place.height / 2);
-  await page.mouse.down({ button: "right" });
+  const pushing = () => observer.clock?.pushing === observer.element("u").id;
+  // Panels come to rest a moment after a document is opened: as a person would, press again where a press went beside the plot.
+  for (let tries = 0; tries < 20 && !pushing(); tries++) {
+    await page.mouse.up({ button: "right" });
+    await over.hover({ position: { x: place.width * 0.25, y: place.height / 2 } });
+    await page.mouse.down({ button: "right" });
+    await page.waitForTimeout(500);
+  }
+  await observer.until(pushing);
   await observer.until(() => observer.max("u", "activation") > 3);
   expect(Math.abs(observer.peak("u", "activation") - 25)).toBeLessThan(6);
-  await observer.until(() => observer.clock?.pushing === observer.element("u").id);
   await shot(page, "plot-injection");
   await page.mouse.up({ button: "right" });
   await observer.until(() => observer.clock?.pushing === "");
@@ -182,7 +188,7 @@ test("a hand makes a peak while the right button is held, or the key I", async (
 
   await page.keyboard.down("Shift");
   await page.mouse.down({ button: "right" });
-  await observer.until(() => observer.clock?.pushing === observer.element("u").id && observer.max("u", "activation") > 0);
+  await observer.until(() => pushing() && observer.max("u", "activation") > 0);
   await page.mouse.up({ button: "right" });
   await page.keyboard.up("Shift");
   await observer.until(() => observer.clock?.pushing === "");

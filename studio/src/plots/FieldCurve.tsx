@@ -82,7 +82,8 @@ export function FieldCurve(props: PlotProps) {
     ],
     hooks: { draw: [(self) => drawLevels(self, lines(), look)] },
   });
-  const key = JSON.stringify([element.id, curves, withLevels, settings.range, x]);
+  // What is drawn of the axis, not the axis: a chart made anew when its first values come would end what a hand holds.
+  const key = JSON.stringify([element.id, curves, withLevels, settings.range, x && [x.name, x.unit, x.lower, x.upper]]);
   const injection = (): Injection | null => {
     const { document } = useStudio.getState();
     return element.pushable && document !== null && x !== null
