@@ -9,9 +9,11 @@ import deodar as dd
 from deodar.compiler.executable import Batch
 from deodar.errors import ParameterError, WorldError
 from deodar.experiments.batch import run_batch
-from deodar.experiments.events import Crosses
+from deodar.elements.sensor import Sensor
+from deodar.experiments.events import Crosses, Within
 from deodar.experiments.run import run
-from tests.experiments.robots import decider, straight
+from deodar.worlds.picture import Picture
+from tests.experiments.robots import decider, room, straight
 
 DECIDED = Crosses("decided", "u.activation")
 
@@ -57,6 +59,21 @@ def test_fields_are_looked_at_too():
     assert [c.values["u.activation"].shape for c in courses] == [(6, 11)] * 2 and {c.outcome for c in courses} == {"time"}
 
 
+def test_each_trial_has_a_world_of_its_own_and_leaves_with_it():
+    model, starts = straight(), [(10, 20, 0), (60, 20, 0), (35, 20, 0), (75, 20, 0)]
+    model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
+    arena, there = room(start=starts, goal=[(80, 20)] * 4, slip=0.05), [Within("there", 5, "pose.output", "goal.output")]
+    model.add(Sensor("goal", [dd.Axis("of", 0, 1, 2)], sensor="goal"))
+    many = run_batch(model, 300, range(4), ["pose.output"], there, world=arena, precision="float64")
+    assert len({c.duration for c in many}) == 4 and {c.outcome for c in many} == {"there"}
+    assert sizes(model) == [1, 2, 4]
+    for trial, course in enumerate(many):
+        one = run(model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64")
+        np.testing.assert_array_equal(course.times, one.times)
+        np.testing.assert_allclose(course.values["pose.output"], one.values["pose.output"], atol=1e-10)
+        assert course.values["pose.output"][0, 0] == starts[trial][0]
+
+
 def test_what_cannot_be_is_refused():
     with pytest.raises(ParameterError, match="each of them once"):
         run_batch(decider(), 10, [1, 1])
@@ -65,8 +82,10 @@ def test_what_cannot_be_is_refused():
     with pytest.raises(ParameterError, match="nothing to look at"):
         run_batch(decider(), 10, [1])
     model = straight()
-    from deodar.elements.sensor import Sensor
-
     model.add(Sensor("heading", sensor="heading"))
     with pytest.raises(WorldError, match="no world was given"):
         run_batch(model, 10, [1], ["heading.output"])
+    eye = dd.Model("eye")
+    eye.add(Sensor("camera", [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 3, 4), dd.Axis("channel", 0, 2, 3)], sensor="camera"))
+    with pytest.raises(WorldError, match="Picture cannot be computed for a batch of copies"):
+        run_batch(eye, 10, [1], ["camera.output"], world=Picture.example())

@@ -163,7 +163,8 @@ def spa(arena: Arena, noise: str = "low") -> Model:
         _action(model, name, compass, [avoid, alarm], wheels)
     for name in DIRECTIONS:
         _compete(model, name)
-    model.add(Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose"))  # for records and figures; nothing reads it
+    model.add(Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose"))  # these two are for records and figures; nothing reads them
+    model.add(Sensor("touching", sensor="touching"))
     return model
 
 

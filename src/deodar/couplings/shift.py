@@ -8,7 +8,6 @@ from typing import Annotated, Any, ClassVar
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics import resampling
-from deodar.numerics.convolution import along
 from deodar.parameters import PerAxis, Rebuild
 from deodar.registry import register
 
@@ -39,11 +38,10 @@ class Shift(Coupling):
 
     def prepare(self, at: Setting) -> Any:
         axes = at.ins["input"]
-        amounts = per_axis(self.amount, axes)
-        return [resampling.weights(a, at.points(a) - s, "linear", at.dtype) for a, s in zip(axes, amounts, strict=True)]
+        return [resampling.steps(a, amount, at.dtype) for a, amount in zip(axes, per_axis(self.amount, axes), strict=True)]
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         y = inputs["input"]
-        for d, weights in enumerate(constants):
-            y = along(weights, y, d)
+        for d, (axis, (whole, part)) in enumerate(zip(at.ins["input"], constants, strict=True)):
+            y = resampling.shifted(y, d, axis.periodic, whole, part)
         return {"output": y}

@@ -1,11 +1,11 @@
-"""Between grids: the matrices that interpolate, shift, and the reductions over axes."""
+"""Between grids: the matrices that interpolate, shifts, and the reductions over axes."""
 
 from __future__ import annotations
 
 from typing import Any, Literal
 
 import jax.numpy as jnp
-from jax import Array
+from jax import Array, lax
 
 from deodar.numerics.axes import Axis
 
@@ -31,6 +31,31 @@ def weights(source: Axis, points: Any, interpolation: str, dtype: Any) -> Array:
     if source.periodic and source.samples == 1:
         w = jnp.ones_like(w)
     return w
+
+
+def steps(axis: Axis, amount: Any, dtype: Any) -> tuple[Array, Array]:
+    """A shift along an axis as whole samples and the part of one that is left, 0 to 1."""
+    samples = jnp.asarray(amount, dtype) / jnp.asarray(axis.step, dtype)
+    whole = jnp.floor(samples)
+    # what a whole number of samples lacks by rounding is no part of one
+    whole = jnp.where(samples - whole > 1 - jnp.finfo(dtype).eps * jnp.maximum(8.0, jnp.abs(samples)), whole + 1, whole)
+    turns = whole % axis.samples if axis.periodic else jnp.clip(whole, -axis.samples - 1, axis.samples)
+    return turns.astype(jnp.int32), jnp.maximum(samples - whole, 0.0)
+
+
+def shifted(y: Array, d: int, periodic: bool, whole: Array, part: Array) -> Array:
+    """What stood at sample i of axis d stands at i + whole + part, interpolated linearly between samples.
+
+    Zeros come in at the ends of an axis that is not periodic. It is a copy of a stretch, which no matrix can beat.
+    """
+    n = y.shape[d]
+    if periodic:
+        wide, first = jnp.concatenate([y, y], axis=d), n - 1 - whole
+    else:
+        nothing = jnp.zeros((*y.shape[:d], n + 1, *y.shape[d + 1 :]), y.dtype)
+        wide, first = jnp.concatenate([nothing, y, nothing], axis=d), n - whole
+    stretch = lax.dynamic_slice_in_dim(wide, first, n + 1, axis=d)
+    return (1 - part) * lax.slice_in_dim(stretch, 1, n + 1, axis=d) + part * lax.slice_in_dim(stretch, 0, n, axis=d)
 
 
 def reduce(y: Array, d: int, axis: Axis, how: str) -> Array:

@@ -14,8 +14,10 @@ FLOOR = (0.96, 0.96, 0.94)
 OUTSIDE = (0.25, 0.25, 0.25)
 
 
-def covers(axes: Axes, boxes: Any, scale: float) -> Any:
-    """Share (boxes, samples, samples) of the cell of each sample that each box covers.
+def sides(axes: Axes, boxes: Any, scale: float) -> tuple[Any, Any]:
+    """For each box and each of two axes, the share (boxes, samples) of the sample's cell that the box covers along it.
+
+    The share of a cell of the plane that a box covers is the product of both.
 
     Args:
         axes: two of them; x is the one called x, else the first.
@@ -23,8 +25,8 @@ def covers(axes: Axes, boxes: Any, scale: float) -> Any:
         scale: metres in a unit of axes that name no unit of length of their own.
     """
     across = 0 if axes[1].name != "x" else 1
-    sides = [_along(axes[d], boxes[:, k], boxes[:, k + 2], UNITS.get(axes[d].unit, scale)) for d, k in ((0, across), (1, 1 - across))]
-    return sides[0][:, :, None] * sides[1][:, None, :]
+    one, other = (_along(axes[d], boxes[:, k], boxes[:, k + 2], UNITS.get(axes[d].unit, scale)) for d, k in ((0, across), (1, 1 - across)))
+    return one, other
 
 
 def _along(axis: Axis, lower: Any, upper: Any, scale: float) -> Any:

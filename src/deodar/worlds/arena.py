@@ -29,7 +29,7 @@ from deodar.worlds._pure import PureWorld, Tree
 from deodar.worlds._room import Room
 from deodar.worlds._scene import Body, Box, Mark, Scene
 from deodar.worlds._vehicle import Vehicle, drive, limited, wrapped
-from deodar.worlds._view import coloured, covers, require_plane
+from deodar.worlds._view import coloured, require_plane, sides
 
 CONTACTS = ("slide", "stick")
 GOAL = "goal"
@@ -253,8 +253,11 @@ class Arena(PureWorld):
         if sensor == "pose":
             return jnp.concatenate([state["position"] / self.scale, state["heading"][None]])
         require_plane(sensor, axes, sensor == "above")
-        cover = covers(axes[:2], shared["boxes"], self.scale) * _there(own, state["tick"])[:, None, None]
-        return jnp.clip(jnp.sum(cover, axis=0), 0.0, 1.0) if sensor == "obstacles" else coloured(cover, shared["colours"])
+        one, other = sides(axes[:2], shared["boxes"], self.scale)
+        one = one * _there(own, state["tick"])[:, None]
+        if sensor == "obstacles":  # one product of matrices: no array over boxes and the plane
+            return jnp.clip(jnp.einsum("bi,bj->ij", one, other, precision="highest"), 0.0, 1.0)
+        return coloured(one[:, :, None] * other[:, None, :], shared["colours"])
 
     def _settled(self, starts: np.ndarray | None) -> np.ndarray:
         """The starts; where none was given, one that can be. Refused are starts and goals that cannot."""

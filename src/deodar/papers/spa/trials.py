@@ -12,10 +12,10 @@ from deodar.analysis.paths import clearance, divergence, length
 from deodar.analysis.shortest import shortest
 from deodar.architectures.follow_the_carrot import follow
 from deodar.architectures.spa import CASE_3, DIRECTIONS, place, spa
+from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Leaves, Within
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.experiments.run import run
 from deodar.model.model import Model
 from deodar.papers.spa import cases
 from deodar.papers.spa.cases import LIMIT, RADIUS, STAY, Condition
@@ -38,8 +38,8 @@ LASTS = 20
 LOCATION_2 = (15, 57)
 """Row and column of the second location of figures 10 and 11: where the robot of that run is at t = 500. Read from a run, not printed."""
 
-POSE = "pose.output"
-"""True place and heading, through the model's own sensor: it is read with the other ports."""
+POSE, TOUCHING = "pose.output", "touching.output"
+"""True place and heading, and whether it touches something, through the model's own sensors."""
 
 STRONGEST = {name: f"{name}.strongest.output" for name in DIRECTIONS}
 COST = {"z": 6.0, "large": 80.0}
@@ -77,13 +77,13 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
     """The row of one run of the planner."""
     c = cases.conditions(quick)[name]
     arena, model = _bench(name, quick)
-    watch = [*STRONGEST.values(), POSE, "touching"]
+    watch = [*STRONGEST.values(), POSE, TOUCHING]
     narrated = c.name.startswith(("free", "narrative"))
     motivated = {side: f"{side}.motivation.activation" for side in ("west", "east")} if narrated else {}
     events = [Within("done", RADIUS, POSE, "goal.output", STAY), Leaves("moved", MOVED, POSE)]
-    course = run(model, LIMIT, arena, trial=trial, watch=[*watch, *motivated.values()], events=events)
+    [course] = run_batch(model, LIMIT, [trial], [*watch, *motivated.values()], events, world=arena)
     start, goal = (place(*CASE_3[0]), place(*CASE_3[1])) if not c.many_starts else (pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial])
-    row = _row(c, trial, course.values[POSE], course.values["touching"] > 0, goal, shortest(reference(c.maze), start, goal), arena)
+    row = _row(c, trial, course.values[POSE], course.values[TOUCHING] > 0, goal, shortest(reference(c.maze), start, goal), arena)
     intentions = np.stack([course.values[path] for path in STRONGEST.values()], axis=1)
     moved = course.events["moved"]
     weak = np.flatnonzero(intentions[: int(moved if moved is not None else len(intentions))].max(axis=1) <= STRONG)
