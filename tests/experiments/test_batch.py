@@ -7,9 +7,9 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.executable import Batch
+from deodar.elements.sensor import Sensor
 from deodar.errors import ParameterError, WorldError
 from deodar.experiments.batch import run_batch
-from deodar.elements.sensor import Sensor
 from deodar.experiments.events import Crosses, Within
 from deodar.experiments.run import run
 from deodar.worlds.picture import Picture
