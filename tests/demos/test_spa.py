@@ -67,3 +67,26 @@ def test_the_command_writes_what_it_says(tmp_path: Path, monkeypatch: pytest.Mon
 def test_options_of_another_demo(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["demo", "spa", "--cue", "30"]) != 0
     assert "--cue belongs to the demo saliency" in capsys.readouterr().err
+
+
+MAZE = {
+    "unit": "cm",
+    "arena": {"x": [0, 60], "y": [0, 50]},
+    "walls": [{"name": "divide", "center": [30, 35], "size": [4, 30]}],
+    "start": [12, 30],
+    "goal": [48, 32],
+}
+
+
+def test_a_maze_of_ones_own_is_planned_and_driven_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(spa, "LONGEST", 500)
+    file = tmp_path / "maze.json"
+    file.write_text(json.dumps(MAZE))
+    out = tmp_path / "out"
+    status = main(["demo", "spa", "--maze", str(file), "--goal", "48", "34", "--noise", "low", "--out", str(out), "--no-progress"])
+    assert status == 0 and sorted(p.name for p in out.iterdir()) == ["results.json", "spa.gif", "spa.png", "spa.zarr"]
+    found = json.loads((out / "results.json").read_text())
+    assert found["settings"]["maze"]["goal"] == [[48, 34]] and "obstacle_at" not in found["settings"]
+    arrived = next(c for c in found["claims"] if c["name"].startswith("it arrives"))
+    assert arrived["kind"] == "reported" and arrived["holds"] is True
+    assert "at the goal at step" in capsys.readouterr().out

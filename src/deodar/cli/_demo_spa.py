@@ -17,7 +17,7 @@ def run(args: argparse.Namespace, out: Path) -> tuple[list[Claim], dict[str, Any
     from rich.progress import BarColumn, Progress, TextColumn
 
     from deodar.analysis.claims import results
-    from deodar.architectures.spa import DIRECTIONS
+    from deodar.architectures.spa import DIRECTIONS, maze
     from deodar.demos import spa
     from deodar.demos.spa_figure import figure
     from deodar.demos.spa_film import film
@@ -26,11 +26,22 @@ def run(args: argparse.Namespace, out: Path) -> tuple[list[Claim], dict[str, Any
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
     with Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=args.no_progress) as bar:
-        task = bar.add_task("planning and driving", total=spa.DURATION * 1.1)
-        result = spa.go(args.seed, spa.DURATION, done=lambda done: bar.update(task, completed=done))
+        own = any(value is not None for value in (args.maze, args.start, args.goal, args.noise))
+        duration, noise = spa.LONGEST if own else spa.DURATION, args.noise or "low"
+        task = bar.add_task("planning and driving", total=duration * 1.1)
+
+        def shown(done: int) -> None:
+            bar.update(task, completed=done)
+
+        if own:
+            start = None if args.start is None else [*args.start, 0.0][:3]
+            result = spa.drive(maze(args.maze or "z", noise, start, args.goal), noise, args.seed, duration, shown)
+        else:
+            result = spa.go(args.seed, duration, shown)
         bar.update(task, description="drawing")
         claims = spa.claims(result)
-        settings = {"demo": args.name, "seed": args.seed, "duration": spa.DURATION, "obstacle_at": spa.COMES, "noise": "low"}
+        told = {"obstacle_at": spa.COMES} if result.told else {"maze": result.arena.describe()}
+        settings = {"demo": args.name, "seed": args.seed, "duration": duration, "noise": noise, **told}
 
         def fill(folder: Path) -> None:
             save_figure(figure(result), folder / "spa.png")

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from deodar.demos import saliency
 
 HELP = "run a demonstration: saliency on photographs, or spa, a robot that plans and drives"
-ON_PICTURES = ("image", "video", "camera", "cue")
+OF = {"saliency": ("image", "video", "camera", "cue"), "spa": ("maze", "start", "goal", "noise")}
+"""Options that belong to one demo."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,6 +34,10 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="HUE",
         help="with --image, --video, --camera: a hue to cue, in degrees (0 red, 120 green); may be repeated",
     )
+    parser.add_argument("--maze", metavar="FILE", help="spa: a maze of your own, as FILE or FILE#NAME, or large; nothing comes on the way")
+    parser.add_argument("--start", type=float, nargs="+", metavar="CM", help="spa: where the robot starts: x, y and, if wanted, its heading in rad")
+    parser.add_argument("--goal", type=float, nargs=2, metavar="CM", help="spa: x and y of the goal")
+    parser.add_argument("--noise", choices=("none", "low", "high"), help="spa: of its map and place sense (default low)")
     parser.add_argument("--seed", type=_options.whole, default=0, metavar="N", help="seed of all noise (default 0)")
     parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder for what is written (default: a new one in the working folder)")
     parser.add_argument("--force", action="store_true", help="replace the folder --out that an earlier demo wrote")
@@ -47,9 +52,10 @@ def run(args: argparse.Namespace) -> int:
     from deodar.errors import DeodarError
     from deodar.recording import places
 
-    strange = [name for name in ON_PICTURES if args.name != "saliency" and getattr(args, name) is not None]
+    strange = [(name, demo) for demo, names in OF.items() if demo != args.name for name in names if getattr(args, name) is not None]
     if strange:
-        raise DeodarError(f"--{strange[0]} belongs to the demo saliency", where=f"demo {args.name}", fix=f"Leave out --{strange[0]}")
+        name, demo = strange[0]
+        raise DeodarError(f"--{name} belongs to the demo {demo}", where=f"demo {args.name}", fix=f"Leave out --{name}")
     out = args.out or places.free(Path.cwd(), f"demo-{args.name}")
     claim(out, args.force)
     use_cores(args.cores)

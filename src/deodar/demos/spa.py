@@ -1,7 +1,9 @@
-"""`deodar demo spa`: a robot plans its way through a maze and drives it; an obstacle comes, and it plans anew on the way."""
+"""`deodar demo spa`: a robot plans its way through a maze and drives it; an obstacle comes, and it plans anew on the way. Or any other maze."""
 
 from __future__ import annotations
 
+import dataclasses as dc
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -11,6 +13,7 @@ import numpy as np
 from deodar.analysis.claims import Claim
 from deodar.analysis.paths import length, until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
+from deodar.errors import WorldError
 from deodar.runtime.simulate import simulate
 from deodar.worlds.arena import Arena
 
@@ -25,6 +28,12 @@ DURATION = 1400
 
 EVERY = 2
 """Steps between two records: the robot hears of its place as often."""
+
+LONGEST = 3000
+"""Steps that are run in a maze of one's own; more than any published run takes."""
+
+MEMORY = 400e6
+"""Bytes that the motivation fields of a record may take; in a large maze records are further apart for it."""
 
 COMES = 336
 """Step at which the obstacle comes, as in figure 11; it stays."""
@@ -42,6 +51,7 @@ INTENDED = 0.5
 NORTH, SOUTH = place(30, 0)[1], place(50, 0)[1]
 """Beyond which y, cm, it is on the northern and on the southern route (published simulator)."""
 
+RECORDED = ["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS), *(f"{name}.motivation.activation" for name in DIRECTIONS)]
 SITES = (0, 500, 850, 1250)
 """Steps at which the robot stands at the places that the paper calls location 1 to 4."""
 
@@ -57,6 +67,7 @@ class Result:
         left: it moved.
         north, south: it was first on either route after it had moved; south after north.
         arrived: it came within NEAR of the goal.
+        told: whether it is the run that the paper tells of, with the obstacle that comes.
     """
 
     record: xarray.Dataset
@@ -66,6 +77,13 @@ class Result:
     north: int | None
     south: int | None
     arrived: int | None
+    told: bool = True
+
+    @property
+    def every(self) -> int:
+        """Steps between two records."""
+        times = self.record["time"].values
+        return round(float(times[1] - times[0]))
 
     @property
     def goal(self) -> np.ndarray:
@@ -77,13 +95,14 @@ class Result:
     def sites(self) -> list[tuple[float, float]]:
         """Locations 1 to 4, as far as the record goes: x and y in cm."""
         poses = self.record["pose.output"]
-        return [(float(x), float(y)) for step in SITES if step <= poses["time"].values[-1] for x, y, _ in [poses.sel(time=step).values]]
+        sites = SITES if self.told else ()
+        return [(float(x), float(y)) for step in sites if step <= poses["time"].values[-1] for x, y, _ in [poses.sel(time=step).values]]
 
     @property
     def path(self) -> np.ndarray:
         """x, y and heading over time, until it arrived."""
         pose = np.asarray(self.record["pose.output"].values, float)
-        return pose if self.arrived is None else pose[: self.arrived // EVERY + 1]
+        return pose if self.arrived is None else pose[: self.arrived // self.every + 1]
 
 
 def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Result:
@@ -91,9 +110,18 @@ def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = la
     arena = maze("z")
     center, size = OBSTACLES["full"]
     arena.place("obstacle", center, size, windows=(COMES * STEP_MS, 1e9))
-    paths = ["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS), *(f"{name}.motivation.activation" for name in DIRECTIONS)]
-    record = simulate(spa(arena), duration, seed=seed, record=paths, every=EVERY, world=arena, progress=done)
-    return read(record, arena)
+    return read(simulate(spa(arena), duration, seed=seed, record=RECORDED, every=EVERY, world=arena, progress=done), arena)
+
+
+def drive(arena: Arena, noise: str = "low", seed: int = 0, duration: int = LONGEST, done: Callable[[int], None] = lambda _: None) -> Result:
+    """A run in any maze, which is made by `deodar.architectures.spa.maze`; nothing comes on the way."""
+    if arena.goals is None:
+        raise WorldError("the maze has no goal", where=arena.source, fix="Give one: --goal X Y, in cm")
+    model = spa(arena, noise)
+    cells = math.prod(axis.samples for axis in model["north.motivation"].element.axes)  # type: ignore[attr-defined]
+    every = EVERY * max(1, math.ceil(duration / EVERY * cells * 4 * len(DIRECTIONS) / MEMORY))
+    found = read(simulate(model, duration, seed=seed, record=RECORDED, every=every, world=arena, progress=done), arena)
+    return dc.replace(found, told=False)
 
 
 def read(record: xarray.Dataset, arena: Arena) -> Result:
@@ -111,8 +139,8 @@ def read(record: xarray.Dataset, arena: Arena) -> Result:
     north = _first(after & (pose[:, 1] > NORTH))
     south = _first(after & (pose[:, 1] < SOUTH) & (np.arange(len(pose)) > (0 if north is None else north)))
     arrived = _first(np.linalg.norm(pose[:, :2] - arena.goals[0] / arena.scale, axis=1) <= NEAR)
-    steps = (None if k is None else round(float(times[k])) for k in (planned, left, north, south, arrived))
-    return Result(record, arena, *steps)
+    planned, left, north, south, arrived = (None if k is None else round(float(times[k])) for k in (planned, left, north, south, arrived))
+    return Result(record, arena, planned, left, north, south, arrived)
 
 
 def _first(holds: np.ndarray) -> int | None:
@@ -120,15 +148,17 @@ def _first(holds: np.ndarray) -> int | None:
 
 
 def claims(result: Result) -> list[Claim]:
-    """What is claimed of the run, computed from it."""
+    """What is claimed of the run, computed from it. Of a maze of one's own nothing is required."""
     r = result
+    if not r.told:
+        return _reported(r)
     switched = r.north is not None and r.south is not None and r.arrived is not None and r.north < r.south < r.arrived
     gone = until(r.path, r.goal, NEAR)
     at = None
     if len(r.sites) > 1:
         x, y = r.sites[1]
         wave = _first(r.record["west.motivation.activation"].sel(x=x, y=y, method="nearest").values > 0)
-        at = None if wave is None else wave * EVERY
+        at = None if wave is None else wave * r.every
     return [
         Claim(
             "the plan is complete: from this step on there is an intention until the robot moves",
@@ -152,6 +182,16 @@ def claims(result: Result) -> list[Claim]:
     ]
 
 
+def _reported(r: Result) -> list[Claim]:
+    gone = until(r.path, r.goal, NEAR)
+    return [
+        Claim("the plan is complete at step", r.planned, "not printed", None, "reported"),
+        Claim("it leaves at step", r.left, "not printed", None, "reported"),
+        Claim(f"it arrives within {NEAR:g} cm of the goal, at step", r.arrived, f"< {LONGEST}", r.arrived is not None, "reported"),
+        Claim("length of its path, cm", None if gone is None else round(length(gone), 1), "not printed", None, "reported"),
+    ]
+
+
 def _within(value: int | None, target: float, share: float) -> bool:
     return value is not None and abs(value - target) <= share * target
 
@@ -165,8 +205,7 @@ def sentence(result: Result) -> str:
     said: Sequence[tuple[str, int | None]] = (
         ("planned", result.planned),
         ("left", result.left),
-        ("on the north route", result.north),
-        ("on the south route", result.south),
+        *((("on the north route", result.north), ("on the south route", result.south)) if result.told else ()),
         ("at the goal", result.arrived),
     )
     return "; ".join(f"{what} at step {k}" if k is not None else f"never {what}" for what, k in said) + f" (one step is {STEP_MS:g} ms)."

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from deodar.architectures.spa import DIRECTIONS
-from deodar.demos.spa import COMES, EVERY, SITES, Result
+from deodar.demos.spa import COMES, Result
 from deodar.figures._style import COLORS, DIVERGING, DOUBLE, THRESHOLD, style
 from deodar.figures._style import figure as sheet
 
@@ -24,12 +24,13 @@ def figure(result: Result) -> Figure:
     """Path (as figure 11 of the paper), motivation fields at two moments (figure 12), and at four places over time (figure 10)."""
     r = result
     with style():
-        out = sheet(DOUBLE, 6.6)
-        halves: Any = out.subfigures(2, 1, height_ratios=(1.0, 1.5))
+        out = sheet(DOUBLE, 6.6 if r.told else 4.4)
+        halves: Any = out.subfigures(2, 1, height_ratios=(1.0, 1.5 if r.told else 0.6))
         places: Any = halves[0].subfigures(1, 3, width_ratios=(1.12, 1.0, 1.0))
         _path(places[0].subplots(), r)
         before = None if r.south is None else r.south - BEFORE
-        for place, what, step in zip(places[1:], ("plan complete", "another plan"), (r.planned, before), strict=True):
+        later = ("another plan", before) if r.told else ("at the goal", r.arrived)
+        for place, (what, step) in zip(places[1:], (("plan complete", r.planned), later), strict=True):
             place.suptitle(f"{what}, step {step}" if step is not None else f"{what}: never", fontsize=8)
             for axes, name in zip(place.subplots(2, 2).flat, DIRECTIONS, strict=True):
                 _motivation(axes, r, name, step)
@@ -41,12 +42,12 @@ def figure(result: Result) -> Figure:
 def _path(axes: Any, r: Result) -> None:
     _walls(axes, r, "#777777")
     for thing in r.arena.furniture.things:
-        if thing is not None and thing.name == "obstacle":
+        if r.told and thing is not None and thing.name == "obstacle":
             x0, y0, x1, y1 = (100 * v for v in thing.box)
             axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#e0c8a0", edgecolor="#8a6d3b", linewidth=0.6))
             axes.text((x0 + x1) / 2, (y0 + y1) / 2, f"from\n{COMES}", ha="center", va="center", fontsize=6)
     axes.plot(*r.path[:, :2].T, color=COLORS[0])
-    axes.plot(*r.path[:: 100 // EVERY, :2].T, ".", color=COLORS[0], markersize=4)
+    axes.plot(*r.path[:: 100 // r.every, :2].T, ".", color=COLORS[0], markersize=4)
     for number, site in enumerate(r.sites, 1):
         axes.plot(*site, "x", color=COLORS[1], markersize=5)
         axes.annotate(f"{number}", site, xytext=(5, -3), textcoords="offset points", fontsize=8, color=COLORS[1], fontweight="bold")
@@ -72,12 +73,12 @@ def _motivation(axes: Any, r: Result, name: str, step: int | None) -> None:
     axes.axis("off")
     if step is None:
         return
-    u = r.record[f"{name}.motivation.activation"].isel(time=step // EVERY)
+    u = r.record[f"{name}.motivation.activation"].isel(time=step // r.every)
     x, y = u["x"].values, u["y"].values
     extent = (x[0] - 0.5, x[-1] + 0.5, y[0] - 0.5, y[-1] + 0.5)
     axes.imshow(u.values.T, extent=extent, cmap=DIVERGING, vmin=-RANGE, vmax=RANGE)
     axes.contour(x, y, u.values.T, levels=[0.0], colors="black", linewidths=0.4)
-    axes.plot(*r.record["pose.output"].values[step // EVERY, :2], "o", markerfacecolor="white", markeredgecolor="black", markersize=3.5)
+    axes.plot(*r.record["pose.output"].values[step // r.every, :2], "o", markerfacecolor="white", markeredgecolor="black", markersize=3.5)
     axes.plot(*r.goal, "+", color="white", markersize=5)
     left, low, right, high = (100 * v for v in r.arena.layout.border)
     axes.set_xlim(left, right)
@@ -85,7 +86,7 @@ def _motivation(axes: Any, r: Result, name: str, step: int | None) -> None:
 
 
 def _courses(place: Any, r: Result) -> None:
-    rows = place.subplots(len(SITES) + 1, 1, sharex=True)
+    rows = place.subplots(len(r.sites) + 1, 1, sharex=True, squeeze=False)[:, 0]
     times = r.record["time"].values
     for number, (axes, (x, y)) in enumerate(zip(rows, r.sites, strict=False), 1):
         for name in DIRECTIONS:
@@ -98,9 +99,10 @@ def _courses(place: Any, r: Result) -> None:
     rows[-1].set_ylabel("intention")
     rows[-1].set_xlabel("time (steps of 64 ms)")
     rows[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.1))
-    rows[0].set_title("activation of the motivation fields at four places; below: largest output of the intention fields")
+    below = "largest output of the intention fields"
+    rows[0].set_title(f"activation of the motivation fields at {len(r.sites)} places; below: {below}" if r.sites else below, pad=12)
     for axes in rows:
-        for step, words in ((r.planned, "planned"), (COMES, "obstacle"), (r.arrived, "arrived")):
+        for step, words in ((r.planned, "planned"), (COMES if r.told else None, "obstacle"), (r.arrived, "arrived")):
             if step is not None:
                 axes.axvline(step, color="#999999", linewidth=0.5)
                 if axes is rows[-1]:

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from deodar.architectures.spa import DIRECTIONS
-from deodar.demos.spa import COMES, EVERY, Result
+from deodar.demos.spa import COMES, Result
 from deodar.demos.spa_figure import COLOUR
 from deodar.model import output
 
@@ -36,7 +36,7 @@ def film(result: Result, file: str | Path) -> Path:
     """Write a GIF: each place in the colours of the behaviours that are motivated there, the path, the robot, walls and goal."""
     path = output.claim(file)
     last = len(result.path)
-    frames = [_frame(result, k) for k in range(0, last, BETWEEN // EVERY)]
+    frames = [_frame(result, k) for k in range(0, last, max(1, BETWEEN // result.every))]
     output.write(path, lambda beside: frames[0].save(beside, format="GIF", save_all=True, append_images=frames[1:], duration=SHOWN_MS, loop=0))
     return path
 
@@ -69,7 +69,7 @@ def _frame(r: Result, k: int) -> Image.Image:
     for n, name in enumerate(DIRECTIONS):
         pen.rectangle((22 + 70 * n, 6, 30 + 70 * n, 14), fill=_rgb(COLOUR[name]))
         pen.text((34 + 70 * n, 3), name, fill=(255, 255, 255), font_size=12)
-    pen.text((image.width - 76, 3), f"step {k * EVERY}", fill=(255, 255, 255), font_size=12)
+    pen.text((image.width - 76, 3), f"step {k * r.every}", fill=(255, 255, 255), font_size=12)
     return image.quantize(TONES, dither=Image.Dither.NONE)
 
 
@@ -79,9 +79,10 @@ def _things(pen: Any, r: Result, k: int, at: Any) -> None:
     for side in ((0, 0, x0, height), (x1, 0, width, height), (0, 0, width, y0), (0, y1, width, height)):
         pen.rectangle(side, fill=WALL)
     for thing in r.arena.furniture.things:
-        if thing is not None and (thing.name != "obstacle" or k * EVERY > COMES):
+        comes = r.told and thing is not None and thing.name == "obstacle"
+        if thing is not None and (not comes or k * r.every > COMES):
             left, low, right, high = (100 * v for v in thing.box)
-            pen.rectangle([*at(left, high), *at(right, low)], fill=OBSTACLE if thing.name == "obstacle" else WALL)
+            pen.rectangle([*at(left, high), *at(right, low)], fill=OBSTACLE if comes else WALL)
 
 
 def _rgb(colour: str) -> tuple[int, int, int]:

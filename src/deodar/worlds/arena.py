@@ -18,6 +18,7 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
 from deodar.parameters import real, show
 from deodar.registry import register
+from deodar.worlds._asked import asked
 from deodar.worlds._base import Signal
 from deodar.worlds._contact import move
 from deodar.worlds._epuck import EPUCK
@@ -295,7 +296,8 @@ class Arena(PureWorld):
 
     @classmethod
     def open(cls, argument: str) -> Arena:
-        return cls(argument)
+        layout, settings = asked(argument)
+        return cls(layout, **settings)
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Arena:

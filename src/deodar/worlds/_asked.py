@@ -1,0 +1,55 @@
+"""An arena as it is asked for on the command line: what stands in it, and how it is set up."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from deodar.errors import WorldError, did_you_mean
+from deodar.parameters import real
+
+WORDS = ("unit", "contact")
+PLACES = {"start": (2, 3), "goal": (2, 2)}
+"""How many numbers a place has, at least and at most; a start without a heading looks along x."""
+
+NUMBERS = ("period", "reflection", "place_noise", "place_every", "infrared_noise", "slip", "encoder_noise")
+
+
+def asked(argument: str) -> tuple[str, Mapping[str, Any]]:
+    """The layout and the settings in `LAYOUT, NAME=VALUE, ...`, for example `z, unit=cm, goal=-27 78, place_noise=0.5`.
+
+    Raises:
+        WorldError: there is no such setting, or its value is none.
+    """
+    layout, *pieces = (piece.strip() for piece in argument.split(","))
+    found: dict[str, Any] = {}
+    for piece in pieces:
+        name, equal, value = (part.strip() for part in piece.partition("="))
+        if not equal or name not in (*WORDS, *PLACES, *NUMBERS):
+            hint = did_you_mean(name, [*WORDS, *PLACES, *NUMBERS])
+            raise WorldError(f"there is no setting {piece!r}" if not equal else f"there is no setting {name!r}", where=f"arena:{argument}", fix=hint)
+        found[name] = value if name in WORDS else _place(name, value, argument) if name in PLACES else _number(name, value, argument)
+    return layout, found
+
+
+def _place(name: str, value: str, argument: str) -> list[float]:
+    least, most = PLACES[name]
+    numbers = [real(_float(word)) for word in value.split()]
+    if not least <= len(numbers) <= most or None in numbers:
+        what = "x and y, and a heading in rad if wanted" if most > least else "x and y"
+        raise WorldError(f"{name} is {value!r}; it is {what}, with spaces between", where=f"arena:{argument}", fix=f"For example {name}=20 30")
+    return [n for n in numbers if n is not None] + [0.0] * (most - len(numbers))
+
+
+def _number(name: str, value: str, argument: str) -> float | int:
+    number = _float(value)
+    if number is None:
+        raise WorldError(f"{name} is {value!r}; it is a number", where=f"arena:{argument}")
+    return int(number) if name == "place_every" and number.is_integer() else number
+
+
+def _float(word: str) -> float | None:
+    try:
+        return float(word)
+    except ValueError:
+        return None

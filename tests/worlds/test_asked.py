@@ -1,0 +1,43 @@
+"""An arena named on the command line, with its settings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from deodar.errors import WorldError
+from deodar.worlds._asked import asked
+from deodar.worlds.arena import Arena
+
+
+def test_a_layout_alone():
+    assert asked("z") == ("z", {})
+
+
+def test_settings_are_those_of_the_arena():
+    arena = Arena.open("z, unit=cm, start=-45 55 1.5, goal=-65 65, place_noise=0.5, place_every=2, contact=stick")
+    again = Arena("z", (-45, 55, 1.5), (-65, 65), "cm", place_noise=0.5, place_every=2, contact="stick")
+    assert arena.describe()["settings"] == again.describe()["settings"]
+    np.testing.assert_array_equal(arena.starts, again.starts)
+    np.testing.assert_array_equal(arena.goals, again.goals)
+
+
+def test_a_start_without_a_heading_looks_along_x():
+    assert Arena.open("z, unit=cm, start=-45 55").starts[0, 2] == 0
+
+
+@pytest.mark.parametrize(
+    ("argument", "said"),
+    [
+        ("z, gaol=1 2", "no setting 'gaol'. Did you mean 'goal'"),
+        ("z, goal", "no setting 'goal'"),
+        ("z, goal=1", "goal is '1'; it is x and y"),
+        ("z, start=1 2 3 4", "start is '1 2 3 4'"),
+        ("z, slip=much", "slip is 'much'; it is a number"),
+        ("z, place_noise=-1", "place_noise is -1"),
+        ("z, unit=mile", "unit is 'mile'"),
+    ],
+)
+def test_what_cannot_be_is_named(argument, said):
+    with pytest.raises(WorldError, match=said):
+        Arena.open(argument)
