@@ -68,6 +68,24 @@ def test_some_sensor_of_the_example_shows_something(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
+def test_what_is_seen_from_above_lies_inside_its_border(kind):
+    world = WORLDS[kind].example()
+    world.reset(3)
+    scene = world.scene()
+    if scene is None:
+        with pytest.raises(WorldError):
+            world.move("anything", (0.0, 0.0))
+        return
+    left, low, right, high = scene.border
+    assert left < right and low < high and scene.bodies
+    for body in scene.bodies:
+        assert left <= body.center[0] <= right and low <= body.center[1] <= high and body.radius > 0
+    json.dumps([[*box.center, *box.size, *box.color] for box in scene.boxes])
+    for name in [box.name for box in scene.boxes]:
+        assert scene.thing(name).name == name
+
+
+@pytest.mark.parametrize("kind", WORLDS)
 def test_a_sensor_in_a_model_shows_what_the_world_reads(kind):
     for sensor, signal in WORLDS[kind].example().sensors.items():
         world, axes = WORLDS[kind].example(), example_axes(kind, sensor)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -308,3 +309,18 @@ def test_a_motor_that_is_told_no_number_is_named() -> None:
     model.add(Boost("huge", [], 1e38)) >> dd.Gain(1e10) >> model.add(Motor("wheel", [], "left"))
     with pytest.raises(dd.errors.NotFinite, match="motor 'left' was told"):
         dd.Session(model, world=Arena("blocks")).step(2)
+
+
+class Broken(Arena):
+    """An arena whose vehicle is lost: its place is no number after some periods."""
+
+    def advance(self, shared, own, state, motors):
+        new = super().advance(shared, own, state, motors)
+        return {**new, "position": jnp.where(new["tick"] > 7, jnp.nan, new["position"])}
+
+
+def test_a_world_inside_the_step_that_is_lost_is_named():
+    model = dd.Model("watching", dt=64)
+    model.add(Sensor("heading", sensor="heading"))
+    with pytest.raises(dd.errors.NotFinite, match=r"^position of the world Broken became infinite or undefined before step"):
+        dd.simulate(model, 64 * 30, world=Broken(), record="heading.output")

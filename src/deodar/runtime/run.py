@@ -162,6 +162,7 @@ class Run:
         state, seen, finite = self._call(chunk, before, counts)
         if not np.asarray(finite[0]).all():
             self._report(before, used)
+        self._require_finite_world(state, used)
         self.state = state
         self.clock = self.clock.after(used)
         seconds = time.perf_counter() - began
@@ -282,6 +283,17 @@ class Run:
                 clock = dc.replace(self.clock, tick=end + int(np.argmax(spoilt)) * every)
                 name = self._path(self.program.plan.groups[port.group].nodes[port.row or 0])
                 raise _not_finite([f"{name}.{port.name}"], clock, self.doc.time_unit)
+
+    def _require_finite_world(self, state: Tree, used: int) -> None:
+        """Refuse a world inside the step that has left all bounds: what it shows would spoil the model later, and elsewhere."""
+        if self.exchange.inside and not all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
+            bad = [name for name, value in state["world"]["now"].items() if not np.isfinite(value).all()]
+            kind, clock = type(self.world).__name__, self.clock.after(used)
+            raise NotFinite(
+                f"{', '.join(bad)} of the world {kind} became infinite or undefined before step {clock.tick} (time {clock.time:g} {self.doc.time_unit})",
+                bad,
+                fix="Look for what drives its motors",
+            )
 
     def _path(self, node: Any) -> str:
         """Path of a node in the present document; the program may have been made before it was renamed."""

@@ -1,10 +1,11 @@
 /** Every picture of the manual's chapter on the studio, in light and in dark, 1280 x 800, into the folder that DEODAR_SHOTS names. */
-import { writeFileSync } from "node:fs";
+import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
+import { frameOf, toPixels } from "../../src/world/place";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
 
 const COLOURS = ["light", "dark"] as const;
@@ -73,6 +74,28 @@ for (const colours of COLOURS) {
     await shot(page, name("sliders"));
   });
 
+  test(`world, ${colours}`, async () => {
+    const words = ["--world", "arena:z, start=-0.45 0.55, goal=-0.65 0.65, place_noise=0.005, place_every=2"];
+    const studio = await open(colours, { file: "spa.json", copies: ["examples/spa.json", ...spaArrays()], words });
+    const { page } = studio;
+    const observer = await studio.observe();
+    await observer.runs();
+    await observer.ask({ type: "speed", factor: null });
+    await run(page, 330);
+    const canvas = page.getByRole("tabpanel", { name: "World", exact: true }).getByRole("img", { name: /^The world from above/ });
+    const area = await canvas.boundingBox();
+    const border = observer.world.now.scene?.border ?? [0, 0, 1, 1];
+    if (area === null) throw new Error("The world is not in sight.");
+    const at = (x: number, y: number) => toPixels(frameOf(border as [number, number, number, number], area.width, area.height), { x, y });
+    const [from, to] = [at(-0.65, 0.65), at(-0.85, 0.2)];
+    await page.mouse.move(area.x + from.x, area.y + from.y);
+    await page.mouse.down();
+    await page.mouse.move(area.x + to.x, area.y + to.y, { steps: 8 });
+    await page.mouse.up();
+    await run(page, 700);
+    await shot(page, name("world"));
+  });
+
   test(`problems, ${colours}`, async () => {
     const { page, folder } = await open(colours, { copies: ["examples/selection.json"] });
     const broken = JSON.stringify({
@@ -91,6 +114,12 @@ for (const colours of COLOURS) {
     await page.waitForTimeout(400); // the dialog goes
     await shot(page, name("problems"));
   });
+}
+
+/** The arrays beside the example of planning. */
+function spaArrays(): string[] {
+  const examples = join(import.meta.dirname, "..", "..", "..", "examples");
+  return readdirSync(examples).filter((file) => /^spa\..*\.npz$/.test(file)).map((file) => `examples/${file}`);
 }
 
 /** The example with groups, one of them folded, with its document parameter and two parameters pinned. */
