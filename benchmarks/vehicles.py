@@ -1,9 +1,9 @@
 """What planning while driving costs: `python benchmarks/vehicles.py [steps] [hundred] [live]`, all three by default.
 
-`steps`: wall time of a step for each copy, in the Z-maze by the size of a batch, and in the large maze, on one core. `hundred`: 100 runs of the Z-maze
-(the published pairs of start and goal, 3,000 steps at most) in as many worker processes as there are cores, their start included, and beside it
-the same in batches that finished runs leave. `live`: how many times faster than the robot one run in a session is that a page of the studio
-would watch. Nothing is asserted.
+`steps`: wall time of a step for each copy, in the Z-maze by the size of a batch, and in the large maze, on one core. `hundred`: 100 runs
+of the Z-maze (the published pairs of start and goal, 3,000 steps at most) in as many worker processes as there are cores, their start
+included, and beside it the same in batches that finished runs leave. `live`: how many times faster than the robot one run in a session is
+that a page of the studio would watch. Nothing is asserted.
 """
 
 from __future__ import annotations

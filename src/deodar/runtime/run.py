@@ -288,9 +288,10 @@ class Run:
         """Refuse a world inside the step that has left all bounds: what it shows would spoil the model later, and elsewhere."""
         if self.exchange.inside and not all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
             bad = [name for name, value in state["world"]["now"].items() if not np.isfinite(value).all()]
-            kind, clock = type(self.world).__name__, self.clock.after(used)
+            clock = self.clock.after(used)
             raise NotFinite(
-                f"{', '.join(bad)} of the world {kind} became infinite or undefined before step {clock.tick} (time {clock.time:g} {self.doc.time_unit})",
+                f"{', '.join(bad)} of the world {type(self.world).__name__} became infinite or undefined before step {clock.tick}"
+                f" (time {clock.time:g} {self.doc.time_unit})",
                 bad,
                 fix="Look for what drives its motors",
             )
