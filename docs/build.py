@@ -2,6 +2,7 @@
 
 python docs/build.py             everything; the site is written to site/
 python docs/build.py --pages     only what is committed: reference and pictures
+python docs/build.py --pages spa the pictures of that page alone
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -18,20 +20,20 @@ import pages
 import reference
 
 
-def pictures() -> None:
-    """Run every page that shows pictures, and keep those it shows."""
+def pictures(only: Sequence[str] = ()) -> None:
+    """Run every page that shows pictures, or only some by their names, and keep those it shows."""
     kept = pages.DOCS / "pictures"
     kept.mkdir(exist_ok=True)
     for page in pages.pages():
         shown = set(pages.pictures(page))
-        if not shown:
+        if not shown or (only and page.stem not in only):
             continue
         sys.stderr.write(f"running {page.relative_to(pages.ROOT)}\n")
         with tempfile.TemporaryDirectory() as name, pages.quiet():
             folder = Path(name)
             pages.run(page, folder)
             for made in folder.rglob("*.png"):
-                if made.name in shown:
+                if made.name in shown and "examples" not in made.relative_to(folder).parts:  # those are the gallery's
                     shutil.copyfile(made, kept / made.name)
 
 
@@ -43,7 +45,7 @@ def site() -> int:
 def main() -> int:
     """Status of the site's build."""
     reference.write()
-    pictures()
+    pictures([word for word in sys.argv[1:] if not word.startswith("-")])
     return 0 if "--pages" in sys.argv[1:] else site()
 
 

@@ -16,6 +16,7 @@ from deodar.analysis.isolated import isolate
 from deodar.analysis.phase import phase
 from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
+from deodar.analysis.selection import selects
 from deodar.analysis.settle import settle
 from deodar.cli import main
 
@@ -45,8 +46,39 @@ def test_working_memory_and_what_erases_it() -> None:
     assert found.forgetting is not None and found.forgetting < 0
 
 
+def test_a_memory_is_also_erased_where_it_stands() -> None:
+    found, driven = regimes(lateral(18, 6, 0.1)), regimes(lateral(12, 0, 0.6))
+    assert found.suppression is not None and found.suppression < 0 and driven.suppression is None
+    one = isolate(lateral(18, 6, 0.1))
+    for share, left in ((0.95, 1), (1.05, 0)):
+        one.reset(input=1.2 * found.detection)  # type: ignore[operator]
+        one.settle()
+        one.put(input=0.0)
+        one.settle()
+        one.put(input=share * found.suppression)
+        one.settle()
+        assert len(one.peaks()) == left
+
+
+def test_a_boost_makes_a_peak_of_what_is_below_threshold_and_where_it_is() -> None:
+    found = regimes(lateral(12, 0, 0.6))
+    needed = [b.boost for b in found.boosts]
+    assert all(b.localised for b in found.boosts) and all(a > b > 0 for a, b in itertools.pairwise(needed))  # type: ignore[operator]
+    assert all(b.preshape + b.boost == pytest.approx(found.detection, rel=0.05) for b in found.boosts)  # type: ignore[operator]
+
+
+def test_the_distance_from_which_on_two_peaks_stay() -> None:
+    near, selective = regimes(lateral(11, 6)), regimes(lateral(12, 0, 0.6))
+    assert near.separation is not None and 0.1 < near.separation < 0.5 and selective.separation is None
+    one = isolate(lateral(11, 6))
+    for off, count in ((-0.04, 1), (0.02, 2)):
+        found = selects(one, 1.2 * near.detection, 0.0, near.separation + off)  # type: ignore[operator]
+        assert len(found.equal) == count
+
+
 def test_without_interaction_there_is_no_instability() -> None:
     found = regimes(dd.Field("u", [x], tau=10))
+    assert [b.preshape + b.boost for b in found.boosts] == pytest.approx([5.0] * 3, rel=0.01)  # type: ignore[operator]
     assert found.detection == pytest.approx(5.0, rel=0.01) and not found.thresholds.detection.jump and found.bistable is None  # type: ignore[union-attr]
 
 

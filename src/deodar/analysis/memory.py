@@ -13,6 +13,8 @@ from deodar.analysis.thresholds import Transition, descend
 from deodar.errors import AnalysisError
 
 BOOSTS = 16
+LEAST = 64
+"""Strongest localised inhibition that is tried, relative to the distance between resting level and threshold."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,21 @@ def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: fl
     settled = isolated.settle(limit=limit)
     left = isolated.peaks()
     return Memory(bool(left), driven, left, isolated.activation(), bool(settled))
+
+
+def suppression(isolated: Isolated, amplitude: float, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
+    """The localised input, below 0, at which a peak that outlives its own input vanishes; None where no peak does, or where it only moves aside.
+
+    Args:
+        isolated: the field.
+        amplitude: of the localised input that makes the peak, above the detection threshold.
+        accuracy: width of the final bracket relative to the value.
+        limit: of settling, in time constants.
+    """
+    kept = outlives(isolated, amplitude, limit=limit)
+    if not kept.outlives or isolated.covers(kept.left):
+        return None
+    return descend(isolated, "input", 0.0, -LEAST * isolated.scale, accuracy, limit)
 
 
 def forgetting(isolated: Isolated, amplitude: float, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:

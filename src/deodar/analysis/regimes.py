@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from deodar.analysis.isolated import Isolated, isolate
-from deodar.analysis.memory import Memory, forgetting, outlives
+from deodar.analysis.memory import Memory, forgetting, outlives, suppression
 from deodar.analysis.peaks import Peak, Peaks
+from deodar.analysis.preshape import SHARES, Boosted, boosted
 from deodar.analysis.ramp import Ramp, ramp
-from deodar.analysis.selection import Selection, selects
+from deodar.analysis.selection import Selection, selects, separation
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Thresholds, thresholds
 from deodar.elements.field import Field
@@ -38,7 +39,10 @@ class Regimes:
         driven: the peaks just above detection.
         memory: what is left of a peak after its input is gone; None where no input makes a peak.
         forgetting: homogeneous input below which no peak outlives its input; None where none does, and on a node.
+        suppression: localised input below which a peak that outlives its input vanishes; None where there is no such peak, and on a node.
         selection: what two inputs end in; None where no input makes a peak, and on a node.
+        separation: smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None where there is none.
+        boosts: pre-shapes, and the homogeneous boost that makes a peak of each; empty on a node, where a boost is an input.
         ramp: the field over a slow ramp of its input.
     """
 
@@ -49,7 +53,10 @@ class Regimes:
     driven: Peaks | None
     memory: Memory | None
     forgetting: float | None
+    suppression: float | None
     selection: Selection | None
+    separation: float | None
+    boosts: tuple[Boosted, ...]
     ramp: Ramp
 
     @property
@@ -141,6 +148,9 @@ class Regimes:
             "self_sustained": self.self_sustained,
             "unbounded": self.unbounded,
             "forgetting_boost": self.forgetting,
+            "suppressing_input": self.suppression,
+            "detection_by_boost": [{"preshape": b.preshape, "boost": b.boost, "at_the_preshape": b.localised} for b in self.boosts],
+            "separation": self.separation,
             "selective": self.selection.selects if self.selection is not None else None,
             "selection": selection,
             "peak": {"width": list(peak.width), "amplitude": peak.amplitude, "size": peak.size} if peak else None,
@@ -198,7 +208,8 @@ def regimes(
     rest = isolated.activation()
     tell("thresholds")
     found = thresholds(isolated, accuracy=accuracy, limit=limit)
-    above, driven, memory, forgets, selection = None, None, None, None, None
+    above, driven, memory, forgets, suppressed, selection, apart = None, None, None, None, None, None, None
+    boosts: tuple[Boosted, ...] = ()
     up = found.detection
     if up is not None:
         tell("working memory")
@@ -210,12 +221,15 @@ def regimes(
         if isolated.axes:
             tell("selection")
             selection = selects(isolated, STRONG * up.after, limit=limit)
+            apart = separation(isolated, STRONG * up.after, limit)
             tell("forgetting")
-            lost = forgetting(isolated, STRONG * up.after, accuracy, limit)
-            forgets = lost.value if lost else None
+            lost, pressed = (measure(isolated, STRONG * up.after, accuracy, limit) for measure in (forgetting, suppression))
+            forgets, suppressed = (t.value if t else None for t in (lost, pressed))
+            tell("detection by a boost")
+            boosts = tuple(boosted(isolated, share * up.before, accuracy, limit) for share in SHARES)
     tell("ramp")
     swept = ramp(isolated, _span(isolated, found), limit=limit)
-    return Regimes(isolated, found, rest, above, driven, memory, forgets, selection, swept)
+    return Regimes(isolated, found, rest, above, driven, memory, forgets, suppressed, selection, apart, boosts, swept)
 
 
 def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:

@@ -12,6 +12,8 @@ from deodar.analysis.settle import LIMIT
 from deodar.errors import AnalysisError, ParameterError
 
 HEAD_START = 0.01
+FARTHEST = 0.5
+"""Largest distance of two inputs that is tried, as a share of each axis' range: on a ring there is no larger one."""
 
 
 @dataclass(frozen=True)
@@ -66,11 +68,7 @@ def selects(isolated: Isolated, amplitude: float, difference: float = 0.1, dista
         isolated.reset(input=amplitude * (1 + difference), second=amplitude)
         isolated.settle(limit=limit)
         different = isolated.peaks()
-        isolated.reset(input=amplitude * (1 + HEAD_START), second=amplitude)
-        isolated.settle(limit=limit)
-        isolated.put(input=amplitude)
-        isolated.settle(limit=limit)
-        equal, activation = isolated.peaks(), isolated.activation()
+        equal, activation = _equal(isolated, amplitude, limit), isolated.activation()
         isolated.put(input=0.0, second=0.0)
         isolated.settle(limit=limit)
         left = isolated.peaks()
@@ -81,6 +79,45 @@ def selects(isolated: Isolated, amplitude: float, difference: float = 0.1, dista
     if len(different) == 1:
         right = _apart(isolated, different[0].position, first) < _apart(isolated, different[0].position, second)
     return Selection(len(equal) == 1 and len(different) == 1, equal, different, right, left, activation)
+
+
+def separation(isolated: Isolated, amplitude: float, limit: float = LIMIT) -> float | None:
+    """The smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None where they do at none.
+
+    Nearer inputs merge into one peak, or one of them wins. The distance is found to a sample, by bisection.
+
+    Args:
+        isolated: a field (a node has no room for two inputs).
+        amplitude: of each input, above the detection threshold.
+        limit: of settling, in time constants.
+    """
+    home = isolated.session.get("input.center")
+
+    def both(distance: float) -> bool:
+        for name, place in zip(("input", "second"), _places(isolated, distance), strict=True):
+            isolated.session.set(f"{name}.center", place)
+        return len(_equal(isolated, amplitude, limit)) >= 2
+
+    near, far = 0.0, FARTHEST
+    try:
+        if not both(far):
+            return None
+        while far - near > 1.0 / min(a.samples for a in isolated.axes):
+            middle = (near + far) / 2
+            near, far = (near, middle) if both(middle) else (middle, far)
+    finally:
+        isolated.session.set("input.center", home)
+        isolated.session.set("second.center", home)
+    return far
+
+
+def _equal(isolated: Isolated, amplitude: float, limit: float) -> Peaks:
+    """What two equal inputs end in; the first leads by a hundredth until the field settles."""
+    isolated.reset(input=amplitude * (1 + HEAD_START), second=amplitude)
+    isolated.settle(limit=limit)
+    isolated.put(input=amplitude)
+    isolated.settle(limit=limit)
+    return isolated.peaks()
 
 
 def _places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:

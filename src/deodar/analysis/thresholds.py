@@ -72,26 +72,32 @@ def thresholds(isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, l
     """
     isolated.reset()
     isolated.settle(limit=limit)
-    rest = isolated.snapshot()
     if isolated.peaks():
         return Thresholds(None, None, True, 0.0)
-    low, high = 0.0, isolated.scale
+    searched = isolated.scale * 2.0**MOST_DOUBLINGS
+    up = ascend(isolated, by, accuracy, limit)
+    if up is None:
+        return Thresholds(None, None, False, searched)
+    isolated.restore(up.state)
+    floor = 0.0 if isolated.axes else -searched
+    down = descend(isolated, by, up.after, floor, accuracy, limit)
+    return Thresholds(up, down, False, searched)
+
+
+def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
+    """From a settled field without a peak, `by` at 0, upwards: where a peak appears, or None where none does."""
+    low, high, rest = 0.0, isolated.scale, isolated.snapshot()
     searched = isolated.scale * 2.0**MOST_DOUBLINGS
     while True:
         isolated.restore(rest)
         isolated.put(**{by: high})
         isolated.settle(limit=limit)
         if isolated.peaks():
-            break
+            return bisect(isolated, by, low, high, rest, lambda: bool(isolated.peaks()), accuracy, limit)
         low, rest = high, isolated.snapshot()
         if high >= searched:
-            return Thresholds(None, None, False, searched)
+            return None
         high *= 2
-    up = bisect(isolated, by, low, high, rest, lambda: bool(isolated.peaks()), accuracy, limit)
-    isolated.restore(up.state)
-    floor = 0.0 if isolated.axes else -searched
-    down = descend(isolated, by, up.after, floor, accuracy, limit)
-    return Thresholds(up, down, False, searched)
 
 
 def descend(isolated: Isolated, by: Knob, start: float, floor: float, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:

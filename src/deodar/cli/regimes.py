@@ -11,6 +11,7 @@ from deodar.cli import _options
 
 if TYPE_CHECKING:
     from deodar.analysis.peaks import Peak
+    from deodar.analysis.preshape import Boosted
     from deodar.analysis.regimes import Regimes
 
 HELP = "measure the instabilities of one field or node: detection, reverse detection, working memory, selection"
@@ -104,10 +105,15 @@ def _table(found: Regimes) -> str:
     if found.forgetting is not None:
         stays = "is erased by a homogeneous input below" if found.self_sustained else "would stay with a homogeneous input above"
         rows.append(("memory", f"a peak {stays} {found.forgetting:.4g}"))
+        if found.suppression is not None:
+            rows.append(("", f"or by a localised input below {found.suppression:.4g}"))
+    if found.boosts:
+        rows.append(("boost on a pre-shape", "; ".join(_boosted(found, b) for b in found.boosts)))
     if found.selection is not None:
         s = found.selection
         stronger = "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
-        rows.append(("two equal inputs", _count(len(s.equal))))
+        apart = f"; both stay from a distance of {_distance(found)} on" if found.separation else "; at no distance do both stay"
+        rows.append(("two equal inputs", _count(len(s.equal)) + apart))
         rows.append(("two inputs, one stronger", _count(len(s.different)) + stronger))
     swept = found.ramp
     if not (swept.up.settled.all() and swept.down.settled.all()):
@@ -123,6 +129,18 @@ def _peak(found: Regimes, peak: Peak) -> str:
     axes = found.isolated.axes
     widths = [f"{w:.3g}{_unit(a.unit)}" for a, w in zip(axes, peak.width, strict=True)]
     return f"width {' x '.join(widths)}, amplitude {peak.amplitude:.3g}" if axes else f"activation {peak.amplitude:.3g}"
+
+
+def _boosted(found: Regimes, b: Boosted) -> str:
+    share = f"input {b.preshape:.3g}: "
+    if b.boost is None:
+        return share + "none makes a peak"
+    return share + f"{b.boost:.4g}" + ("" if b.localised else " (not one peak there)")
+
+
+def _distance(found: Regimes) -> str:
+    share = found.separation or 0.0
+    return ", ".join(f"{share * a.range:.3g}{_unit(a.unit)}" for a in found.isolated.axes)
 
 
 def _count(number: int) -> str:

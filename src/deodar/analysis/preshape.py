@@ -1,0 +1,60 @@
+"""Detection by a boost: a pattern below threshold, lifted by a homogeneous input until it becomes a peak."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from deodar.analysis.isolated import Isolated
+from deodar.analysis.peaks import Peaks
+from deodar.analysis.settle import LIMIT
+from deodar.analysis.thresholds import ascend
+
+SHARES = (0.25, 0.5, 0.75)
+"""Strength of the pre-shapes that are tried, relative to the detection threshold."""
+
+
+@dataclass(frozen=True)
+class Boosted:
+    """A pre-shape, and the boost that makes a peak of it.
+
+    Attributes:
+        preshape: strength of the localised input, which alone makes no peak.
+        boost: homogeneous input at which a peak appears; None where none did.
+        peaks: what then stands in the field.
+        localised: whether that is one peak at the pre-shape, and not the whole field.
+    """
+
+    preshape: float
+    boost: float | None
+    peaks: Peaks | None
+    localised: bool
+
+
+def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: float = LIMIT) -> Boosted:
+    """The boost that makes a peak of a pre-shape; the stronger the pre-shape, the less it takes.
+
+    The localised input stays on and is settled first. The boost then grows until a peak appears.
+
+    Args:
+        isolated: the field.
+        preshape: strength of the localised input, below the detection threshold.
+        accuracy: width of the final bracket relative to the value.
+        limit: of settling, in time constants.
+
+    Reference:
+        Erlhagen & Schöner (2002), Dynamic field theory of movement preparation, Psychol. Rev. 109 (pre-shape); Schöner, Spencer & the DFT
+        Research Group (2016), Dynamic Thinking, chapter 2 (boost-driven detection).
+    """
+    isolated.reset(input=preshape)
+    isolated.settle(limit=limit)
+    found = ascend(isolated, "boost", accuracy, limit)
+    if found is None:
+        return Boosted(preshape, None, None, False)
+    isolated.restore(found.state)
+    made = isolated.peaks()
+    return Boosted(preshape, found.value, made, len(made) == 1 and not isolated.covers(made) and _there(isolated, made))
+
+
+def _there(isolated: Isolated, made: Peaks) -> bool:
+    """Whether the peak stands at the input, to within its width."""
+    return all(abs(p - c) <= 2 * s for p, c, s in zip(made[0].position, isolated.center, isolated.sigma, strict=True))
