@@ -33,7 +33,7 @@ ROOMS = {
     "worlds": ("Worlds", "What a model senses and moves. A model names sensors and motors; the world that has them is chosen when it is run."),
 }
 
-SCRIPT = ["Axis", "Model", "Session", "simulate", "save", "load", "quote", "use_cores"]
+SCRIPT = ["Axis", "Model", "Session", "simulate", "Experiment", "save", "load", "quote", "use_cores"]
 MEASURES = {
     "analysis.peaks": ["peaks", "Peaks", "Peak"],
     "analysis.regimes": ["regimes", "Regimes"],
@@ -48,11 +48,14 @@ MEASURES = {
     "analysis.paths": ["length", "until", "divergence", "clearance"],
     "analysis.shortest": ["shortest", "grid", "Grid"],
     "analysis.statistics": ["wilson", "mean_interval", "median_interval", "anova"],
+    "experiments.factor": ["Factor"],
+    "experiments.measures": ["Measure"],
+    "experiments.results": ["load"],
     "experiments.run": ["run"],
     "experiments.batch": ["run_batch"],
     "experiments.course": ["Course"],
-    "experiments.events": ["Crosses", "Within", "Leaves"],
-    "experiments.actions": ["Place", "Move", "Remove", "Set"],
+    "experiments.events": ["Crosses", "Appears", "Vanishes", "Reached", "Within", "Leaves", "All", "AnyOf"],
+    "experiments.actions": ["Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"],
     "experiments.jobs": ["carry_out", "Job"],
     "experiments.rows": ["Rows"],
     "runtime.live": ["run_live"],

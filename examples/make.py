@@ -14,8 +14,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import deodar as dd
+from deodar.architectures import behaviour as elementary
+from deodar.architectures import change_detection as layers
+from deodar.architectures import feature_space
 from deodar.architectures import plan as line
+from deodar.architectures import reference_frame as frames
 from deodar.architectures import saliency as published
+from deodar.architectures import serial_order as chain
 from deodar.architectures import spa as planner
 from deodar.elements.attractor import Attractor
 from deodar.elements.boost import Boost
@@ -258,6 +263,67 @@ def spa() -> dd.Model:
     return model
 
 
+def behaviours() -> dd.Model:
+    """Templates: `deodar.architectures.behaviour`."""
+    model = elementary.behaviours()
+    model.describe(
+        notes="Behaviours. Five elementary behaviours order themselves by precondition, suppression and competition. All tasks but `avoid` come at"
+        " 100 ms. `find` is satisfied at 500 ms; only then `reach` begins. An obstacle from 900 to 1200 ms turns `avoid` on, which suppresses"
+        " `reach`; afterwards it goes on, until the hand is at the target at 1600 ms, where `reach.outcome` predicts it. `look left` and"
+        " `look right` compete: noise decides which is first, the other has its turn when that is satisfied, at 700 ms. Run it for 2400 ms."
+    )
+    return model
+
+
+def serial_order() -> dd.Model:
+    """Templates: `deodar.architectures.serial_order`."""
+    model = chain.lesson([30.0, 6.0, 30.0, 54.0])
+    model.describe(
+        name="serial order",
+        notes="Serial order. A chain of ordinal nodes learns a sequence of four actions, one of them twice, and produces it. Sandamirskaya & Schöner"
+        " (2010), without a robot. From 1000 to 5000 ms the actions 30, 6, 30, 54 are shown, one a second, and the weights `meaning` of one ordinal"
+        " node after the other learn them. At 5000 ms all is cleared but the weights, at 5300 ms the first node is started. From 6000 ms on the"
+        " places 6, 30 and 54 are perceived in turn, over and over; each action waits for its own, and the order is 30, 6, 30, 54 again."
+        " Run it for 11200 ms.",
+    )
+    return model
+
+
+def binding() -> dd.Model:
+    """Templates: `deodar.architectures.feature_space`."""
+    model = feature_space.binding()
+    model.describe(
+        notes="Binding. What is where: a cue for a feature brings its place, a cue for a place its feature. Three objects lie below threshold in"
+        " `bound`. At 200 ms a cue for 120 deg in `feature` makes a ridge, which meets the green object: one peak at 50 deg in `space`. It outlives"
+        " the cue, until all is released at 800 ms. At 1000 ms a cue for 80 deg in `space` brings 240 deg in `feature`. Run it for 1800 ms."
+    )
+    return model
+
+
+def remapping() -> dd.Model:
+    """Templates: `deodar.architectures.reference_frame`."""
+    model = frames.remapping()
+    model.describe(
+        notes="Remapping. From the retina to the body, by a steered shift and by the diagonals of a field: both say the same. An object stands still"
+        " at 12 deg before the body; the gaze jumps to 15 deg at 400 ms and to -10 deg at 800 ms, so that it jumps on the retina to -3 and 22 deg."
+        " In both fields `body` its peak is at 12 deg before and after. At 1000 ms another object appears at -25 deg. Run it for 1400 ms."
+    )
+    return model
+
+
+def change_detection() -> dd.Model:
+    """Templates: `deodar.architectures.change_detection`."""
+    model = layers.change_trial()
+    model.describe(
+        name="change detection",
+        notes="Change detection. Three colours are remembered, one has changed when they are shown again: different. A sample of 40, 130 and 250 deg"
+        " is shown from 200 ms to 700 ms; `memory` takes it over and keeps it, and inhibits `contrast` there. The test at 1700 ms has 180 instead of"
+        " 130 deg: it alone makes a peak in `contrast`, and the node `different` comes on. Set `test 2.center` to 130, and `same` does. Run it for"
+        " 2600 ms.",
+    )
+    return model
+
+
 EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     detection,
     selection,
@@ -273,6 +339,11 @@ EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     saliency,
     plan,
     spa,
+    behaviours,
+    serial_order,
+    binding,
+    remapping,
+    change_detection,
 )
 
 

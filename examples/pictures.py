@@ -44,7 +44,7 @@ def run(name: str, *paths: str, seed: int = 0) -> xarray.Dataset:
     model = dd.load(HERE / f"{name}.json")
     found = re.search(r"(\d+) ms\.$", model.document.notes)
     assert found is not None
-    return dd.simulate(model, float(found[1]), seed=seed, record=list(paths), every=5, progress=False)
+    return dd.simulate(model, float(found[1]), seed=seed, record=list(paths), every=5 * model.document.step, progress=False)
 
 
 # ------------------------------------------------------------------------------------------------ what is drawn
@@ -220,6 +220,58 @@ def spa() -> Figure:
     return figure
 
 
+def behaviours() -> Figure:
+    """Find, reach and avoid above, which two of them compete below."""
+    figure = blank()
+    names = ("find", "reach", "avoid", "look left", "look right")
+    data = run("behaviours", *(f"{name}.intention.activation" for name in names))
+    for k, name in enumerate(names):
+        course(part(figure, (0, 0.8 - 0.2 * k, 1, 0.2)), data[f"{name}.intention.activation"].clip(min=-6), -7, 5)
+    return figure
+
+
+def serial_order() -> Figure:
+    """The ordinal nodes above, the action field below: shown, and then produced."""
+    figure = blank()
+    nodes = [f"item {k}.node.activation" for k in range(1, 5)]
+    data = run("serial_order", *nodes, "action.activation")
+    for k, name in enumerate(nodes):
+        course(part(figure, (0, 0.9 - 0.1 * k, 1, 0.1)), data[name].clip(min=-2), -3, 8)
+    u = data["action.activation"].values
+    heat(part(figure, (0, 0, 1, 0.58)), u, -4, 4, threshold=False)
+    return figure
+
+
+def binding() -> Figure:
+    """The field over both dimensions while a feature is cued, its read-outs at its left and below."""
+    figure = blank()
+    now = run("binding", "bound.activation", "feature.activation", "space.activation").sel(time=590)
+    bound, feature, space = (now[f"{name}.activation"].values for name in ("bound", "feature", "space"))
+    heat(part(figure, (0.1, 0.16, 0.9, 0.84)), bound, -6, 4)
+    heat(part(figure, (0, 0.16, 0.085, 0.84)), np.repeat(feature[None], 2, 0), -6, 9, threshold=False)
+    heat(part(figure, (0.1, 0, 0.9, 0.136)), np.repeat(space[:, None], 2, 1), -6, 9, threshold=False)
+    return figure
+
+
+def remapping() -> Figure:
+    """What jumps on the retina, above, stands still before the body, below."""
+    figure = blank()
+    data = run("remapping", "diagonal.retina.activation", "diagonal.body.activation")
+    heat(part(figure, (0, 0.54, 1, 0.46)), data["diagonal.retina.activation"].values, -8, 6, threshold=False)
+    heat(part(figure, (0, 0, 1, 0.5)), data["diagonal.body.activation"].values, -8, 6, threshold=False)
+    return figure
+
+
+def change_detection() -> Figure:
+    """The contrast field above, the memory in the middle, the decision below."""
+    figure = blank()
+    data = run("change_detection", "contrast.activation", "memory.activation", "different.activation")
+    heat(part(figure, (0, 0.62, 1, 0.38)), data["contrast.activation"].values, -9, 5, threshold=False)
+    heat(part(figure, (0, 0.22, 1, 0.38)), data["memory.activation"].values, -9, 8, threshold=False)
+    course(part(figure, (0, 0, 1, 0.2)), data["different.activation"], -8, 9)
+    return figure
+
+
 PICTURES: tuple[Callable[[], Figure], ...] = (
     detection,
     selection,
@@ -235,6 +287,11 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
     saliency,
     plan,
     spa,
+    behaviours,
+    serial_order,
+    binding,
+    remapping,
+    change_detection,
 )
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from deodar.couplings.project import Project as Project
     from deodar.elements.field import Field as Field
     from deodar.elements.gaussian_stimulus import GaussianStimulus as GaussianStimulus
+    from deodar.experiments.experiment import Experiment as Experiment
     from deodar.importers.opening import load as load
     from deodar.model.model import Model as Model
     from deodar.model.model import save as save
@@ -32,6 +33,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "Axis": "numerics.axes",
+    "Experiment": "experiments.experiment",
     "Field": "elements.field",
     "Gain": "couplings.gain",
     "Gaussian": "numerics.kernels.gaussian",

@@ -99,6 +99,7 @@ class Element(Part):
         inputs: names of the input ports.
         direct: for each output port that passes inputs on in the same instant, which; ports not named show the state.
         stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
+        sees_output: whether `advance` finds what the port `output` showed in the same step among its inputs (inside a program).
         linear: whether the default output is linear in the one input.
         sharing: how its `input` and `output` take part where couplings are added up as waves: they are the `ends` of it (what comes as waves is
             taken back, and what goes is also given as waves), it `filters` (a kernel is applied to waves too), or it `scales`.
@@ -110,6 +111,7 @@ class Element(Part):
     inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     stateful: ClassVar[bool] = False
+    sees_output: ClassVar[bool] = False
     linear: ClassVar[bool] = False
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
@@ -190,6 +192,10 @@ class Element(Part):
         None where that is not a simple sum, or where there is no such input.
         """
         return None
+
+    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+        """What was learned, as parameters: with them `init` gives this state. Nothing where the state is not learned but passes."""
+        return {}
 
     @classmethod
     def example(cls) -> Self:

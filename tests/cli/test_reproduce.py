@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from deodar import cli, papers
 from deodar.analysis.claims import Claim
-from deodar.cli.reproduce import lasting
+from deodar.cli._bar import lasting
 from deodar.experiments.jobs import Job
 from deodar.papers._report import Report
 from tests.experiments import decisions

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import deodar as dd
+from deodar.elements.boost import Boost
 from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.pattern import Pattern
+from deodar.errors import ModelError
 
 X = dd.Axis("x", 0, 30, 31)
 
@@ -27,3 +31,55 @@ def test_it_grows_below_peaks_decays_between_them_and_rests_without_any():
     assert np.array_equal(active[1:], s[:-1] > 0.5)
     assert np.array_equal(found[40], found[60]) and found[40].max() > 1  # nothing is active from 20 to 30
     assert found[-1, 8] < found[40, 8]
+
+
+# ------------------------------------------------------------------------------------------------ closed forms, and what can be chosen
+
+
+def course(f, steps, dt=0.5, gate=None, others=None, **parameters):
+    """The trace of one constant input (two places where `others` is given) after so many steps."""
+    axis = dd.Axis("x", 0, 1, 2)
+    model = dd.Model("trace", dt=dt)
+    p = model.add(MemoryTrace("p", [axis], tau_build=10, tau_decay=50, gated=gate is not None, **parameters))
+    model.connect(model.add(Pattern("f", [axis], [f, f if others is None else others])), p["input"])
+    if gate is not None:
+        model.connect(model.add(Boost("gate", [], 1.0, windows=gate)), p["gate"])
+    return dd.simulate(model, steps * dt, record=["p.output"], precision="float64", every=steps * dt)["p.output"].values[-1]
+
+
+def test_build_up_and_decay_in_closed_form():
+    n = np.arange(0, 400, 57)[1:]
+    for steps in n:
+        built, decayed = course(0.9, steps, others=0.1, start=[0.0, 0.7])
+        assert built == pytest.approx(0.9 * (1 - (1 - 0.5 / 10) ** steps), abs=1e-12)
+        assert decayed == pytest.approx(0.7 * (1 - 0.5 / 50) ** steps, abs=1e-12)
+
+
+@pytest.mark.parametrize("f", [0.55, 0.8, 1.0])
+def test_graded_as_in_equation_11(f):
+    speed = f / 10 + (1 - f) / 50
+    fixed = f * f / 10 / speed
+    for steps in (1, 30, 400):
+        assert course(f, steps, graded=True)[0] == pytest.approx(fixed * (1 - (1 - 0.5 * speed) ** steps), abs=1e-12)
+    assert course(f, 4000, graded=True)[0] == pytest.approx(fixed, abs=1e-9)
+
+
+def test_without_a_peak_it_stays_unless_it_fades():
+    assert np.array_equal(course(0.3, 100, start=[0.7, 0.2]), [0.7, 0.2])
+    np.testing.assert_allclose(course(0.3, 100, start=[0.7, 0.2], fades=True), np.array([0.7, 0.2]) * 0.99**100, atol=1e-12)
+    faded = course(0.0, 100, start=[0.7, 0.2], fades=True, graded=True)
+    np.testing.assert_allclose(faded, np.array([0.7, 0.2]) * 0.99**100, atol=1e-12)
+    assert np.array_equal(course(0.3, 100, start=[0.7, 0.2], graded=True), [0.7, 0.2])
+
+
+def test_a_closed_gate_leaves_every_bit():
+    start = np.random.default_rng(1).random(2)
+    assert np.array_equal(course(0.9, 100, gate=[(1000, 1001)], start=start, fades=True), start)
+    assert course(0.9, 100, gate=[(10, 20)])[0] == pytest.approx(0.9 * (1 - 0.95**20), abs=1e-12)
+
+
+def test_a_trace_of_another_shape_is_refused():
+    model = dd.Model("trace")
+    model.add(MemoryTrace("p", [X], start=np.zeros(30)))
+    with pytest.raises(ModelError, match=r"start has shape \[30\], its axes have \[31\] samples"):
+        dd.Session(model)

@@ -46,6 +46,9 @@ def rich() -> dd.Model:
     model.link("u.tau", "gain")
     model.link("f.values.rate", "gain")
     model.describe(notes="a note", t0=2.0, layout={"u": [1, 2]})
+    part = dd.Model("part")
+    part.add(dd.Field("n", []))
+    model.insert(part, "use", link=True)
     model.group("empty")
     return model
 

@@ -9,6 +9,7 @@ import deodar as dd
 from deodar.compiler.executable import Batch
 from deodar.elements.sensor import Sensor
 from deodar.errors import ParameterError, WorldError
+from deodar.experiments import batch
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Crosses, Within
 from deodar.experiments.run import run
@@ -33,12 +34,19 @@ def test_the_courses_are_those_of_single_trials():
         assert (course.outcome, course.events) == (one.outcome, one.events)
 
 
-def test_trials_that_have_ended_leave_the_batch():
+def test_trials_that_have_ended_leave_the_batch(monkeypatch):
+    monkeypatch.setattr(batch, "WORTH", 0)
     model, left = decider(), []
     courses = run_batch(model, 600, range(16), events=[DECIDED], between=left.append)
     assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left
     assert sizes(model)[-1] == 16 and len(sizes(model)) >= 3
     assert sum(course.outcome == "decided" for course in courses) > 8
+
+
+def test_a_smaller_batch_is_not_compiled_for_little():
+    model = decider()
+    run_batch(model, 600, range(16), events=[DECIDED])
+    assert sizes(model) == [16]
 
 
 def test_the_same_call_gives_the_same_bits():
@@ -79,8 +87,8 @@ def test_what_cannot_be_is_refused():
         run_batch(decider(), 10, [1, 1])
     with pytest.raises(ParameterError, match="each of them once"):
         run_batch(decider(), 10, [])
-    with pytest.raises(ParameterError, match="nothing to look at"):
-        run_batch(decider(), 10, [1])
+    with pytest.raises(ParameterError, match="the model is empty"):
+        run_batch(dd.Model("nothing"), 10, [1])
     model = straight()
     model.add(Sensor("heading", sensor="heading"))
     with pytest.raises(WorldError, match="no world was given"):

@@ -90,7 +90,7 @@ def test_what_cannot_be_is_refused():
         run(decider(), 10, actions=[Remove(3, "box")])
     with pytest.raises(ParameterError, match="name of two events"):
         run(straight(), 10, room(), events=[GOAL, GOAL])
-    with pytest.raises(ParameterError, match="'uper' is not known"):
+    with pytest.raises(ParameterError, match="reduce: is 'uper'; it is one of max"):
         Crosses("late", "u.activation", reduce="uper")
     with pytest.raises(ParameterError, match="sampled over axes that a model states"):
         run(straight(), 10, room(), watch=["above"])

@@ -99,20 +99,9 @@ def values(text: str) -> tuple[str, list[float]]:
 
 def world(text: str | None) -> World | None:
     """The world that `--world KIND:ARGUMENT` names, opened."""
-    from deodar import registry
-    from deodar.errors import WorldError, did_you_mean
-    from deodar.recording.opened import opened
+    from deodar.recording.opened import named
 
-    if text is None:
-        return None
-    name, _, argument = text.partition(":")
-    kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
-    found = kinds.get(name.casefold())
-    if found is None:
-        raise WorldError(f"there is no world {name!r}", where=f"--world {text}", fix=did_you_mean(name.casefold(), kinds))
-    if not argument:
-        raise WorldError("needs to know what to open", where=f"--world {text}", fix=f"For example --world {name.lower()}:photo.jpg")
-    return opened(found, argument)
+    return None if text is None else named(text, f"--world {text}")
 
 
 def shown(path: Path) -> str:

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar.cli import _options
+from deodar.cli._bar import Bar
 
 if TYPE_CHECKING:
-    from deodar.experiments.jobs import Job, Standing
+    from deodar.experiments.jobs import Job
     from deodar.experiments.rows import Rows
     from deodar.papers._report import Report
 
@@ -53,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     out: Path = args.out or places.free(Path.cwd(), args.paper)
     rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())})
     try:
-        with _Bar(args.no_progress or args.json) as bar:
+        with Bar(args.no_progress or args.json, "runs") as bar:
             carry_out(jobs, rows, bar.show, args.workers or None)
     except KeyboardInterrupt:
         again = " ".join(["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)])
@@ -113,35 +114,3 @@ def _write(args: argparse.Namespace, out: Path, report: Report, settings: Mappin
         held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
         print(f"{settings['runs']} of {settings['of']} runs. Of {len(required)} required claims {held} hold, {open_} are undecided.")
     return 1 if failed(report.claims) else 0
-
-
-class _Bar:
-    """How many runs are done, and the time that is left."""
-
-    def __init__(self, hidden: bool) -> None:
-        from rich.console import Console
-        from rich.progress import BarColumn, Progress, TextColumn
-
-        columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TextColumn("{task.fields[left]}"))
-        self._bar = Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=hidden)
-        self._task = self._bar.add_task("", total=1.0, done="", left="")
-
-    def __enter__(self) -> _Bar:
-        self._bar.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
-
-    def show(self, standing: Standing) -> None:
-        """Draw what is told."""
-        left = "" if standing.left is None else f"{lasting(standing.left)} left"
-        self._bar.update(self._task, completed=standing.share, done=f"{standing.rows} of {standing.of} runs", left=left)
-
-
-def lasting(seconds: float) -> str:
-    """A time in words: 40 s, 12 min, 3 h 5 min."""
-    minutes = round(seconds / 60)
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"

@@ -110,8 +110,8 @@ class Plan:
         todo: list[tuple[int, Sequence[str]]] = []
         for g, port in slots:
             like = self.groups[g].like
-            if port in like.outs:
-                todo.append((g, like.passes(port)))
+            if port in like.outs:  # all its outputs are computed together
+                todo.append((g, [p for out in like.outs for p in like.passes(out)]))
                 want.add(g)
             else:
                 todo.append((g, [port]))
@@ -122,7 +122,7 @@ class Plan:
                 if (g, port) in done:
                     continue
                 done.add((g, port))
-                for read in self.reads[g, port]:
+                for read in self.reads.get((g, port), ()):  # a port that it passes on may be one that it has not got now
                     source = read.source[0]
                     want.add(source)
                     todo.append((source, [p for o in self.groups[source].like.outs for p in self.groups[source].like.passes(o)]))

@@ -136,6 +136,8 @@ class Program:
                 self._output(call, buffers, values, constants, shown, keys, sensed, time, tick)
             else:
                 inputs = self._inputs(call.group, buffers)
+                if group.like.element.sees_output:
+                    inputs["output"] = buffers[call.group, "output", 0]
 
                 def run(g: int = call.group, inputs: Any = inputs, time: Time = time) -> Any:
                     noise = drawn[str(g)] if str(g) in drawn else self._noise(g, keys, tick)

@@ -9,8 +9,8 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes, Axis, cell, describe
-from deodar.parameters import Live, Recompile
+from deodar.numerics.axes import Axes, Axis, cell, describe, shape
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -18,6 +18,9 @@ from deodar.registry import register
 @dataclass(frozen=True)
 class AdaptiveWeights(Coupling):
     """A weight between every place of the source and every place of the target; weights of active places follow what the target does.
+
+    The plain rule: everything counts as it is, and weights follow the target down to nothing as well. `Hebbian` looks at peaks only, learns
+    while both sides are active, and has other rules, bounds and random weights; it costs far less for maps between planes.
 
     Equation:
         y(x) = integral W(x', x) input(x') dx';  dW(x', x)/dt = rate gate (post(x) - W(x', x)) pre(x')
@@ -28,6 +31,7 @@ class AdaptiveWeights(Coupling):
         initial: all weights at the start.
         gated: whether there is a port `gate`; without it learning never stops.
         apart: whether there is a port `pre`; without it the weights learn from the input.
+        start: weights at the start, in place of `initial`: what was learned before.
 
     Ports:
         input: any axes.
@@ -35,6 +39,9 @@ class AdaptiveWeights(Coupling):
         gate: one number; only where `gated`.
         pre: what decides which weights learn, over the axes of the input; only where `apart`.
         output: over `axes`; it follows the input in the same instant, with the weights learned so far.
+
+    Shapes:
+        start: samples of the input's axes, then samples of `axes`; per unit of the source's axes.
 
     Reference:
         Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields, drawn to the target's activity).
@@ -44,8 +51,8 @@ class AdaptiveWeights(Coupling):
     rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.1
     initial: Annotated[float, Live(meaning="all weights at the start")] = 0.0
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
-
     apart: Annotated[bool, Recompile(meaning="whether learning looks at a port of its own")] = False
+    start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, source samples first")] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
     stateful: ClassVar[bool] = True
@@ -59,12 +66,15 @@ class AdaptiveWeights(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        needed = shape(ins["input"]) + shape(self.axes)
+        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
+            yield f"start has shape {list(self.start.shape)}; source and target samples make {list(needed)}", "Give weights of that shape"
         if self.apart and ins["pre"] != ins["input"]:
             yield f"its axes are not those that arrive at pre, {describe(ins['pre'])}"
 
     def init(self, at: Setting) -> Arrays:
-        return {"weights": at.full((*at.ins["input"], *self.axes), self.initial)}
+        return {"weights": at.full((*at.ins["input"], *self.axes), self.initial) if self.start is None else at.array(self.start)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         x = inputs["input"]
@@ -75,6 +85,9 @@ class AdaptiveWeights(Coupling):
         speed = self.rate * inputs["gate"] if self.gated else self.rate
         pre = x.reshape(x.shape + (1,) * len(self.axes))
         return {"weights": w + time.dt * speed * (inputs["post"] - w) * pre}
+
+    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"start": state["weights"]}
 
     @classmethod
     def example(cls) -> AdaptiveWeights:

@@ -10,13 +10,11 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import is_neutral
-from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.colors import CHANNELS, cells, from_hues, hue_saturation_value, same_side
 from deodar.numerics.convolution import along
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
-
-CHANNELS = 3
 
 
 @register
@@ -61,19 +59,17 @@ class ColorSpace(Coupling):
         if not self.axes[-1].periodic:
             yield f"the hue axis {self.axes[-1].name!r} must be periodic: red lies on both sides of its ends"
         for fine, coarse in zip(source[:2], self.axes[:2], strict=True):
-            apart = max(abs(fine.lower - coarse.lower), abs(fine.upper - coarse.upper))
-            if fine.name != coarse.name or fine.unit != coarse.unit or apart > coarse.step:
+            if not same_side(fine, coarse):
                 yield f"axis {coarse.name!r} does not fit the picture's: {fine} there, {coarse} here (ends may differ by a grid step)"
 
     def prepare(self, at: Setting) -> Any:
-        return [_cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]
+        return [cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         hue_axis = self.axes[-1]
         turn, saturation, value = hue_saturation_value(inputs["input"])
         saturation = jnp.where(value < self.darkest, 0.0, saturation)
-        distance = at.points(hue_axis) - hue_axis.lower - turn[..., None] * hue_axis.range
-        distance = distance - hue_axis.range * jnp.round(distance / hue_axis.range)
+        distance = from_hues(hue_axis, turn, at.dtype)
         if is_neutral(self.sigma):
             code = jnp.maximum(0.0, 1.0 - jnp.abs(distance) / hue_axis.step)
         else:
@@ -87,27 +83,3 @@ class ColorSpace(Coupling):
     def example(cls) -> ColorSpace:
         axes = [Axis("x", 0, 4, 3), Axis("y", 0, 4, 3), Axis("hue", 0, 360, 6, periodic=True)]
         return cls(axes, sigma=30.0, name="example")
-
-
-def hue_saturation_value(picture: Any) -> tuple[Any, Any, Any]:
-    """Hue (as a share of a turn, red 0), saturation and value of pixels with channels on the last axis."""
-    red, green, blue = picture[..., 0], picture[..., 1], picture[..., 2]
-    value = jnp.maximum(jnp.maximum(red, green), blue)
-    spread = value - jnp.minimum(jnp.minimum(red, green), blue)
-    safe = jnp.where(spread > 0, spread, 1.0)
-    sector = jnp.where(
-        value == red,
-        jnp.mod((green - blue) / safe, 6.0),
-        jnp.where(value == green, (blue - red) / safe + 2.0, (red - green) / safe + 4.0),
-    )
-    hue = jnp.where(spread > 0, sector / 6.0, 0.0)
-    saturation = jnp.where(value > 0, spread / jnp.where(value > 0, value, 1.0), 0.0)
-    return hue, saturation, value
-
-
-def _cells(fine: Axis, coarse: Axis, dtype: Any) -> Any:
-    """Mean over the pixels whose middle lies in a cell; a cell without a pixel takes the nearest."""
-    member = resampling.weights(coarse, fine.points, "nearest", dtype).T
-    count = jnp.sum(member, axis=1, keepdims=True)
-    nearest = resampling.weights(fine, coarse.points, "nearest", dtype)
-    return jnp.where(count > 0, member / jnp.maximum(count, 1.0), nearest)

@@ -15,7 +15,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Delay(Element):
-    """Shows its input one step later; what a connection with `reads="delayed"` stands for.
+    """Shows its input one step later; what a connection with `reads="delayed"` stands for. For any other delay: DelayLine.
 
     Equation:
         y(x, t + dt) = input(x, t)

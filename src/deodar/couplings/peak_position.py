@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -11,11 +10,9 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.centres import centre
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
-
-LEAST_DIRECTED = 1e-3
-"""On a ring, the share of the input that must point somewhere: the direction of homogeneous input is only rounding."""
 
 
 @register
@@ -54,16 +51,5 @@ class PeakPosition(Coupling):
         return {"output": (), "strength": ()}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        f, x = inputs["input"] * self.axis.step, at.points(self.axis)
-        n = jnp.sum(f)
-        there = n > self.least
-        if self.axis.periodic:
-            turn = 2 * math.pi / self.axis.range
-            angle = turn * (x - self.axis.lower)
-            sine, cosine = jnp.sum(jnp.sin(angle) * f), jnp.sum(jnp.cos(angle) * f)
-            there = there & (jnp.hypot(sine, cosine) > LEAST_DIRECTED * n)
-            sine, cosine = jnp.where(there, sine, 0.0), jnp.where(there, cosine, 1.0)
-            place = self.axis.lower + jnp.mod(jnp.arctan2(sine, cosine), 2 * math.pi) / turn
-        else:
-            place = jnp.sum(x * f) / jnp.where(there, n, 1.0)
+        place, there, n = centre(self.axis, inputs["input"] * self.axis.step, self.least)
         return {"output": jnp.where(there, place, self.absent), "strength": n}

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.numerics.axes import Axes, Axis
-from deodar.parameters import Live, Recompile
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -20,23 +20,34 @@ class MemoryTrace(Element):
     """A slow trace of where activation has been, which preshapes the field that made it. It decays only while something else is active.
 
     Equation:
-        where input > threshold: dp/dt = (input - p) / tau_build; elsewhere dp/dt = -p / tau_decay;
-        dp/dt = 0 as long as no input is above the threshold.
+        where input > threshold: dp/dt = gate (input - p) / tau_build; elsewhere dp/dt = -gate p / tau_decay;
+        graded: dp/dt = gate (f (f - p) / tau_build - (1 - f) p / tau_decay) at every place, with f = input between 0 and 1;
+        dp/dt = 0 as long as no input is above the threshold, unless `fades`.
 
     Parameters:
         axes: the metric dimensions; none: one number.
-        tau_build: time constant of the build-up, in the document's time unit; > 0.
-        tau_decay: time constant of the decay, in the document's time unit; > 0.
+        tau_build: time constant of the build-up, in the document's time unit; > 0. In eq. 11: tau_l / lambda_build.
+        tau_decay: time constant of the decay, in the document's time unit; > 0. In eq. 11: tau_l / lambda_decay.
         threshold: input above which a place is active.
+        graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by whether it is above the threshold.
+        fades: whether the trace also decays while nothing is active.
+        gated: whether there is a port `gate`; without it the trace is always open.
+        start: p at the start, one value for each sample; none: 0.
 
     Ports:
         input: over `axes`; usually the output of a field.
+        gate: one number, only where `gated`; it multiplies the speed of build-up and decay. Below 0 it counts as 0.
         output: p, over `axes`.
         active: 1 where the input of the step before was above the threshold, over `axes`.
 
+    Shapes:
+        start: the samples of `axes`, in their order.
+
     Reference:
-        Lipinski, Simmering, Johnson & Spencer (2010), The role of experience in location estimation, Psychon. Bull. Rev. 17
-        (memory traces that grow below peaks and decay between them); Erlhagen & Schöner (2002), Psychol. Rev. 109 (preshape).
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 11 (graded; it decays, as here by default, only while the field has a peak
+        somewhere if memories are to outlast pauses, on which the equation is silent). Lipinski, Simmering, Johnson & Spencer (2010), The role of
+        experience in location estimation, Psychon. Bull. Rev. 17 (traces that grow below peaks and decay between them); Erlhagen & Schöner
+        (2002), Psychol. Rev. 109 (preshape).
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
@@ -45,13 +56,31 @@ class MemoryTrace(Element):
     tau_decay: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the decay")] = 1000.0
     threshold: Annotated[float, Live(meaning="input above which a place is active")] = 0.5
 
+    graded: Annotated[bool, Recompile(meaning="whether speeds are weighted by the input itself")] = False
+    fades: Annotated[bool, Recompile(meaning="whether it also decays while nothing is active")] = False
+    gated: Annotated[bool, Recompile(meaning="whether it waits for the gate")] = False
+    start: Annotated[ArrayLike | None, Rebuild("activation", meaning="p at the start")] = None
+
+    inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     stateful: ClassVar[bool] = True
+
+    def ports(self) -> tuple[str, ...]:
+        return self.inputs if self.gated else self.inputs[:1]
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return () if port == "gate" else tuple(self.axes)
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        needed = shape(self.axes)
+        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
+            yield f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples", "Give values of that shape"
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
-        return {"trace": at.full(tuple(self.axes), 0.0), "active": at.full(tuple(self.axes), 0.0)}
+        trace = at.full(tuple(self.axes), 0.0) if self.start is None else at.array(self.start)
+        return {"trace": trace, "active": at.full(tuple(self.axes), 0.0)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         return {"output": state["trace"], "active": state["active"]}
@@ -59,5 +88,20 @@ class MemoryTrace(Element):
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         p, x = state["trace"], inputs["input"]
         active = x > self.threshold
-        rate = jnp.where(active, (x - p) / self.tau_build, -p / self.tau_decay)
-        return {"trace": p + time.dt * jnp.where(jnp.any(active), rate, 0.0), "active": active.astype(p.dtype)}
+        if self.graded:
+            f = jnp.clip(x, 0.0, 1.0)
+            rate = f * (f - p) / self.tau_build - (1.0 - f) * p / self.tau_decay
+        else:
+            rate = jnp.where(active, (x - p) / self.tau_build, -p / self.tau_decay)
+        if not self.fades:
+            rate = jnp.where(jnp.any(active), rate, 0.0)
+        if self.gated:
+            rate = jnp.maximum(inputs["gate"], 0.0) * rate
+        return {"trace": p + time.dt * rate, "active": active.astype(p.dtype)}
+
+    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"start": state["trace"]}
+
+    @classmethod
+    def example(cls) -> MemoryTrace:
+        return cls("example", [Axis("x", 0, 20, samples=21)], gated=True)

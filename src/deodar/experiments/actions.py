@@ -1,79 +1,309 @@
-"""What is done to a running trial at a time that was set: things of its world come, move and go, parameters change."""
+"""What is done to a running trial, at a time that was set or when something has happened."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, ClassVar
 
 from deodar.errors import WorldError
-from deodar.runtime.session import Session
+from deodar.experiments.stage import Stage
+from deodar.model import find
+from deodar.parameters import Part, PerAxis, Recompile
+from deodar.runtime.run import whole
 from deodar.worlds._base import World
 from deodar.worlds.arena import Arena
 
+AT = Recompile("time", lower=0.0, meaning="document time at which it is done; with `when` the time after that event")
+WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own")
+
+
+class Action(Part):
+    """Base of what is done to a trial.
+
+    Attributes:
+        at: document time at which it is done; with `when` the time from that event on.
+        when: name of an event; empty: it is done at a time of its own.
+    """
+
+    at: float
+    when: str
+
+    moves: ClassVar[bool] = False
+    """Whether it moves things of the world."""
+
+    def paths(self) -> Iterator[str]:
+        """Parameters of the model that it changes."""
+        return iter(())
+
+    def ports(self) -> Iterator[str]:
+        """Ports of the model that it reads."""
+        return iter(())
+
+    def apply(self, stage: Stage) -> None:
+        """Do it now."""
+        raise NotImplementedError
+
+
+def _plane(action: Any, *names: str) -> Iterator[tuple[str, str]]:
+    for name in names:
+        if not isinstance(getattr(action, name), tuple) or len(getattr(action, name)) != 2:
+            yield name, "needs two numbers, along x and along y"
+
 
 @dataclass(frozen=True)
-class Place:
+class Place(Action):
     """Put a thing into the arena, or another one in the place of one of that name.
 
     Attributes:
-        at: document time from which on it stands there.
+        at: document time from which on it stands there; with `when` the time after that event.
         thing: its name.
         center: x and y of its middle, in the unit of the arena.
         size: along x and y.
         color: red, green and blue, 0 to 1.
+        when: the event after which it is done; empty: at a time of its own.
     """
 
-    at: float
-    thing: str
-    center: Sequence[float]
-    size: Sequence[float]
-    color: Sequence[float] = (0.72, 0.53, 0.3)
+    at: Annotated[float, AT]
+    thing: Annotated[str, Recompile(meaning="its name")]
+    center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
+    size: Annotated[PerAxis, Recompile(meaning="along x and y")]
+    color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0, meaning="red, green and blue")] = (0.72, 0.53, 0.3)
+    when: Annotated[str, WHEN] = ""
 
-    def apply(self, session: Session) -> None:
-        """Do it now."""
-        arena(session.world).place(self.thing, self.center, self.size, self.color)
+    moves: ClassVar[bool] = True
 
+    def faults(self) -> Iterator[tuple[str, str]]:
+        yield from _plane(self, "center", "size")
 
-@dataclass(frozen=True)
-class Move:
-    """Put a thing of the arena elsewhere: x and y of its middle, at a document time."""
-
-    at: float
-    thing: str
-    center: Sequence[float]
-
-    def apply(self, session: Session) -> None:
-        """Do it now."""
-        arena(session.world).move(self.thing, self.center)
+    def apply(self, stage: Stage) -> None:
+        found: Any = self
+        arena(stage.session.world).place(self.thing, found.center, found.size, found.color)
 
 
 @dataclass(frozen=True)
-class Remove:
-    """Take a thing out of the arena, at a document time."""
+class Move(Action):
+    """Put a thing of the arena elsewhere.
 
-    at: float
-    thing: str
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        thing: its name.
+        center: x and y of its middle, in the unit of the arena.
+        when: the event after which it is done; empty: at a time of its own.
+    """
 
-    def apply(self, session: Session) -> None:
-        """Do it now."""
-        arena(session.world).remove(self.thing)
+    at: Annotated[float, AT]
+    thing: Annotated[str, Recompile(meaning="its name")]
+    center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
+    when: Annotated[str, WHEN] = ""
+
+    moves: ClassVar[bool] = True
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        yield from _plane(self, "center")
+
+    def apply(self, stage: Stage) -> None:
+        found: Any = self
+        arena(stage.session.world).move(self.thing, found.center)
 
 
 @dataclass(frozen=True)
-class Set:
-    """Give a parameter of the model another value, at a document time."""
+class Remove(Action):
+    """Take a thing out of the arena.
 
-    at: float
-    path: str
-    value: Any
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        thing: its name.
+        when: the event after which it is done; empty: at a time of its own.
+    """
 
-    def apply(self, session: Session) -> None:
-        """Do it now."""
-        session.set(self.path, self.value)
+    at: Annotated[float, AT]
+    thing: Annotated[str, Recompile(meaning="its name")]
+    when: Annotated[str, WHEN] = ""
+
+    moves: ClassVar[bool] = True
+
+    def apply(self, stage: Stage) -> None:
+        arena(stage.session.world).remove(self.thing)
 
 
-Action = Place | Move | Remove | Set
+@dataclass(frozen=True)
+class Set(Action):
+    """Give a parameter of the model another value.
+
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        path: the parameter, of an element or of the document.
+        value: a number, or whatever the parameter takes.
+        when: the event after which it is done; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    path: Annotated[str, Recompile(meaning="the parameter")]
+    value: Annotated[object, Recompile(meaning="what the parameter takes")]
+    when: Annotated[str, WHEN] = ""
+
+    def paths(self) -> Iterator[str]:
+        yield self.path
+
+    def apply(self, stage: Stage) -> None:
+        stage.session.set(self.path, self.value)
+
+
+@dataclass(frozen=True)
+class Ramp(Action):
+    """Take a parameter of the model evenly from one value to another, with a new one at each step.
+
+    Attributes:
+        at: document time at which it begins; with `when` the time after that event.
+        path: the parameter, a number of an element or of the document.
+        end: its value at the end and from then on.
+        lasting: document time that it takes.
+        start: its value at the beginning; none: the one it then has.
+        when: the event after which it begins; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    path: Annotated[str, Recompile(meaning="the parameter")]
+    end: Annotated[float, Recompile(meaning="its value at the end")]
+    lasting: Annotated[float, Recompile("time", lower=0.0, meaning="how long it takes")]
+    start: Annotated[float | None, Recompile(meaning="its value at the beginning; none: the one it then has")] = None
+    when: Annotated[str, WHEN] = ""
+
+    def paths(self) -> Iterator[str]:
+        yield self.path
+
+    def apply(self, stage: Stage) -> None:
+        session, end = stage.session, self.end
+        steps = whole(self.lasting, session.dt, "how long a ramp takes")
+        start = float(session.get(self.path)) if self.start is None else self.start
+        for k in range(steps + 1):
+            share = k / steps if steps else 1.0
+            stage.later(k, lambda value=start + share * (end - start): session.set(self.path, value))
+
+
+@dataclass(frozen=True)
+class Push(Action):
+    """A homogeneous input to a field or node for a while: the boost that brings a field over its detection instability, or a forgetting.
+
+    Attributes:
+        at: document time at which it begins; with `when` the time after that event.
+        element: path of the field or node.
+        amount: what is added to its input.
+        lasting: document time for which it is there.
+        when: the event after which it begins; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    element: Annotated[str, Recompile(meaning="path of the field or node")]
+    amount: Annotated[float, Recompile("activation", meaning="what is added to its input")]
+    lasting: Annotated[float, Recompile("time", lower=0.0, meaning="for how long")]
+    when: Annotated[str, WHEN] = ""
+
+    def apply(self, stage: Stage) -> None:
+        if self.when:  # one that has its own time stands in the model, with a window
+            session, path = stage.session, f"{stage.pushes[self]}.amplitude"
+            session.set(path, self.amount)
+            stage.later(whole(self.lasting, session.dt, "how long a push lasts"), lambda: session.set(path, 0.0))
+
+
+@dataclass(frozen=True)
+class Record(Action):
+    """Start or stop recording, from the next look on. A trial in which recording is started is not recorded before.
+
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        on: whether what is recorded is kept from then on.
+        when: the event after which it is done; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    on: Annotated[bool, Recompile(meaning="whether what is recorded is kept from then on")] = True
+    when: Annotated[str, WHEN] = ""
+
+    def apply(self, stage: Stage) -> None:
+        stage.recording = self.on
+
+
+@dataclass(frozen=True)
+class Snapshot(Action):
+    """Keep what ports hold at one moment.
+
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        label: what the record calls it.
+        of: paths of the ports.
+        when: the event after which it is done; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    label: Annotated[str, Recompile(meaning="what the record calls it")]
+    of: Annotated[Sequence[str], Recompile(meaning="paths of the ports")]
+    when: Annotated[str, WHEN] = ""
+
+    def ports(self) -> Iterator[str]:
+        yield from self.of
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if not self.of:
+            yield "of", "names no ports, so there is nothing to keep"
+
+    def apply(self, stage: Stage) -> None:
+        stage.snapshots[self.label] = stage.session.time, {path: stage.session.read(path).copy() for path in self.of}
+
+
+@dataclass(frozen=True)
+class Reset(Action):
+    """Put the states of all elements back to what they were at the start; time, noise, parameters and the world go on.
+
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        when: the event after which it is done; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    when: Annotated[str, WHEN] = ""
+
+    def apply(self, stage: Stage) -> None:
+        stage.restart()
+
+
+@dataclass(frozen=True)
+class End(Action):
+    """End the trial.
+
+    Attributes:
+        at: document time at which it is done; with `when` the time after that event.
+        outcome: what the row says.
+        when: the event after which it is done; empty: at a time of its own.
+    """
+
+    at: Annotated[float, AT]
+    outcome: Annotated[str, Recompile(meaning="what the row says")]
+    when: Annotated[str, WHEN] = ""
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if not self.outcome:
+            yield "outcome", "is empty, which is what a trial that runs has"
+
+    def apply(self, stage: Stage) -> None:
+        stage.outcome = self.outcome
+
+
+def require(actions: Sequence[Action], world: World | None) -> None:
+    """Refuse things that are placed, moved or removed where there is no arena."""
+    if any(a.moves for a in actions):
+        arena(world)
+
+
+def targets(action: Action, doc: Any) -> None:
+    """Refuse an action that names what is not in a document."""
+    for path in action.paths():
+        find.target(doc, path)
+    for path in action.ports():
+        find.port(doc, path)
+    if isinstance(action, Push):
+        find.element(doc, action.element)
 
 
 def arena(world: World | None) -> Arena:

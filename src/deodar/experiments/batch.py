@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import jax
 import numpy as np
 
-from deodar.compiler.executable import Batch, executable
+from deodar.compiler.executable import RARELY, Batch, Executable, executable
+from deodar.compiler.plan import Leaf
 from deodar.errors import ParameterError, TimeError, WorldError
-from deodar.experiments.course import Course, Notes
+from deodar.experiments.course import Course
 from deodar.experiments.events import Event
-from deodar.experiments.run import require
+from deodar.experiments.levels import leaves_of
+from deodar.experiments.measures import Measure
+from deodar.experiments.reader import Place, with_readers
+from deodar.experiments.tally import Tally
+from deodar.experiments.view import View
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar.model.resolve import resolve
+from deodar.runtime import memory
 from deodar.runtime.exchange import embodied
 from deodar.runtime.run import Run, whole
 from deodar.runtime.session import require_model, require_seed
@@ -24,7 +33,10 @@ LOOKS = 24
 """Looks that are taken in one call of the program. What a trial does after it has ended is thrown away: on average half of them."""
 
 SHRINKS = 0.5
-"""Share of the copies below which those that have ended leave: each size of a batch is a program of its own, which has to be compiled."""
+"""Share of the copies below which those that have ended leave. A batch is halved, so that the same few programs serve every batch of its size."""
+
+WORTH = 1e8
+"""Samples of ports times steps that a smaller batch has to save: compiling it takes about half a second (3 ns a sample were measured)."""
 
 
 def run_batch(
@@ -39,17 +51,21 @@ def run_batch(
     dt: float | None = None,
     precision: str = "float32",
     between: Callable[[int], None] | None = None,
+    values: Mapping[str, Sequence[float]] | None = None,
+    measures: Sequence[Measure] = (),
 ) -> list[Course]:
     """Run trials all at once; the course of each is that of `run` but for rounding.
 
-    When half of the copies have ended, the rest goes on in a batch of its own size. The same trials in one call give the same bits each time.
+    When half of the copies have ended, the rest goes on in a batch of half the size, where that is worth compiling it. The same trials in one
+    call give the same bits each time.
     A world is computed inside the step, so each trial has its own; sensors of the world are looked at through the model's own.
+    What events and measures make of a field (its maximum, say) is computed inside the step too; only what is watched is copied whole.
 
     Args:
         model: the model, as it now is.
         limit: document time after which each trial ends at the latest.
         trials: which trials of the seed.
-        watch: paths of ports to look at, besides those that events need.
+        watch: paths of ports whose values are kept.
         events: what may happen; those that `ends` says end a trial.
         seed: seed of all noise.
         world: what the model's sensors read and its motors move, one of pure functions such as an arena; of starts and goals given for each
@@ -57,7 +73,9 @@ def run_batch(
         every: document time between looks; none: dt.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
-        between: told after each look how many trials still run.
+        between: told after each call of the program how many trials still run.
+        values: for parameter paths the value that each trial has; not together with a world.
+        measures: what is measured.
     """
     doc = require_model(model).document
     step = doc.step if dt is None else dt
@@ -67,52 +85,130 @@ def run_batch(
     numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
         raise ParameterError(f"trials are numbers, each of them once, not {list(trials)}")
-    require(events)
-    wanted = list(dict.fromkeys([*watch, *(name for e in events for name in e.needs)]))
-    if not wanted:
-        raise ParameterError("there is nothing to look at", fix="Name ports to watch, or give events")
-    places = [find.port(doc, name) for name in wanted]
+    tally = Tally(events, measures, len(numbers))
+    views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
+    watched = [(entry.id, port) for entry, port in (find.port(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
         raise WorldError(f"the world {type(world).__name__} cannot be computed for a batch of copies", fix="Run the trials one by one: run(...)")
-    batch = _copies(model, doc, precision, float(step), require_seed(seed), numbers, world)
-    notes = {t: Notes(events) for t in numbers}
+    if world is not None and values:
+        raise WorldError("trials in a world have the same parameters in one batch", fix="Run those of each value on their own")
+    read, at = with_readers(doc, views)
+    places = {view: at.get(view) or _place(doc, view) for view in views}
+    order = list(dict.fromkeys([*watched, *places.values()])) or [_anything(doc)]
+    swept = {path: np.asarray(v, float) for path, v in (values or {}).items()}
+    driven = [leaves_of(doc, path) for path in swept]
+    flock = _Flock(model, read, precision, float(step), require_seed(seed), numbers, world, driven, [*swept.values()])
+    axes = {p: flock.batch.program.axes(flock.batch.program.port(*p)) for p in order}
+    kept: list[list[Sequence[np.ndarray]]] = [[] for _ in numbers]
+    looks = np.zeros(len(numbers), int)
+    times: list[float] = []
 
-    def take(first: int, seen: Sequence[np.ndarray]) -> None:
+    def take(first: int, arrays: Sequence[np.ndarray]) -> None:
         """Looks after `first` steps and each `gap` more: (trials, looks, ...)."""
-        for n in range(seen[0].shape[1]):
-            tick = min(first + n * gap, steps)
-            for k, t in enumerate(batch.trials):
-                if not notes[t].outcome:
-                    look = {name: np.array(values[k, n]) for name, values in zip(wanted, seen, strict=True)}
-                    notes[t].take(doc.t0 + tick * float(step), look, tick == steps)
+        ticks = [min(first + n * gap, steps) for n in range(arrays[0].shape[1])]
+        new = [doc.t0 + tick * float(step) for tick in ticks]
+        times.extend(new)
+        by = dict(zip(order, arrays, strict=True))
+        seen = {v: by[p] if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
+        counts = tally.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps)
+        looks[flock.rows] += counts
+        for k, n in enumerate(counts):
+            if watched and n:
+                kept[flock.rows[k]].append([np.array(by[p][k, :n]) for p in watched])
 
     ahead = 0
     while True:
-        begun = batch.clock.tick
-        ports = [batch.program.port(entry.id, port) for entry, port in places]
+        begun = flock.batch.clock.tick
+        ports = [flock.batch.program.port(*p) for p in order]
         first = min(gap, ahead)
-        batch.record(ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen))
-        running = [k for k, t in enumerate(batch.trials) if not notes[t].outcome]
+        flock.batch.record(ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen))
+        running = [k for k, row in enumerate(flock.rows) if not tally.outcome[row]]
         if between is not None:
             between(len(running))
         if not running:
             break
-        if len(running) <= SHRINKS * len(batch.trials):
-            batch = _fewer(model, batch, running)
-        left = steps - batch.clock.tick
+        left = steps - flock.batch.clock.tick
+        flock.shrink(running, left)
         ahead = min(LOOKS * gap, left - left % gap if left >= gap else left)
-    return [notes[t].course(wanted) for t in numbers]
+    out: list[Course] = []
+    for row, n in enumerate(looks):
+        found = np.asarray(times[:n])
+        whole_ = {name: np.concatenate([part[i] for part in kept[row]]) for i, name in enumerate(watch)}
+        out.append(Course(found, whole_, tally.events_of(row), tally.outcome[row], tally.measures_of(row), found))
+    return out
 
 
-def _copies(model: Model, doc: Document, precision: str, dt: float, seed: int, trials: Sequence[int], world: World | None) -> Run:
-    program = executable(model, doc, precision, Batch(None, len(trials)), body=embodied(doc, world))
-    return Run(program, doc, dt, seed, trials, world)
+def _place(doc: Document, view: View) -> Place:
+    entry, port = view.place(doc)
+    return entry.id, port
 
 
-def _fewer(model: Model, batch: Run, keep: Sequence[int]) -> Run:
-    """The run of some of its copies, at the same moment. Noise belongs to trials, so it goes on as it would have."""
-    fewer = _copies(model, batch.doc, batch.program.precision, batch.clock.dt, batch.seed, [batch.trials[k] for k in keep], batch.world)
-    at = np.asarray(keep)
-    fewer.state = jax.tree.map(lambda a: np.asarray(a)[at], batch.state)
-    fewer.clock = batch.clock
-    return fewer
+def _anything(doc: Document) -> Place:
+    """The smallest thing to read where only the time is looked at."""
+    if not doc.entries:
+        raise ParameterError("the model is empty, so there is nothing to run")
+    return doc.entries[0].id, find.outputs(doc.entries[0])[0]
+
+
+@dataclass
+class _Flock:
+    """Copies of a model that run beside each other, and which trials they are.
+
+    Attributes:
+        rows: for each copy the number of its trial among `trials`.
+        batch: the copies, as they run.
+    """
+
+    model: Model
+    doc: Document
+    precision: str
+    dt: float
+    seed: int
+    trials: Sequence[int]
+    world: World | None
+    leaves: Sequence[Sequence[Leaf]]
+    swept: Sequence[np.ndarray]
+
+    def __post_init__(self) -> None:
+        self.rows: list[int] = list(range(len(self.trials)))
+        self._cells = memory.copy_bytes(resolve(self.doc)[0], "float32") // 4
+        self.batch = self._begin(self.rows)
+        if self.leaves:
+            self.batch.state, self.batch.keys = self._start(self.batch.program, self.batch.values)
+
+    def shrink(self, running: Sequence[int], left: int) -> None:
+        """Halve the batch as long as those that run find room, if that pays in the steps that are left; some that have ended stay, to fill it."""
+        size = len(self.rows)
+        while len(running) <= SHRINKS * size:
+            size = (size + 1) // 2
+            if size == 1:
+                break
+        saved = (len(self.rows) - size) * self._cells * left
+        if size == len(self.rows) or (self.world is None and saved < WORTH):
+            return
+        ended = [k for k in range(len(self.rows)) if k not in set(running)]
+        keep = sorted([*running, *ended[: size - len(running)]])
+        fewer = self._begin([self.rows[k] for k in keep])
+        at = np.asarray(keep)
+        fewer.state = jax.tree.map(lambda a: np.asarray(a)[at], self.batch.state)
+        if self.leaves:
+            fewer.keys = jax.tree.map(lambda a: np.asarray(a)[at], self.batch.keys)
+        fewer.clock = self.batch.clock
+        self.rows, self.batch = [self.rows[k] for k in keep], fewer
+
+    def _begin(self, rows: Sequence[int]) -> Run:
+        """A run of some trials at its start: trials of one batch, or, where parameters differ, points of a sweep."""
+        copies = Batch(len(rows), None) if self.leaves else Batch(None, len(rows))
+        program = executable(self.model, self.doc, self.precision, copies, self.leaves, body=embodied(self.doc, self.world))
+        trials = [self.trials[r] for r in rows]
+        if not self.leaves:
+            return Run(program, self.doc, self.dt, self.seed, trials, self.world)
+        return Run(program, self.doc, self.dt, self.seed, trials[:1], None, [values[rows] for values in self.swept])
+
+    def _start(self, program: Executable, values: Any) -> tuple[Any, Any]:
+        """State and noise keys at the start of points that are trials of their own: points of a sweep share the noise of one."""
+        own = {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
+        many = jax.vmap(program.program.init, in_axes=(own, None, 0))
+        given = values, np.uint32(self.seed), np.asarray(self.trials, np.uint32)
+        start, _ = program.compile(many, *given, options=RARELY)
+        return program.call(start, *given)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from deodar.experiments.events import Event
+from deodar.experiments.stage import Kept
+from deodar.experiments.tally import TIME as TIME
 
-TIME = "time"
-"""Outcome of a trial that was ended by nothing but its limit."""
+Value = float | list[float] | None
 
 
 @dataclass(frozen=True)
@@ -19,51 +19,23 @@ class Course:
 
     Attributes:
         times: document time of each look, the first at the start.
-        values: for each thing that was looked at its values, looks first.
+        values: for each thing that was watched its values, looks first; those at which recording was stopped are left out.
         events: document time of each event; None: it did not happen.
         outcome: the event that ended the trial, or `time`.
+        measures: each measure; None: what it waits for did not happen.
+        recorded: document time of each look that `values` holds.
+        snapshots: what actions kept, by their labels: document time, and for each port its values.
     """
 
     times: np.ndarray
     values: Mapping[str, np.ndarray]
     events: Mapping[str, float | None]
     outcome: str
+    measures: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    recorded: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    snapshots: Mapping[str, Kept] = field(default_factory=dict[str, Kept])
 
     @property
     def duration(self) -> float:
         """Document time from the first look to the last."""
         return float(self.times[-1] - self.times[0])
-
-
-class Notes:
-    """What has been seen of a trial that runs.
-
-    Attributes:
-        outcome: the event that ended it, or `time`; empty while it runs.
-    """
-
-    def __init__(self, events: Sequence[Event]) -> None:
-        self.outcome = ""
-        self._events = events
-        self._times: list[float] = []
-        self._looks: list[Mapping[str, np.ndarray]] = []
-        self._counts = [0] * len(events)
-        self._found: dict[str, float | None] = {e.name: None for e in events}
-
-    def take(self, time: float, look: Mapping[str, np.ndarray], last: bool) -> None:
-        """Take down a look, and what it shows to have happened; after the last one nothing but the limit ends the trial."""
-        self._times.append(time)
-        self._looks.append(look)
-        for k, event in enumerate(self._events):
-            if self._found[event.name] is not None:
-                continue
-            self._counts[k] += event.holds(look, self._looks[0])
-            if self._counts[k] >= event.times:
-                self._found[event.name] = time
-                self.outcome = self.outcome or (event.name if event.ends else "")
-        self.outcome = self.outcome or (TIME if last else "")
-
-    def course(self, wanted: Sequence[str]) -> Course:
-        """The course up to the last look."""
-        values = {name: np.stack([look[name] for look in self._looks]) for name in wanted}
-        return Course(np.asarray(self._times), values, self._found, self.outcome)

@@ -1,24 +1,73 @@
-"""What may happen in a trial: it is seen when the trial is looked at, and may end it."""
+"""What may happen in a trial: it is seen when the trial is looked at, and may end it.
+
+Events see arrays with the copies and the looks as their first two axes, so that a thousand trials are judged at once.
+"""
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Annotated, ClassVar
 
 import numpy as np
 
-from deodar.errors import ParameterError, did_you_mean
+from deodar.experiments.view import REDUCES, View
+from deodar.parameters import Part, PerAxis, Recompile
 
-Seen = Mapping[str, np.ndarray]
-"""What one look saw: ports by their paths, sensors of the world by their names."""
-
-REDUCES = {"max": np.max, "min": np.min, "mean": np.mean, "sum": np.sum}
 COMPARES = {"above": operator.gt, "below": operator.lt}
 
 
+@dataclass
+class Looks:
+    """Looks at some copies.
+
+    Attributes:
+        times: document time of each look.
+        seen: what each look saw, (copies, looks, ...).
+        first: what the first look of the trials saw, (copies, 1, ...).
+        holds: which events hold at which look, (copies, looks), as far as they have been judged.
+    """
+
+    times: np.ndarray
+    seen: Mapping[View, np.ndarray]
+    first: Mapping[View, np.ndarray]
+    holds: dict[str, np.ndarray] = field(default_factory=dict[str, np.ndarray])
+
+
+class Event(Part):
+    """Base of what may happen in a trial.
+
+    Attributes:
+        name: what rows call it.
+        times: at so many looks, not necessarily one after another.
+        ends: whether the trial ends then; its name is the outcome.
+    """
+
+    name: str
+    times: int = 1
+    ends: bool = True
+
+    turns: ClassVar[bool] = False
+    """Whether it must not hold first, and then hold."""
+
+    @property
+    def views(self) -> tuple[View, ...]:
+        """What has to be looked at."""
+        return ()
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """Names of other events that it is made of."""
+        return ()
+
+    def holds(self, looks: Looks) -> np.ndarray:
+        """Whether it is so at each look, (copies, looks)."""
+        raise NotImplementedError
+
+
 @dataclass(frozen=True)
-class Crosses:
+class Crosses(Event):
     """A port or a sensor lies beyond a value.
 
     Attributes:
@@ -31,31 +80,97 @@ class Crosses:
         ends: whether the trial ends then.
     """
 
-    name: str
-    of: str
-    level: float = 0.0
-    side: str = "above"
-    reduce: str = "max"
-    times: int = 1
-    ends: bool = True
-
-    def __post_init__(self) -> None:
-        for word, known in ((self.side, COMPARES), (self.reduce, REDUCES)):
-            if word not in known:
-                raise ParameterError(f"{word!r} is not known", where=self.name, fix=did_you_mean(word, known))
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    of: Annotated[str, Recompile(meaning="path of the port, or name of a sensor of the world")]
+    level: Annotated[float, Recompile(meaning="the value")] = 0.0
+    side: Annotated[str, Recompile(choices=tuple(COMPARES), meaning="on which side of the value")] = "above"
+    reduce: Annotated[str, Recompile(choices=tuple(REDUCES), meaning="what is compared of an array")] = "max"
+    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
-    def needs(self) -> tuple[str, ...]:
-        """What has to be looked at."""
-        return (self.of,)
+    def views(self) -> tuple[View, ...]:
+        return (View(self.of, self.reduce),)
 
-    def holds(self, now: Seen, first: Seen) -> bool:
-        """Whether it is so at a look."""
-        return bool(COMPARES[self.side](REDUCES[self.reduce](now[self.of]), self.level))
+    def holds(self, looks: Looks) -> np.ndarray:
+        return COMPARES[self.side](looks.seen[self.views[0]], self.level)
 
 
 @dataclass(frozen=True)
-class Within:
+class Reached(Event):
+    """A time is reached.
+
+    Attributes:
+        name: what rows call it.
+        at: the document time; the first look at it or later counts.
+        ends: whether the trial ends then.
+    """
+
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    at: Annotated[float, Recompile("time", lower=0.0, meaning="the document time")]
+    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+
+    def holds(self, looks: Looks) -> np.ndarray:
+        return (looks.times >= self.at - 1e-9 * max(1.0, abs(self.at)))[None]
+
+
+@dataclass(frozen=True)
+class Appears(Event):
+    """A peak stands in a field: its activation is above a threshold somewhere, or near a place.
+
+    Attributes:
+        name: what rows call it.
+        field: path of the field, or of one of its ports; the activation where no port is named.
+        threshold: of the activation.
+        near: a place, in axis units, one number or one for each axis; none: anywhere.
+        radius: how far around that place, along every axis.
+        times: at so many looks, not necessarily one after another.
+        ends: whether the trial ends then.
+    """
+
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    field: Annotated[str, Recompile(meaning="path of the field")]
+    threshold: Annotated[float, Recompile("activation", meaning="of the activation")] = 0.0
+    near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: anywhere")] = None
+    radius: Annotated[float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")] = 0.0
+    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+
+    @property
+    def views(self) -> tuple[View, ...]:
+        near = () if self.near is None else tuple(map(float, self.near)) if isinstance(self.near, Sequence) else (float(self.near),)
+        return (View(self.field, "max", near, self.radius, "activation"),)
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if self.near is not None and self.radius == 0.0:
+            yield "radius", "is 0, and a place alone holds no sample; say how far around it"
+
+    def holds(self, looks: Looks) -> np.ndarray:
+        return looks.seen[self.views[0]] > self.threshold
+
+
+@dataclass(frozen=True)
+class Vanishes(Appears):
+    """A peak that stood in a field is gone: nowhere, or nowhere near a place, is its activation above the threshold any more.
+
+    Attributes:
+        name: what rows call it.
+        field: path of the field, or of one of its ports; the activation where no port is named.
+        threshold: of the activation.
+        near: a place, in axis units, one number or one for each axis; none: anywhere.
+        radius: how far around that place, along every axis.
+        times: at so many looks, not necessarily one after another.
+        ends: whether the trial ends then.
+    """
+
+    turns: ClassVar[bool] = True
+
+    def holds(self, looks: Looks) -> np.ndarray:
+        return ~super().holds(looks)
+
+
+@dataclass(frozen=True)
+class Within(Event):
     """One place lies within a radius of another: a goal is reached.
 
     Attributes:
@@ -67,25 +182,24 @@ class Within:
         ends: whether the trial ends then.
     """
 
-    name: str
-    radius: float
-    of: str = "pose"
-    goal: str = "goal"
-    times: int = 1
-    ends: bool = True
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
+    of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
+    goal: Annotated[str, Recompile(meaning="sensor or port whose first two values are the goal")] = "goal"
+    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
-    def needs(self) -> tuple[str, ...]:
-        """What has to be looked at."""
-        return self.of, self.goal
+    def views(self) -> tuple[View, ...]:
+        return View(self.of), View(self.goal)
 
-    def holds(self, now: Seen, first: Seen) -> bool:
-        """Whether it is so at a look."""
-        return bool(np.linalg.norm(now[self.of][:2] - now[self.goal][:2]) <= self.radius)
+    def holds(self, looks: Looks) -> np.ndarray:
+        of, goal = (looks.seen[view][..., :2] for view in self.views)
+        return np.linalg.norm(of - goal, axis=-1) <= self.radius
 
 
 @dataclass(frozen=True)
-class Leaves:
+class Leaves(Event):
     """A place lies farther than a radius from where it was at the first look: something has moved.
 
     Attributes:
@@ -96,20 +210,59 @@ class Leaves:
         ends: whether the trial ends then.
     """
 
-    name: str
-    radius: float
-    of: str = "pose"
-    times: int = 1
-    ends: bool = False
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
+    of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
+    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = False
 
     @property
-    def needs(self) -> tuple[str, ...]:
-        """What has to be looked at."""
-        return (self.of,)
+    def views(self) -> tuple[View, ...]:
+        return (View(self.of),)
 
-    def holds(self, now: Seen, first: Seen) -> bool:
-        """Whether it is so at a look."""
-        return bool(np.linalg.norm(now[self.of][:2] - first[self.of][:2]) > self.radius)
+    def holds(self, looks: Looks) -> np.ndarray:
+        view = self.views[0]
+        return np.linalg.norm(looks.seen[view][..., :2] - looks.first[view][..., :2], axis=-1) > self.radius
 
 
-Event = Crosses | Within | Leaves
+@dataclass(frozen=True)
+class All(Event):
+    """All of some events hold at the same look.
+
+    Attributes:
+        name: what rows call it.
+        of: their names.
+        times: at so many looks, not necessarily one after another.
+        ends: whether the trial ends then.
+    """
+
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    of: Annotated[Sequence[str], Recompile(meaning="names of other events")]
+    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        return tuple(self.of)
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if not self.of:
+            yield "of", "names no events, so there is nothing that could hold"
+
+    def holds(self, looks: Looks) -> np.ndarray:
+        return np.logical_and.reduce([looks.holds[name] for name in self.of])
+
+
+@dataclass(frozen=True)
+class AnyOf(All):
+    """At least one of some events holds.
+
+    Attributes:
+        name: what rows call it.
+        of: their names.
+        times: at so many looks, not necessarily one after another.
+        ends: whether the trial ends then.
+    """
+
+    def holds(self, looks: Looks) -> np.ndarray:
+        return np.logical_or.reduce([looks.holds[name] for name in self.of])

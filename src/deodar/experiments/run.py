@@ -11,16 +11,22 @@ import numpy as np
 
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.errors import ParameterError, TimeError
-from deodar.experiments.actions import Action, Set, arena
-from deodar.experiments.course import TIME, Course, Notes
+from deodar.errors import ParameterError, TimeError, UnknownName, did_you_mean
+from deodar.experiments.actions import Action, Record, Reset, arena, targets
+from deodar.experiments.actions import require as require_actions
+from deodar.experiments.course import Course
 from deodar.experiments.events import Event
+from deodar.experiments.measures import Measure
+from deodar.experiments.pushes import with_pushes
+from deodar.experiments.stage import Stage
+from deodar.experiments.tally import Tally
+from deodar.experiments.view import View
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, Axis
 from deodar.runtime.look import Look, look
 from deodar.runtime.run import whole
-from deodar.runtime.session import Session
+from deodar.runtime.session import Session, require_model
 from deodar.runtime.unit import unit_seconds
 from deodar.worlds._base import World
 
@@ -38,6 +44,7 @@ def run(
     dt: float | None = None,
     precision: str = "float32",
     between: Callable[[], None] | None = None,
+    measures: Sequence[Measure] = (),
 ) -> Course:
     """Run one trial and return its course.
 
@@ -50,59 +57,113 @@ def run(
         world: what its sensors read and its motors move; of starts and goals given for each trial it takes those of this one.
         seed: seed of all noise.
         trial: which trial of the seed it is.
-        watch: paths of ports and names of sensors of the world to look at, besides those that events need.
+        watch: paths of ports and names of sensors of the world whose values are kept.
         events: what may happen; those that `ends` says end the trial.
-        actions: what is done, at which times.
+        actions: what is done, at which times, or after which events.
         every: document time between looks; none: dt.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
         between: called after each look; what it raises ends the trial.
+        measures: what is measured.
     """
-    session = Session(model, dt, seed, precision, world, trial)
+    require_actions(actions, world)
+    tally = Tally(events, measures, 1)
+    names = [e.name for e in events]
+    for action in actions:
+        targets(action, require_model(model).document)
+        if action.when and action.when not in names:
+            raise UnknownName(f"an action waits for the event {action.when!r}, which is not there", fix=did_you_mean(action.when, names))
+    staged, pushes = with_pushes(require_model(model), actions)
+    session = Session(staged, dt, seed, precision, world, trial)
     steps, gap = whole(limit, session.dt, "the limit"), 1 if every is None else whole(every, session.dt, "every")
     if gap == 0:
         raise TimeError("every is 0; it is at least one step")
-    require(events)
-    due = sorted((whole(a.at, session.dt, "the time of an action"), k) for k, a in enumerate(actions))
-    wanted = list(dict.fromkeys([*watch, *(name for e in events for name in e.needs)]))
-    eye = _Eye(session, wanted)
-    notes = Notes(events)
+    stage = Stage(session, pushes, any(isinstance(a, Reset) for a in actions))
+    stage.recording = not any(isinstance(a, Record) and a.on for a in actions)
+    waiting: list[tuple[int, Action]] = []
+    for action in actions:
+        moment = whole(action.at if action.when else action.at - session.time, session.dt, "the time of an action")
+        if action.when:
+            waiting.append((moment, action))
+        else:
+            stage.later(moment, lambda action=action: action.apply(stage))
+    eye = _Eye(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
+    times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
+
+    def keep(values: dict[str, np.ndarray]) -> None:
+        times.append(session.time)
+        if stage.recording:
+            recorded.append(session.time)
+            kept.append(values)
+
     with _put_back(world, actions):
         while True:
-            look = eye.see()  # also where only an action is due: it finds the world at its moment
-            if session.tick % gap == 0 or session.tick == steps:
-                notes.take(session.time, look, session.tick == steps)
+            values, seen = eye.see()  # also where only an action is due: it finds the world at its moment
+            looked = session.tick % gap == 0 or session.tick == steps
+            if looked:
+                keep(values)
+                tally.take([0], np.asarray([session.time]), seen, session.tick == steps)
                 if between is not None:
                     between()
-            if notes.outcome:
-                return notes.course(wanted)
-            while due and due[0][0] <= session.tick:
-                actions[due.pop(0)[1]].apply(session)
-            ahead = gap - session.tick % gap
-            session.step(min([ahead, steps - session.tick, *([due[0][0] - session.tick] if due else [])]))
+                happened = tally.events_of(0)
+                for moment, action in [w for w in waiting if happened[w[1].when] is not None]:
+                    stage.later(moment, lambda action=action: action.apply(stage))
+                waiting = [w for w in waiting if happened[w[1].when] is None]
+            if not tally.outcome[0]:
+                stage.do()
+                if stage.outcome:
+                    if not looked:
+                        keep(values)
+                    tally.end(0, stage.outcome, seen)
+            if tally.outcome[0]:
+                break
+            ahead, due = gap - session.tick % gap, stage.until()
+            session.step(min([ahead, steps - session.tick, *([] if due is None else [due])]))
+    stacked = {name: np.stack([v[name] for v in kept]) if kept else np.zeros((0, *values[name].shape)) for name in watch}
+    events_, measures_ = tally.events_of(0), tally.measures_of(0)
+    return Course(np.asarray(times), stacked, events_, tally.outcome[0], measures_, np.asarray(recorded), stage.snapshots)
 
 
 class _Eye:
     """Reads what is looked at: all ports by one program, then sensors of the world, which that has brought to the present."""
 
-    def __init__(self, session: Session, wanted: Sequence[str]) -> None:
-        self.session = session
-        sensors = () if session.world is None else session.world.sensors
-        self.sensors = [name for name in wanted if name in sensors]
-        self.ports = {name: find.port(session.document, name) for name in wanted if name not in sensors}
-        self.places = [(entry.id, port) for entry, port in self.ports.values()]
+    def __init__(self, session: Session, watch: Sequence[str], views: Sequence[View]) -> None:
+        self.session, self.watch, self.views = session, watch, tuple(dict.fromkeys(views))
+        known = () if session.world is None else session.world.sensors
+        self.sensors = {name for name in [*watch, *(v.of for v in views)] if name in known}
+        self.ports: dict[str | View, tuple[str, str]] = {}
+        for name in [n for n in watch if n not in self.sensors]:
+            entry, port = find.port(session.document, name)
+            self.ports[name] = entry.id, port
+        for view in [v for v in self.views if v.of not in self.sensors]:
+            entry, port = view.place(session.document)
+            self.ports[view] = entry.id, port
+        self.places = list(dict.fromkeys(self.ports.values()))
         if session.world is not None and not self.places:  # reading a port of what is tied to the world brings the world to the present
             tied = [e.id for e in session.document.entries if isinstance(e.element, (Motor, Sensor))]
             self.places = [(ident, "output") for ident in tied[:1]]
         self.look: Look = look(session.program, self.places)
 
-    def see(self) -> dict[str, np.ndarray]:
+    def see(self) -> tuple[dict[str, np.ndarray], dict[View, np.ndarray]]:
+        """The values of what is watched, and what each view shows, as one look at one trial."""
         session = self.session
         if self.look.program is not session.program:  # an action compiled another one
             self.look = look(session.program, self.places)
         arrays = session.look(self.look, self.places)
-        out = {name: np.array(arrays[entry.id, port]) for name, (entry, port) in self.ports.items()}
-        world, moment = session.world, session.time * unit_seconds(session.document.time_unit) * 1e3
+        sensed = self._sensed()
+        values = {name: sensed[name] if name in sensed else np.array(arrays[self.ports[name]]) for name in self.watch}
+        seen: dict[View, np.ndarray] = {}
+        for view in self.views:
+            raw, axes = (sensed[view.of], None) if view.of in sensed else (arrays[self.ports[view]], self._axes(view))
+            seen[view] = view.seen(raw[None, None], axes, 2)
+        return values, seen
+
+    def _axes(self, view: View) -> Axes:
+        program = self.session.program
+        return program.axes(program.port(*self.ports[view]))
+
+    def _sensed(self) -> dict[str, np.ndarray]:
+        world, moment, out = self.session.world, self.session.time * unit_seconds(self.session.document.time_unit) * 1e3, dict[str, np.ndarray]()
         for name in self.sensors:
             assert world is not None
             signal = world.sensors[name]
@@ -117,18 +178,10 @@ def _axes(shape: Sequence[int]) -> Axes:
     return tuple(Axis(f"of {k}", 0.0, float(max(n - 1, 1)), n) for k, n in enumerate(shape))
 
 
-def require(events: Sequence[Event]) -> None:
-    """Refuse events that rows could not tell apart."""
-    names = [e.name for e in events]
-    twice = next((n for n in names if names.count(n) > 1 or n == TIME), None)
-    if twice is not None:
-        raise ParameterError("is the name of two events, or of the limit", where=twice, fix="Give each event a name of its own")
-
-
 @contextlib.contextmanager
 def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]:
     """Things in the world as they were, when the trial is over."""
-    if not any(not isinstance(a, Set) for a in actions):
+    if not any(a.moves for a in actions):
         yield
         return
     here = arena(world)

@@ -12,7 +12,7 @@ from deodar.model.paths import Names, display
 
 VERSION = 1
 READS = ("", "previous", "current", "delayed")
-KEYS = ("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "arrays", "notes", "layout")
+KEYS = ("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "uses", "arrays", "notes", "layout")
 """Keys of a document file, in their order."""
 
 
@@ -65,6 +65,15 @@ class Knob:
 
 
 @dc.dataclass(frozen=True)
+class Use:
+    """A group that stays linked to a template: (id in the template, id here) for each of its elements, and the template's name."""
+
+    group: Names
+    template: str
+    elements: tuple[tuple[str, str], ...] = ()
+
+
+@dc.dataclass(frozen=True)
 class Document:
     """An architecture as data. Only `deodar.model.edit` makes new ones."""
 
@@ -73,6 +82,7 @@ class Document:
     connections: tuple[Connection, ...] = ()
     groups: tuple[Names, ...] = ()
     knobs: tuple[Knob, ...] = ()
+    uses: tuple[Use, ...] = ()
     time_unit: str = "ms"
     dt: float | None = None
     t0: float = 0.0

@@ -15,7 +15,7 @@ from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import get, leaves, replace
 from deodar.model import find
-from deodar.model.document import READS, Connection, Document, Entry, Knob
+from deodar.model.document import READS, Connection, Document, Entry, Knob, Use
 from deodar.model.paths import Names, display, stored_id
 from deodar.parameters import is_text, parameter, parameters, real, show
 
@@ -50,13 +50,15 @@ def remove(doc: Document, ids: Iterable[str]) -> Document:
     gone = set(ids)
     knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.knobs)
     kept = tuple(c for c in doc.connections if not gone & {c.source, c.target})
-    return dc.replace(doc, entries=tuple(e for e in doc.entries if e.id not in gone), connections=kept, knobs=knobs)
+    uses = tuple(dc.replace(u, elements=tuple(x for x in u.elements if x[1] not in gone)) for u in doc.uses)
+    return dc.replace(doc, entries=tuple(e for e in doc.entries if e.id not in gone), connections=kept, knobs=knobs, uses=uses)
 
 
 def remove_group(doc: Document, group: Names) -> Document:
     """A document without a group and everything in it."""
     doc = remove(doc, [e.id for e in doc.entries if e.names[: len(group)] == group])
-    return dc.replace(doc, groups=tuple(g for g in doc.groups if g[: len(group)] != group))
+    uses = tuple(u for u in doc.uses if u.group[: len(group)] != group)
+    return dc.replace(doc, groups=tuple(g for g in doc.groups if g[: len(group)] != group), uses=uses)
 
 
 def move(doc: Document, ident: str, names: Names) -> Document:
@@ -84,7 +86,7 @@ def move_group(doc: Document, group: Names, to: Names) -> Document:
         dc.replace(e, names=renamed[e.id], element=dc.replace(e.element, name=renamed[e.id][-1])) if e.id in renamed else e for e in doc.entries
     )
     groups = [to + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
-    return dc.replace(doc, entries=entries, groups=_with_groups((), [*groups, to]))
+    return dc.replace(doc, entries=entries, groups=_with_groups((), [*groups, to]), uses=_uses_at(doc, group, to))
 
 
 def ungroup(doc: Document, group: Names) -> Document:
@@ -92,7 +94,8 @@ def ungroup(doc: Document, group: Names) -> Document:
     for e in [e for e in doc.entries if e.names[: len(group)] == group]:
         doc = move(doc, e.id, group[:-1] + e.names[len(group) :])
     groups = [group[:-1] + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
-    return dc.replace(doc, groups=_with_groups((), [g for g in groups if g]))
+    uses = tuple(u for u in _uses_at(doc, group, group[:-1]) if u.group != group[:-1])
+    return dc.replace(doc, groups=_with_groups((), [g for g in groups if g]), uses=uses)
 
 
 def group(doc: Document, names: Names) -> Document:
@@ -108,8 +111,11 @@ def copy(doc: Document, ids: Iterable[str], place: Callable[[Names], Names]) -> 
     return insert(doc, doc, place, set(ids))
 
 
-def insert(doc: Document, template: Document, place: Callable[[Names], Names], ids: set[str] | None = None) -> Document:
-    """A document with the elements of a template, copied: new ids, the same connections, and its document parameters."""
+def insert(doc: Document, template: Document, place: Callable[[Names], Names], ids: set[str] | None = None, linked: bool = False) -> Document:
+    """A document with the elements of a template, copied: new ids, the same connections, and its document parameters.
+
+    Where `linked`, the document remembers which element came from which (`uses.refresh`). What the template itself uses stays linked too.
+    """
     new: dict[str, str] = {}
     for e in template.entries:
         if ids is None or e.id in ids:
@@ -126,7 +132,9 @@ def insert(doc: Document, template: Document, place: Callable[[Names], Names], i
         for i, leaf in links:
             doc = link(doc, i, leaf, k.name)
     groups = [place((*g, ""))[:-1] for g in template.groups] if ids is None else []
-    return dc.replace(doc, groups=_with_groups(doc.groups, [g for g in groups if g]))
+    uses = [Use(place((*u.group, ""))[:-1], u.template, tuple((t, new[i]) for t, i in u.elements)) for u in template.uses] if ids is None else []
+    uses += [Use(place(("",))[:-1], template.name, tuple(new.items()))] if linked else []
+    return dc.replace(doc, groups=_with_groups(doc.groups, [g for g in groups if g]), uses=(*doc.uses, *uses))
 
 
 def connect(doc: Document, source: Entry, source_port: str, target: Entry, target_port: str, reads: str = "") -> Document:
@@ -351,6 +359,10 @@ def require_ticks(every: Any, where: str) -> None:
     """Refuse what is no number of ticks that a part could run at."""
     if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= MOST_TICKS:
         raise ParameterError(f"every is {show(every)}; it is a whole number of ticks, 1 to {MOST_TICKS}", where=where)
+
+
+def _uses_at(doc: Document, group: Names, to: Names) -> tuple[Use, ...]:
+    return tuple(dc.replace(u, group=to + u.group[len(group) :]) if u.group[: len(group)] == group else u for u in doc.uses)
 
 
 def _free(base: str, taken: set[str]) -> str:

@@ -65,6 +65,8 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     data |= {} if doc.t0 == 0 else {"t0": doc.t0}
     data["axes"] = {key: _axis_data(axis) for key, axis in axes.items()}
     data |= {"parameters": knobs, "elements": elements, "connections": connections, "groups": [display(g) for g in doc.groups]}
+    uses = {display(u.group): {"template": u.template, "elements": {t: by[i].path for t, i in u.elements}} for u in doc.uses}
+    data |= {"uses": uses} if uses else {}
     data |= {"notes": doc.notes} if doc.notes else {}
     data |= {"layout": dict(doc.layout)} if doc.layout else {}
     return data, arrays

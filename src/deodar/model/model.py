@@ -5,14 +5,14 @@ from __future__ import annotations
 import dataclasses as dc
 import html
 import sys
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
 from deodar.leaves import get
-from deodar.model import edit, files, find
+from deodar.model import edit, files, find, uses
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
 from deodar.model.paths import Names, display, quote, readings, split
@@ -151,20 +151,35 @@ class Model:
         inside = [e.id for e in self.document.entries if e.names[: len(names)] == names]
         self._commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
-    def insert(self, template: Model, group: str) -> None:
-        """Copy another model into this one, as a group.
+    def insert(self, template: Model, group: str, link: bool = False) -> None:
+        """Copy another model into this one, as a group; with `link` it stays one of the template's uses, for `refresh`.
 
         Document parameters come along; one whose name this model has already is shared, at the value it has here. Functions of a model
         that nobody trusts are not trusted here either.
         """
         target = split(group)
-        self._commit(edit.insert(self.document, template.document, lambda n: target + n))
-        if not template.trusted and any(e.element.outside() for e in template.document.entries):
-            self._doubted = self.history.depth  # taken back, the change takes the doubt with it
+        self._commit(edit.insert(self.document, template.document, lambda n: target + n, linked=link))
+        self._doubt(template)
+
+    def refresh(self, template: Model) -> None:
+        """Make all groups that are linked to a template of this name as the template now is.
+
+        Elements keep their ids, and so their states and noise; connections across the border of a group stay. What was changed inside is made
+        again as the template has it, except what document parameters drive. Those keep their values here; new ones come along.
+        """
+        self._commit(uses.refresh(self.document, template.document))
+        self._doubt(template)
 
     def set(self, path: str, value: Any) -> None:
         """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`)."""
         self._commit(edit.change(self.document, path, value))
+
+    def change(self, values: Mapping[str, Any]) -> None:
+        """Change several parameters at once, by their paths: one step of the history."""
+        doc = self.document
+        for path, value in values.items():
+            doc = edit.change(doc, path, value)
+        self._commit(doc)
 
     def get(self, path: str) -> Any:
         """The value of a parameter."""
@@ -280,6 +295,10 @@ class Model:
         if self._doubted is not None and self.history.depth < self._doubted:
             self._doubted = None  # the change that brought it was taken back, and is now forgotten
         self.history.commit(document)
+
+    def _doubt(self, template: Model) -> None:
+        if not template.trusted and any(e.element.outside() for e in template.document.entries):
+            self._doubted = self.history.depth  # taken back, the change takes the doubt with it
 
     def _entry(self, what: Handle | str) -> Entry:
         if isinstance(what, str):

@@ -10,7 +10,7 @@ from deodar.element import Element
 from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import leaves
 from deodar.model import edit, find
-from deodar.model.document import KEYS, READS, VERSION, Document, Entry
+from deodar.model.document import KEYS, READS, VERSION, Document, Entry, Use
 from deodar.model.parts import part_from_json
 from deodar.model.paths import Names, display, split, stored_id
 from deodar.numerics.axes import Axis
@@ -46,7 +46,7 @@ class _Reader:
         doc = self.elements(doc, axes)
         doc = self.groups(doc)
         if not self.problems:  # connections and links of elements that could not be read would only repeat their problems
-            doc = self.knobs(self.connections(doc))
+            doc = self.uses(self.knobs(self.connections(doc)))
         if self.problems:
             raise DocumentError(self.problems)
         return doc
@@ -187,6 +187,27 @@ class _Reader:
             for path in cast("list[Any]", links):
                 doc = self.attempt(where, doc, lambda d, n=name, p=path: _linked(d, p, n))
         return doc
+
+    def uses(self, doc: Document) -> Document:
+        for path, value in self.table("uses").items():
+            where = f"uses.{path}"
+            body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
+            template, elements = body.get("template"), body.get("elements")
+            texts = isinstance(elements, dict) and all(isinstance(v, str) for v in cast("dict[str, Any]", elements).values())
+            if not isinstance(template, str) or not template or not texts or set(body) - {"template", "elements"}:
+                self.problem(where, "needs a template (its name) and elements (the template's ids and paths here), and nothing else")
+                continue
+            pairs = cast("dict[str, str]", elements)
+            doc = self.attempt(where, doc, lambda d, p=path, n=template, e=pairs: _used(d, p, n, e))
+        return doc
+
+
+def _used(doc: Document, path: str, template: str, elements: Mapping[str, str]) -> Document:
+    group = split(path)
+    if group not in doc.groups:
+        raise UnknownName(f"there is no group {path!r}", fix=did_you_mean(path, [display(g) for g in doc.groups]))
+    pairs = tuple((ident, find.element(doc, own).id) for ident, own in elements.items())
+    return dc.replace(doc, uses=(*doc.uses, Use(group, template, pairs)))
 
 
 def _connected(doc: Document, row: Mapping[str, str]) -> Document:

@@ -49,6 +49,12 @@ def document_schema() -> dict[str, Any]:
         "properties": {"value": {"type": "number"}, "links": {"type": "array", "items": {"type": "string"}}},
         "required": ["value"],
     }
+    use: dict[str, Any] = {
+        "type": "object",
+        "properties": {"template": {"type": "string"}, "elements": {"type": "object", "additionalProperties": {"type": "string"}}},
+        "required": ["template", "elements"],
+        "additionalProperties": False,
+    }
     elements = {"oneOf": [{"$ref": f"#/$defs/{name}"} for name, cls in parts.items() if issubclass(cls, Element)]}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -65,6 +71,7 @@ def document_schema() -> dict[str, Any]:
             "elements": {"type": "object", "additionalProperties": elements},
             "connections": {"type": "array", "items": connection},
             "groups": {"type": "array", "items": {"type": "string"}},
+            "uses": {"type": "object", "additionalProperties": use},
             "arrays": {"type": "object", "properties": {"file": {"type": "string"}, "sha256": {"type": "string"}}},
             "notes": {"type": "string"},
             "layout": {"type": "object"},

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from deodar import registry
+from deodar.errors import WorldError, did_you_mean
 from deodar.recording import files
 from deodar.worlds._base import World
 from deodar.worlds.recording import Recording
@@ -21,3 +23,15 @@ def opened(kind: type[World], argument: str) -> World:
 def again(kind: type[World], described: Mapping[str, Any]) -> World:
     """The world that a record says it was made with."""
     return opened(kind, str(described.get("file", ""))) if issubclass(kind, Recording) else kind.again(described)
+
+
+def named(text: str, where: str) -> World:
+    """The world that `KIND:ARGUMENT` names; `where`: how messages call the place where it stands."""
+    name, _, argument = text.partition(":")
+    kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
+    found = kinds.get(name.casefold())
+    if found is None:
+        raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
+    if not argument:
+        raise WorldError("needs to know what to open", where=where, fix=f"For example {name.lower()}:photo.jpg")
+    return opened(found, argument)

@@ -24,6 +24,7 @@ from deodar.parameters import FrozenArray, show
 from deodar.runtime import memory, rearrange
 from deodar.runtime.changes import Changed, changed_leaves
 from deodar.runtime.cost import SECONDS, Costs, Moment, costs, moment
+from deodar.runtime.keep import keep
 from deodar.runtime.live import run_live
 from deodar.runtime.look import Look, Place
 from deodar.runtime.meter import Meter
@@ -141,9 +142,7 @@ class Session:
         for _ in range(n):
             dt = self.dt
             self.step()
-            state = self._run.row(g, r)
-            pushed = entry.element.push(state, amount, dt)
-            self._run.put_row(g, r, pushed or state)
+            self._run.put_row(g, r, entry.element.push(state := self._run.row(g, r), amount, dt) or state)
 
     def _to_new_dt(self, most: int) -> int:
         """Steps taken until a changed dt may take effect: the next tick common to all parts."""
@@ -249,6 +248,10 @@ class Session:
         fill(run, snapshot.states)
         run.exchange.put(snapshot.world)
 
+    def keep(self) -> list[str]:
+        """Take what elements have learned (weights, traces, gains) into the model, for `save`: what they start from. Returns its paths."""
+        return keep(self, self._model)
+
     # -------------------------------------------------------------------------------- a hand in the world
 
     def scene(self) -> Scene | None:
@@ -338,10 +341,8 @@ class Session:
         return f"<Session of {self.document.name!r} at {self.time:g} {self.document.time_unit}, dt {self.dt:g}, seed {self.seed}>"
 
     def _repr_html_(self) -> str:
-        d = self.document
-        return (
-            f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), dt {self.dt:g}, seed {self.seed}, {self.precision}"
-        )
+        d, how = self.document, f"dt {self.dt:g}, seed {self.seed}, {self.precision}"
+        return f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), {how}"
 
     # -------------------------------------------------------------------------------- inside
 

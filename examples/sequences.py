@@ -1,0 +1,56 @@
+"""A chain of ordinal nodes learns sequences of 2 to 10 actions and produces them, with noise.
+
+    python examples/sequences.py            a few sequences of each length
+    python examples/sequences.py 100        a hundred of each: every seed has its own sequence and its own noise
+
+What is perceived during production is always the same round of places, whatever was learned: each action waits until its place comes round.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+
+import deodar as dd
+from deodar.architectures.cascade import cascade, recorded
+from deodar.architectures.serial_order import end, lesson, production
+
+PLACES = (6.0, 18.0, 30.0, 42.0, 54.0)
+NEAR = 1.5
+
+
+def judged(length: int, seeds: range) -> tuple[int, int, int]:
+    """How many seeds were right, and of all their transitions how many were in order, and how many there were."""
+    model = lesson([PLACES[0]] * length, PLACES)
+    right = orderly = transitions = 0
+    for seed in seeds:
+        sequence = np.random.default_rng([length, seed]).choice(PLACES, length)
+        for k, place in enumerate(sequence, 1):
+            model.set(f"shown {k}.center", float(place))
+            model.set(f"end {k}.center", float(place))
+        data = dd.simulate(model, end(length, len(PLACES)), seed=seed, record=recorded(length), progress=False)
+        begin = production(length)
+        learned = cascade(data, 0.0, begin)
+        produced = cascade(data, begin + 250.0)
+        good = [
+            [t.item for t in part] == list(range(1, length + 1)) and bool(np.all(np.abs([t.place for t in part] - sequence) < NEAR))
+            for part in (learned, produced)
+        ]
+        right += all(good)
+        orderly += sum(t.in_order for t in produced)
+        transitions += len(produced)
+    return right, orderly, transitions
+
+
+def main(seeds: int = 3, lengths: range = range(2, 11)) -> dict[int, tuple[int, int, int]]:
+    """Judge every length, and print what was found."""
+    found: dict[int, tuple[int, int, int]] = {}
+    for length in lengths:
+        right, orderly, transitions = found[length] = judged(length, range(seeds))
+        print(f"{length:2d} actions: learned and produced in {right} of {seeds} seeds; transitions in the right order: {orderly} of {transitions}")
+    return found
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

@@ -1,0 +1,97 @@
+"""The transitions of a sequence, read from a record of `serial_order`: what switched on and off, and when."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from deodar.analysis.peaks import peaks
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class Transition:
+    """One action's end and the beginning of the next, as times in the unit of the record; NaN: it did not happen.
+
+    Attributes:
+        item: position in the sequence, from 1.
+        place: of the peak that told that the action was done.
+        satisfied: the condition of satisfaction was detected.
+        off: the ordinal node went off.
+        action_off: the peak of the action decayed.
+        released: the peak of the condition of satisfaction decayed.
+        next_on: the next ordinal node came on.
+        next_action: the next action had a peak.
+    """
+
+    item: int
+    place: float
+    satisfied: float
+    off: float
+    action_off: float
+    released: float
+    next_on: float
+    next_action: float
+
+    @property
+    def in_order(self) -> bool:
+        """Whether the instabilities followed each other as in section 4.4 of Sandamirskaya & Schöner (2010); after the last item nothing follows."""
+        times = [self.satisfied, self.off, self.action_off, self.released, self.next_on, self.next_action]
+        known = times if not np.isnan(self.next_on) else times[:4]
+        return all(a < b for a, b in pairwise(known))
+
+
+def recorded(items: int) -> list[str]:
+    """The paths to record for `cascade`."""
+    return [*(f"item {k}.node.activation" for k in range(1, items + 1)), "action.activation", "satisfaction.activation"]
+
+
+def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Transition]:
+    """The transitions between two moments of a single run, one for each time that an ordinal node went off.
+
+    Args:
+        data: a record of `recorded(...)`, of every step.
+        begin: first moment.
+        stop: moment before which all is looked at.
+    """
+    part = data.sel(time=slice(begin, min(stop, float(data["time"][-1]))))
+    time = part["time"].values
+    count = sum(str(name).endswith(".node.activation") for name in part.data_vars)
+    on = {k: part[f"item {k}.node.activation"].values > 0 for k in range(1, count + 1)}
+    action, satisfaction = (part[f"{name}.activation"] for name in ("action", "satisfaction"))
+    acting, satisfied = (u.max(str(u.dims[1])).values > 0 for u in (action, satisfaction))
+    ended = sorted((i, k) for k in on for i in _switches(on[k], False))
+    found: list[Transition] = []
+    for n, (i, k) in enumerate(ended):
+        last = ended[n + 1][0] if n + 1 < len(ended) else len(time)
+        came = [j for j in _switches(satisfied, True) if j <= i]
+        following = [j for other in on if other != k for j in _switches(on[other], True) if i <= j < last]
+        until = following[0] if following else last
+        place = [p.position[0] for p in peaks(satisfaction.isel(time=min(i + 1, len(time) - 1)))]
+
+        def first(switched: list[int], low: int, high: int) -> float:
+            return next((float(time[j]) for j in switched if low <= j < high), np.nan)
+
+        found.append(
+            Transition(
+                k,
+                place[0] if place else np.nan,
+                float(time[came[-1]]) if came else np.nan,
+                float(time[i]),
+                first(_switches(acting, False), i, until + 1),
+                first(_switches(satisfied, False), i, until + 1),
+                first(following, i, last),
+                first(_switches(acting, True), until, last),
+            )
+        )
+    return found
+
+
+def _switches(on: np.ndarray, to: bool) -> list[int]:
+    """Samples at which a state has become `to`."""
+    return [int(j) + 1 for j in np.flatnonzero((on[1:] == to) & (on[:-1] != to))]

@@ -1,0 +1,227 @@
+"""Serial order: a chain of ordinal nodes that learns a sequence of actions from a demonstration and produces it again.
+
+Each position in the sequence is a pair: an ordinal node that is on while its action is under way, and a memory node that stays on until the next
+one has begun. Weights lead from each ordinal node to an action field; they learn what the node stands for. An action ends when the field of the
+condition of satisfaction detects what it predicts. Its peak switches all ordinal nodes off, and the memory node hands over to the next.
+
+`serial_order` is the chain by itself; `lesson` gives it a demonstration and then what is seen while it produces, as timed stimuli, so that it runs
+without any world.
+
+Reference:
+    Sandamirskaya & Schöner (2010), An embodied account of serial order, Neural Networks 23(10), sections 4.1 to 4.4, eqs. 4 to 8, table B.1.
+    Where we depart from the table, it says so below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from deodar.couplings.adaptive_weights import AdaptiveWeights
+from deodar.couplings.gain import Gain
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.couplings.sum import Sum
+from deodar.elements.boost import Boost
+from deodar.elements.field import Field
+from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.errors import ParameterError
+from deodar.model.model import Handle, Model
+from deodar.numerics.axes import Axis
+from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.windows import Window
+from deodar.parameters import show
+
+TAU, STEEP = 10.0, 100.0
+"""Time constant of all nodes and fields, ms, and beta of all sigmoids (table B.1)."""
+
+LEARN = 1 / 20.0
+"""Speed of learning, 1/ms: tau_l is 20 ms (table B.1)."""
+
+RESTING = {"node": -0.5, "memory": -2.0, "action": -1.8, "satisfaction": -2.0}
+"""Table B.1 prints -5 for ordinal nodes: too low for c2, the next one would never come on."""
+
+STRENGTHS = {
+    "c0 self-excitation": 7.2,
+    "c1 other nodes": -3.6,
+    "c2 next": 0.9,
+    "c3 own memory": -0.8,
+    "c4 self-excitation of memory": 3.5,
+    "c5 other nodes to memory": -2.0,
+    "c6 to memory": 2.6,
+}
+"""Document parameters, numbered as in eqs. 4 and 5, with their sign: one knob for all pairs."""
+
+EXCITATION, WIDTH, INHIBITION = 0.9, 3.0, 0.5
+"""Kernel of action and satisfaction, for an axis in steps of 1. The table prints 5.0 for the inhibition, with which no peak can stand."""
+
+READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -15.0
+"""c_ord; the homogeneous boost (c_ord in the table: the whole field would be above threshold); c_A (1.5 in the table); c_CoS."""
+
+SHOWN, SEEN = 2.0, 0.95
+"""Strengths of what arrives at the action field while it is demonstrated (c_vis), and at the satisfaction field (c_vis^C, a little below its 1)."""
+
+START, CLEAR = 3.8, -20.0
+"""Pulse that turns the first node on, and what clears all between learning and production. Ours: the paper says nothing of either."""
+
+SHOW, DEMONSTRATION, LOOK = 1000.0, 1000.0, 400.0
+"""When the first action is shown, from one to the next, and from one place to the next during production, ms."""
+
+MOST = 50
+"""Longest chain (a guess: nobody learns a longer list at once)."""
+
+
+def action_axis() -> Axis:
+    """The axis of actions where none is given: a circle in steps of 1."""
+    return Axis("action", 0.0, 60.0, 60, periodic=True)
+
+
+def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
+    """One position of a sequence, to be inserted as a group: ordinal node, memory node, and the weights to what they stand for.
+
+    Equation::
+
+        tau dd/dt = -d + h_d + c0 f(d) + c1 others + c3 f(m) + what arrives
+        tau dm/dt = -m + h_m + c4 f(m) + c5 others + c6 f(d)
+        tau_l dM(x)/dt = gate (f(U_A(x)) - M(x)) f(d)
+
+    `others` is the sum of all other ordinal nodes: the sum of all, which arrives at `others.input`, less the own one. U_A arrives at
+    `meaning.post`; `meaning.output` is f(d) M(x).
+
+    Args:
+        axis: of the actions.
+        noise: strength of the noise of both nodes; 0.22 is a standard deviation of 0.05 at rest.
+
+    Reference:
+        Sandamirskaya & Schöner (2010), eqs. 4, 5 and 7.
+    """
+    model = Model("ordinal pair")
+    for name, value in STRENGTHS.items():
+        model.parameter(name, value)
+    node = model.add(_field("node", [], [Gaussian(STRENGTHS["c0 self-excitation"])], noise))
+    memory = model.add(_field("memory", [], [Gaussian(STRENGTHS["c4 self-excitation of memory"])], noise))
+    model.link("node.kernel.0.amplitude", "c0 self-excitation")
+    model.link("memory.kernel.0.amplitude", "c4 self-excitation of memory")
+    others = model.add(Sum(name="others"))
+    node >> model.add(Gain(-1.0, name="less the own")) >> others
+    _couple(model, others, node, "c1 other nodes")
+    _couple(model, memory, node, "c3 own memory")
+    _couple(model, others, memory, "c5 other nodes to memory")
+    _couple(model, node, memory, "c6 to memory")
+    node >> model.add(AdaptiveWeights([axis], rate=LEARN, gated=True, name="meaning"))
+    return model
+
+
+def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) -> Model:
+    """The chain: pairs `item 1`, `item 2`, ..., the fields `action` and `satisfaction`.
+
+    What is demonstrated arrives at `action`, what is perceived at `satisfaction`. `learning` and `producing` are the modes: the weights learn
+    during the one and are read during the other (the paper reads them always; then a slip of learning would hold itself). `start` is a pulse
+    at the first node, `clear` inhibits everything but the weights.
+
+    Args:
+        items: positions, 1 to 50. A sequence may be shorter.
+        axis: of the actions and of what is perceived when they are done, in steps of 1; none: a circle of 60.
+        noise: strength of the noise of all nodes, and of the fields at each of their samples.
+
+    Reference:
+        Sandamirskaya & Schöner (2010), eqs. 4 to 8.
+    """
+    if isinstance(items, bool) or not isinstance(items, int) or not 1 <= items <= MOST:
+        raise ParameterError(f"a chain has 1 to {MOST} items, not {show(items)}", fix="For example serial_order(5)")
+    x = axis or action_axis()
+    model = Model("serial order", dt=2.0)
+    model.parameter("c2 next", STRENGTHS["c2 next"])
+    kernel = [Gaussian(EXCITATION, WIDTH)]
+    action, satisfaction = (model.add(_field(name, [x], kernel, noise, INHIBITION)) for name in ("action", "satisfaction"))
+    learning, producing = (model.add(Boost(name, [], amplitude=1.0)) for name in ("learning", "producing"))
+    start = model.add(Boost("start", [], amplitude=START, windows=[Window(300.0, 400.0)]))
+    clear = model.add(Boost("clear", [], amplitude=0.0))
+    nodes, meant = model.add(Sum(name="all nodes")), model.add(Sum(name="all meanings"))
+    off = model.add(Gain(OFF, name="off"))
+    for k in range(1, items + 1):
+        group = f"item {k}"
+        model.insert(ordinal_pair(x, noise), group)
+        node, memory, meaning = (model[f"{group}.{name}"] for name in ("node", "memory", "meaning"))
+        node >> nodes
+        nodes >> model[f"{group}.others"]
+        meaning >> meant
+        model.connect(action, f"{group}.meaning.post")
+        model.connect(learning, f"{group}.meaning.gate")
+        for target in (node, memory):
+            clear >> target
+        off >> node
+        if k == 1:
+            start >> node
+        else:
+            _couple(model, model[f"item {k - 1}.memory"], node, "c2 next", group)
+    read = model.add(Product(name="read"))
+    meant >> read
+    model.connect(producing, "read.factor")
+    read >> model.add(Gain(READ, name="c_ord")) >> action
+    nodes >> model.add(Gain(BOOST, name="boost")) >> action
+    action >> model.add(Gain(PREDICT, name="predict")) >> satisfaction
+    satisfaction >> model.add(Project([], name="satisfied")) >> off
+    for field in (action, satisfaction):
+        clear >> field
+    return model
+
+
+def lesson(sequence: Sequence[float], seen: Sequence[float] = (), items: int | None = None, axis: Axis | None = None, noise: float = 0.22) -> Model:
+    """The chain with a demonstration and then a world to produce in, both as timed stimuli.
+
+    First each action of the sequence is shown for 0.6 s, and towards its end what is perceived when it is done; a second for each. Then all is
+    cleared but the weights, and the first node is started. From then on the places in `seen` are perceived one after another, over and over,
+    0.2 s each with 0.2 s between: whatever is being done can be completed when its place comes round, and not before.
+
+    Args:
+        sequence: places of the actions on the axis, in their order; repeats are allowed.
+        seen: places that are perceived during production, in this order; none: those of the sequence, each once, from low to high.
+        items: positions of the chain; none: as many as the sequence has. With more, the node after the last comes on and stands for nothing.
+        axis: as in `serial_order`.
+        noise: as in `serial_order`.
+    """
+    x = axis or action_axis()
+    if items is not None and items < len(sequence):
+        raise ParameterError(f"a chain of {items} items cannot hold a sequence of {len(sequence)}", fix=f"Give items={len(sequence)}, or none")
+    model = serial_order(len(sequence) if items is None else items, x, noise)
+    model.describe(name="lesson")
+    begins = [SHOW + DEMONSTRATION * k for k in range(len(sequence))]
+    for k, (place, t) in enumerate(zip(sequence, begins, strict=True), 1):
+        for name, amplitude, first in (("shown", SHOWN, 0.0), ("end", SEEN, 400.0)):
+            stimulus = GaussianStimulus(f"{name} {k}", [x], center=place, sigma=WIDTH, amplitude=amplitude, windows=[Window(t + first, t + 600.0)])
+            model.add(stimulus) >> model["action" if name == "shown" else "satisfaction"]
+    learned = production(len(sequence))
+    model.set("learning.windows", [Window(0.0, learned)])
+    model.set("producing.windows", [Window(learned)])
+    model.set("clear.amplitude", CLEAR)
+    model.set("clear.windows", [Window(learned, learned + 200.0)])
+    model.set("start.windows", [Window(300.0, 400.0), Window(learned + 300.0, learned + 400.0)])
+    places = list(seen) or sorted(set(sequence))
+    for k, place in enumerate(places, 1):
+        times = [learned + 1000.0 + LOOK * (k - 1 + len(places) * n) for n in range(len(sequence))]
+        windows = [Window(t, t + LOOK / 2) for t in times]
+        model.add(GaussianStimulus(f"seen {k}", [x], center=place, sigma=WIDTH, amplitude=SEEN, windows=windows)) >> model["satisfaction"]
+    return model
+
+
+def production(items: int) -> float:
+    """When production begins in a lesson of so many items, ms."""
+    return SHOW + DEMONSTRATION * items
+
+
+def end(items: int, places: int) -> float:
+    """When the last place has been perceived for the last time in a lesson, and what follows is over, ms."""
+    return production(items) + 1000.0 + LOOK * items * places + 400.0
+
+
+def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str = "") -> None:
+    """A connection whose strength is a document parameter."""
+    through = model.add(Gain(STRENGTHS[knob], name=knob.split(" ", 1)[1]), group=group)
+    model.link(f"{through.path}.factor", knob)
+    source >> through >> target
+
+
+def _field(name: str, axes: Sequence[Axis], kernel: Sequence[Gaussian], noise: float, inhibition: float = 0.0) -> Field:
+    rest, steep = RESTING[name], Logistic(beta=STEEP)
+    return Field(name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise)

@@ -1,0 +1,73 @@
+"""A field in two layers: excitation in one, inhibition in another that it drives.
+
+The one-layer field computes inhibition without delay. With a layer of its own inhibition comes later, by the time constant of that layer, has a
+threshold, and may be shared: connect other fields to `inhibitory`, and `inhibitory` to them.
+
+    tau u' = -u + h + s(x, t) + integral k(x - x') g(u(x')) dx' + integral k_v(x - x') g_v(v(x')) dx' - c integral g_v(v) dx
+    tau_v v' = -v + h_v + integral k_d(x - x') g(u(x')) dx'
+
+With tau_v far below tau, h_v = 0 and g_v linear it is the one-layer field whose kernels are those of k, and those of k_v convolved with k_d.
+
+References:
+    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.1 (when a layer of its own may be left out).
+    Amari (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27, section 5 (two layers).
+    Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation, maintenance, and updating of representations in
+    visual working memory, Brain Res. 1299, 17-32 (a layer of inhibition shared by two fields).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from deodar.couplings.convolve import Convolve
+from deodar.couplings.interaction import Interaction
+from deodar.elements.field import Field
+from deodar.model.model import Model
+from deodar.numerics.axes import Axis
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids.logistic import Logistic
+
+
+def two_layer_field(
+    axes: Sequence[Axis],
+    kernel: Sequence[Kernel],
+    inhibition: Sequence[Kernel] = (),
+    global_inhibition: float = 0.0,
+    drive: Sequence[Kernel] = (),
+    tau: float = 20.0,
+    tau_inhibition: float = 10.0,
+    resting_level: float = -5.0,
+    resting_inhibition: float = -5.0,
+    sigmoid: Sigmoid | None = None,
+    sigmoid_inhibition: Sigmoid | None = None,
+    noise: float = 0.0,
+) -> Model:
+    """The two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group; input goes to `excitatory`.
+
+    Args:
+        axes: the metric dimensions, of both layers.
+        kernel: k, excitation within the excitatory layer, summed.
+        inhibition: k_v, from the inhibitory layer to the excitatory one, summed; its amplitudes are negative, as in a Field.
+        global_inhibition: c, on the integral of the inhibitory layer's output.
+        drive: k_d, from the excitatory layer to the inhibitory one, summed; none: place by place, with a strength of 1.
+        tau: time constant of the excitatory layer, in the document's time unit; > 0, and no shorter than the step.
+        tau_inhibition: tau_v, that of the inhibitory layer, likewise.
+        resting_level: h, attractor of the excitatory layer without input.
+        resting_inhibition: h_v, attractor of the inhibitory layer without input.
+        sigmoid: g, output of the excitatory layer; none: the logistic function.
+        sigmoid_inhibition: g_v, output of the inhibitory layer; none: the logistic function.
+        noise: strength of the noise of the excitatory layer.
+    """
+    model = Model("two-layer field")
+    excitatory = model.add(Field("excitatory", axes, tau, resting_level, sigmoid or Logistic(), kernel, noise=noise))
+    inhibitory = model.add(Field("inhibitory", axes, tau_inhibition, resting_inhibition, sigmoid_inhibition or Logistic()))
+    if drive:
+        excitatory >> model.add(Convolve(drive, name="drive")) >> inhibitory
+    else:
+        excitatory >> inhibitory
+    if inhibition:
+        inhibitory >> model.add(Convolve(inhibition, name="inhibition")) >> excitatory
+    if global_inhibition or not inhibition:
+        inhibitory >> model.add(Interaction((), global_inhibition, name="global inhibition")) >> excitatory
+    return model

@@ -1,0 +1,42 @@
+"""The bar of long work that is done in pieces: how much is done, and the time that is left."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from deodar.experiments.jobs import Standing
+
+
+class Bar:
+    """A progress bar on stderr; `what` are the rows that are counted."""
+
+    def __init__(self, hidden: bool, what: str) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn
+
+        columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TextColumn("{task.fields[left]}"))
+        self._bar = Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=hidden)
+        self._task = self._bar.add_task("", total=1.0, done="", left="")
+        self._what = what
+
+    def __enter__(self) -> Bar:
+        self._bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def show(self, standing: Standing) -> None:
+        """Draw what is told."""
+        left = "" if standing.left is None else f"{lasting(standing.left)} left"
+        self._bar.update(self._task, completed=standing.share, done=f"{standing.rows} of {standing.of} {self._what}", left=left)
+
+
+def lasting(seconds: float) -> str:
+    """A time in words: 40 s, 12 min, 3 h 5 min."""
+    minutes = round(seconds / 60)
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"

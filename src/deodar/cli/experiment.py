@@ -1,0 +1,109 @@
+"""`deodar experiment FILE`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from deodar.cli import _options
+from deodar.cli._bar import Bar
+
+if TYPE_CHECKING:
+    import xarray
+
+HELP = "run the trials of an experiment, and write a table with a row for each"
+EPILOG = """What is done is kept as it is done: Ctrl-C, or a machine that goes down, loses nothing. The same call with --out FOLDER goes on,
+with the same results as if nothing had happened."""
+
+MOST_CELLS = 24
+"""Combinations of levels that are listed; the table holds them all."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("file", type=Path, metavar="FILE", help="an experiment (.json), which names its model")
+    parser.add_argument("--trials", type=_options.whole, metavar="N", help="trials of each combination of levels, instead of the file's")
+    parser.add_argument("--seed", type=_options.whole, metavar="N", help="seed of all noise and of what is drawn, instead of the file's")
+    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to go on with (default: NAME-001, NAME-002, ... here)")
+    parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the trials among N processes of one core each")
+    _options.add_world(parser)
+    parser.add_argument("--check", action="store_true", help="only say whether it could be run, and in which pieces")
+    _options.add_json(parser)
+    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Status 1 if the trials were stopped."""
+    import dataclasses as dc
+
+    from deodar.experiments.experiment import Experiment
+    from deodar.experiments.results import carry
+    from deodar.importers.opening import load
+    from deodar.recording import places
+
+    _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
+    found = Experiment.load(args.file)
+    given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
+    given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
+    experiment = dc.replace(found, **given)
+    bench = experiment.bench(args.trust)
+    if args.check:
+        return _check(args, bench)
+    out: Path = args.out or places.free(Path.cwd(), experiment.name)
+    try:
+        with Bar(args.no_progress or args.json, "trials") as bar:
+            data = carry(bench, out, args.workers or None, bar.show)
+    except KeyboardInterrupt:
+        options = {"--trials": args.trials, "--seed": args.seed, "--world": args.world, "--workers": args.workers}
+        again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
+        again += [f"{name} {value}" for name, value in options.items() if value is not None] + (["--trust"] if args.trust else [])
+        print(f"deodar experiment: stopped; what is done is kept. Go on with: {' '.join(again)}", file=sys.stderr)
+        return 1
+    _tell(args, out, data)
+    return 0
+
+
+def _check(args: argparse.Namespace, bench: Any) -> int:
+    pieces = [len(piece) for piece in bench.pieces()]
+    way = f"in {len(pieces)} batch{'es' if len(pieces) > 1 else ''} of at most {max(pieces)}" if bench.batched else "one by one"
+    if args.json:
+        print(json.dumps({"trials": sum(pieces), "batched": bench.batched, "pieces": pieces}))
+    else:
+        print(f"{bench.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
+    return 0
+
+
+def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
+    names = sorted(p.name for p in out.iterdir())
+    outcomes = {str(name): int((data["outcome"] == name).sum()) for name in sorted(set(data["outcome"].values.tolist()))}
+    if args.json:
+        print(json.dumps({"out": str(out), "trials": data.sizes["trial"], "outcomes": outcomes, "files": names}, indent=2, ensure_ascii=False))
+        return
+    for line in _cells(data):
+        print(line)
+    print(f"{data.sizes['trial']} trials: {', '.join(f'{name} {n}' for name, n in outcomes.items())}.")
+    print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
+
+
+def _cells(data: xarray.Dataset) -> Iterator[str]:
+    """For each combination of levels its outcomes, and the median of how long a trial took."""
+    import numpy as np
+
+    factors = [str(name) for name in data.coords if name != "trial"]
+    labels = list(zip(*(data[name].values.tolist() for name in factors), strict=True)) if factors else []
+    unit = data["duration"].attrs["units"]
+    cells = list(dict.fromkeys(labels))
+    for cell in cells[:MOST_CELLS]:
+        of = np.asarray([label == cell for label in labels])
+        ended = data["outcome"].values[of].tolist()
+        shares = ", ".join(f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended)))
+        where = ", ".join(f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in zip(factors, cell, strict=True))
+        after = "" if unit in ("abstract", "") or unit.startswith("1 =") else f" {unit}"
+        yield f"  {where}: {len(ended)} trials, {shares}, median {np.median(data['duration'].values[of]):g}{after}"
+    if len(cells) > MOST_CELLS:
+        yield f"  ... and {len(cells) - MOST_CELLS} more combinations"

@@ -1,0 +1,87 @@
+"""The delay line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+NEVER = 1e30
+"""Age of what has not arrived yet, in any time unit."""
+
+NEAR = 1e-3
+"""Share of a step by which the ages that are compared may differ by rounding."""
+
+
+@register
+@dataclass(frozen=True)
+class DelayLine(Element):
+    """Shows its input after a delay of any length: conduction times, the latency of a sensor, a train of past moments.
+
+    It keeps its input at moments that lie delay / slots apart, or one step where that is longer, and takes the straight line between the two
+    that it needs. So it is exact where the delay is a whole number of steps and no more of them than `slots`.
+
+    Equation:
+        y(x, t) = input(x, t - delay); initial before anything has arrived
+
+    Parameters:
+        axes: where it is defined; none: one number.
+        delay: how long, in the document's time unit; > 0. Shorter than a step: one step. Where it is made longer while the model runs, the
+            oldest moment that is kept stands until there are older ones.
+        slots: how many moments it keeps.
+        initial: what it shows before anything has arrived.
+
+    Ports:
+        input: over `axes`.
+        output: y, over `axes`.
+
+    Reference:
+        no reference
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
+    delay: Annotated[float, Live("time", lower=1e-6, meaning="how long")] = 100.0
+    slots: Annotated[int, Recompile(lower=1, upper=100_000, meaning="how many moments it keeps")] = 100
+    initial: Annotated[float, Live(meaning="what it shows before anything has arrived")] = 0.0
+
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def init(self, at: Setting) -> Arrays:
+        # one slot more on either side of the delay: the moments around it are both there
+        rows = self.slots + 2
+        kept = jnp.broadcast_to(at.full(tuple(self.axes), self.initial), (rows, *(a.samples for a in self.axes)))
+        return {"kept": kept, "ages": jnp.full((rows,), NEVER, at.dtype), "newest": at.full((), 0.0)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        kept, rows = state["kept"], self.slots + 2
+        first = state["newest"].astype(int)
+        ages = jnp.roll(state["ages"], -first)
+        younger = jnp.clip(jnp.sum(ages < self.delay - NEAR * time.dt) - 1, 0, rows - 1)
+        older = jnp.minimum(younger + 1, rows - 1)
+        a, b = ages[younger], ages[older]
+        share = jnp.clip((self.delay - a) / jnp.where(b > a, b - a, 1.0), 0.0, 1.0)
+        # to what has not arrived there is no line: it stands until the first moment is old enough
+        share = jnp.where((b >= NEVER) | (b - self.delay < NEAR * time.dt), 1.0, share)
+        share = jnp.where((a >= self.delay - NEAR * time.dt), 0.0, share)
+        young, old = kept[jnp.mod(first + younger, rows)], kept[jnp.mod(first + older, rows)]
+        return {"output": (1 - share) * young + share * old}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        kept, ages, newest = state["kept"], state["ages"], state["newest"]
+        due = ages[newest.astype(int)] >= self.delay / self.slots - NEAR * time.dt
+        newest = jnp.where(due, jnp.mod(newest - 1, self.slots + 2), newest)
+        place = newest.astype(int)
+        kept = kept.at[place].set(jnp.where(due, inputs["input"], kept[place]))
+        ages = jnp.minimum(ages.at[place].set(jnp.where(due, 0.0, ages[place])) + time.dt, NEVER)
+        return {"kept": kept, "ages": ages, "newest": newest}

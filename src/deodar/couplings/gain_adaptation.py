@@ -1,0 +1,92 @@
+"""Gains that an error corrects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, cell, shape
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class GainAdaptation(Coupling):
+    """From the place of a peak to a value, through gains that an error corrects where the peak stands.
+
+    Equation:
+        y = integral lambda(x) f(x) dx; value = y / integral f(x) dx, 0 without input; f is the input, lambda the gains.
+        tau dlambda(x)/dt = gate error f(x)
+
+    Parameters:
+        tau: time scale: document time times error times input, over a change of the gains; > 0.
+        initial: gains at the start, the same everywhere.
+        gated: whether there is a port `gate`; without it the time window is always open.
+        start: gains at the start, in place of `initial`: what was learned before.
+
+    Ports:
+        input: f, any axes; usually the output of a motor field.
+        error: one number with a sign: wanted minus reached, in units of the gains.
+        gate: the time window, one number, only where `gated`. Below 0 it counts as 0.
+        output: y, one number: what drives the motor variable of eq. 9.
+        value: what that variable is drawn to, one number.
+        gains: lambda, over the axes of the input.
+
+    Shapes:
+        start: the samples of the input's axes, in their order.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 13, with eq. 9. Corrected: the printed epsilon is error times time window, here two
+        ports, and the error has a sign, so that gains can also fall. With the decay of eq. 9 multiplied by the integral of f (as printed the
+        attractor would not switch off with the peak) a peak's value moves by error integral f^2 / (tau integral f): an error decays
+        exponentially, at a speed that depends neither on the width of the peak nor on the sampling.
+    """
+
+    tau: Annotated[float, Live("time x input", lower=1e-6, meaning="time scale")] = 100.0
+    initial: Annotated[float, Live(meaning="gains at the start")] = 0.0
+    gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
+    start: Annotated[ArrayLike | None, Rebuild(meaning="gains at the start")] = None
+
+    inputs: ClassVar[tuple[str, ...]] = ("input", "error", "gate")
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "value": ("input",)}
+    stateful: ClassVar[bool] = True
+
+    def ports(self) -> tuple[str, ...]:
+        return self.inputs if self.gated else self.inputs[:2]
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving if port == "input" else ()
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": (), "value": (), "gains": ins["input"]}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        needed = shape(ins["input"])
+        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
+            yield f"start has shape {list(self.start.shape)}, the input has {list(needed)} samples", "Give gains of that shape"
+
+    def init(self, at: Setting) -> Arrays:
+        return {"gains": at.full(at.ins["input"], self.initial) if self.start is None else at.array(self.start)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        gains, f = state["gains"], inputs["input"] * cell(at.ins["input"])
+        drive, whole = jnp.sum(gains * f), jnp.sum(f)
+        return {"output": drive, "value": jnp.where(whole > 0, drive / jnp.where(whole > 0, whole, 1.0), 0.0), "gains": gains}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        speed = time.dt / self.tau * inputs["error"]
+        if self.gated:
+            speed = speed * jnp.maximum(inputs["gate"], 0.0)
+        return {"gains": state["gains"] + speed * inputs["input"]}
+
+    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"start": state["gains"]}
+
+    @classmethod
+    def example(cls) -> GainAdaptation:
+        return cls(gated=True, initial=0.5, name="example")

@@ -1,0 +1,140 @@
+"""Associations between what is active together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics import plasticity
+from deodar.numerics.axes import Axes, Axis, cell, shape
+from deodar.numerics.patches import random_weights
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.registry import register
+
+MOST_PATCHES = 64
+"""Finest patches of random weights: their numbers are counted in 32 bits, for up to five axes on a side."""
+
+
+@register
+@dataclass(frozen=True)
+class Hebbian(Coupling):
+    """Learns which places of two arrays are active together, and brings the one about from the other: a map between any two fields or nodes.
+
+    It looks at peaks only. What does not exceed the threshold counts as 0 on both sides, and nothing is learned unless something is active
+    on both: a source that is on while its target has not answered yet unlearns nothing. While one side is silent a step costs next to nothing.
+    `AdaptiveWeights` is the plain rule `outstar` without a threshold, which follows the target wherever it goes.
+
+    Equation:
+        y(b) = integral W(b, a) x(a) da, with x = input where input > threshold, else 0; z the same of post;
+        while something is active on both sides: dW(b, a)/dt = gate (rate R - decay W); weights that change are kept <= saturation.
+        outstar: R = x(a) (z(b) - W). hebb: R = x(a) z(b). association: R = 1 (both active) or 0 (only a), minus W. These three, and their
+        decay, act on weights from active places a.
+        instar: R = z(b) (x(a) - W). oja: R = z(b) (x(a) - z(b) W). These two, and their decay, act on weights to active places b.
+
+    Parameters:
+        axes: axes of the output; none: one number.
+        rule: outstar, association, hebb, instar or oja.
+        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, as the rule says); >= 0.
+        decay: speed at which weights fade that are in use, per unit of the document's time; >= 0.
+        saturation: upper bound of weights that change; 0: none.
+        threshold: what input and post must exceed to count; >= 0.
+        gated: whether there is a port `gate`; without it learning never waits.
+        initial: weights at the start; where they are random, the largest.
+        random: whether weights at the start are uniform between 0 and `initial`, instead of `initial` itself.
+        share: share of the patches that are connected at the start; the other weights are 0. From 0 to 1.
+        patches: number of patches along each axis inside which weights at the start are alike; where random or sparse. It makes the map at the
+            start independent of the sampling.
+        seed: of the weights at the start, 0 to 2^32 - 1; where random or sparse.
+        start: weights at the start, in place of the five above: what was learned before.
+
+    Ports:
+        input: a, any axes.
+        post: b, over `axes`: what is to be brought about.
+        gate: reward, or a window in which to learn; one number, only where `gated`. Below 0 it counts as 0.
+        output: y, over `axes`; it follows the input in the same instant, with the weights learned so far.
+        weights: W, over `axes`, then the axes of the input.
+
+    Shapes:
+        start: samples of `axes`, then samples of the input's axes; per unit of the source's axes, as in `Weights`.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 12: `association`, with the thresholded sum of both sides as a step. Printed, all
+        weights decay at every reward, which forgets the rest of the map: here those in use. Grossberg (1968), Proc. Natl. Acad. Sci. 59
+        (outstar, instar); Oja (1982), J. Math. Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("target", 0, 12, 13),)
+    rule: Annotated[str, Recompile(choices=plasticity.RULES, meaning="how weights change")] = "outstar"
+    rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.01
+    decay: Annotated[float, Live(lower=0, meaning="speed at which weights in use fade")] = 0.0
+    saturation: Annotated[float, Live(lower=0, meaning="upper bound of weights that change; 0: none")] = 0.0
+    threshold: Annotated[float, Live(lower=0, meaning="what input and post must exceed to count")] = 0.5
+    gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
+    initial: Annotated[float, Live(meaning="weights at the start, or the largest of them")] = 0.0
+    random: Annotated[bool, Recompile(meaning="whether weights at the start are random")] = False
+    share: Annotated[float, Live(lower=0, upper=1, meaning="share of patches connected at the start")] = 1.0
+    patches: Annotated[int, Recompile(lower=1, upper=MOST_PATCHES, meaning="patches along each axis at the start")] = 16
+    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of the weights at the start")] = 0
+    start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, target samples first")] = None
+
+    inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate")
+    stateful: ClassVar[bool] = True
+    sees_output: ClassVar[bool] = True
+
+    def ports(self) -> tuple[str, ...]:
+        return self.inputs if self.gated else self.inputs[:2]
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        needed = shape(self.axes) + shape(ins["input"])
+        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
+            yield f"start has shape {list(self.start.shape)}; target and source samples make {list(needed)}", "Give weights of that shape"
+
+    def init(self, at: Setting) -> Arrays:
+        pre, post = shape(at.ins["input"]), shape(self.axes)
+        if self.start is not None:
+            given = at.array(self.start)
+            return {"weights": jnp.moveaxis(given, range(len(post)), range(-len(post), 0)) if post else given}
+        scale = jnp.asarray(self.initial, at.dtype)
+        drawn = random_weights(at.ins["input"], tuple(self.axes), self.patches, self.share, self.seed, at.dtype)
+        return {"weights": (scale * (drawn if self.random else jnp.sign(drawn))).reshape(*pre, *post)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        pre, post = shape(at.ins["input"]), shape(self.axes)
+        out = cell(at.ins["input"]) * plasticity.read(self._matrix(state["weights"], pre), self._active(inputs["input"]))
+        w = state["weights"]
+        return {"output": out.reshape(post), "weights": jnp.moveaxis(w, range(len(pre)), range(-len(pre), 0)) if pre else w}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        w, pre = state["weights"], shape(at.ins["input"])
+        step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)
+        if "output" in inputs:
+            step = plasticity.after(step, inputs["output"])
+        most = jnp.where(self.saturation > 0, self.saturation, jnp.inf).astype(at.dtype)
+        x, z = self._active(inputs["input"]), self._active(inputs["post"])
+        new = plasticity.learn(self.rule, self._matrix(w, pre), x, z, self.rate * step, self.decay * step, most)
+        return {"weights": new.reshape(w.shape)}
+
+    def lasting(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
+        w, post = state["weights"], len(self.axes)
+        return {"start": np.moveaxis(w, range(w.ndim - post, w.ndim), range(post)) if post else w}
+
+    def _matrix(self, weights: Any, pre: tuple[int, ...]) -> Any:
+        return weights.reshape(int(np.prod(pre, dtype=int)), -1)
+
+    def _active(self, x: Any) -> Any:
+        return jnp.where(x > self.threshold, x, jnp.zeros_like(x)).ravel()
+
+    @classmethod
+    def example(cls) -> Hebbian:
+        return cls(gated=True, random=True, initial=0.4, share=0.8, decay=0.001, saturation=0.7, threshold=0.2, name="example")

@@ -1,0 +1,86 @@
+"""The gate that opens learning."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes, cell
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class RewardGate(Coupling):
+    """Opens learning when reward comes: as long as it lasts, or for a window of fixed length from its onset.
+
+    Equation:
+        r = gate integral input(x) dx; epsilon = strength (graded: strength r) while open, else 0.
+        duration 0: open while r > threshold; else: open from the moment at which r exceeds the threshold, for `duration`. A new onset, after r
+        has fallen to the threshold, opens it anew.
+
+    Parameters:
+        threshold: what r must exceed, in units of the input times the axes.
+        duration: how long a window is open, in the document's time unit; 0: as long as the reward lasts.
+        strength: epsilon while open, or its factor where graded.
+        graded: whether epsilon follows r while the gate is open, as in eq. 16.
+        gated: whether there is a port `gate`; without it reward always counts.
+
+    Ports:
+        input: the reward, any axes; usually the output of a field or node that detects success.
+        gate: when reward counts at all, such as the arrival of a movement; one number, only where `gated`.
+        output: epsilon, one number; it follows the reward in the same instant.
+
+    Reference:
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 16 (graded), and the time windows of eqs. 12 and 13. The window of fixed length is
+        ours: it bounds what one reward can teach, and lasts beyond a reward that is shorter.
+    """
+
+    threshold: Annotated[float, Live(lower=0, meaning="what the reward must exceed")] = 0.5
+    duration: Annotated[float, Live("time", lower=0, meaning="how long a window is open; 0: while reward lasts")] = 0.0
+    strength: Annotated[float, Live(meaning="output while open, or its factor")] = 1.0
+    graded: Annotated[bool, Recompile(meaning="whether the output follows the reward")] = False
+    gated: Annotated[bool, Recompile(meaning="whether reward waits for the gate")] = False
+
+    inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "gate")}
+    stateful: ClassVar[bool] = True
+
+    def ports(self) -> tuple[str, ...]:
+        return self.inputs if self.gated else self.inputs[:1]
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving if port == "input" else ()
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": ()}
+
+    def init(self, at: Setting) -> Arrays:
+        return {"left": at.full((), 0.0), "rewarded": at.full((), 0.0)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        reward = self._reward(at, inputs)
+        held = self._onset(state, reward) | (state["left"] > 0.5 * time.dt)  # to half a step, so that rounding moves no edge
+        is_open = jnp.where(self.duration > 0, held, reward > self.threshold)
+        return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        reward = self._reward(at, inputs)
+        left = jnp.where(self._onset(state, reward), self.duration, state["left"])
+        return {"left": jnp.maximum(left - time.dt, 0.0), "rewarded": (reward > self.threshold).astype(at.dtype)}
+
+    def _reward(self, at: Setting, inputs: Arrays) -> Any:
+        reward = cell(at.ins["input"]) * jnp.sum(inputs["input"])
+        return reward * inputs["gate"] if self.gated else reward
+
+    def _onset(self, state: Arrays, reward: Any) -> Any:
+        return (reward > self.threshold) & (state["rewarded"] == 0)
+
+    @classmethod
+    def example(cls) -> RewardGate:
+        return cls(duration=3.0, graded=True, gated=True, name="example")

@@ -1,0 +1,76 @@
+"""The steered shift."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.errors import did_you_mean
+from deodar.numerics import resampling
+from deodar.numerics.axes import Axes, shape
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class SteeredShift(Coupling):
+    """Moves a pattern by what another element says: from one frame of reference to another that moves against it.
+
+    Equation:
+        y(x) = input(x - a), a_i = gain by_i + offset; interpolated linearly, zero comes in at the ends of an axis that is not periodic
+
+    Parameters:
+        along: names of the axes along which it shifts; at least one. Along all other axes nothing moves.
+        gain: axis units per unit of what steers; a negative one shifts against it.
+        offset: how far it shifts for a `by` of 0, in axis units.
+
+    Ports:
+        input: any axes, those of `along` among them.
+        by: one number for one axis; for several an axis with one sample for each of them, in their order. Where each has an element
+            or a gain of its own, put one SteeredShift behind the other.
+        output: the axes of `input`.
+
+    Reference:
+        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic remapping,
+        Biol. Cybern. 106, 89-109 (the map that its transformation field computes: place on the retina and gaze to place in the world).
+    """
+
+    along: Annotated[Sequence[str], Recompile(meaning="names of the axes along which it shifts")] = ("x",)
+    gain: Annotated[float, Live(meaning="axis units per unit of what steers")] = 1.0
+    offset: Annotated[float, Live("axis", meaning="how far it shifts where what steers is 0")] = 0.0
+
+    inputs: ClassVar[tuple[str, ...]] = ("input", "by")
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "by")}
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if not self.along:
+            yield "along", "is empty; name at least one axis of the input"
+        if len(set(self.along)) < len(self.along):
+            yield "along", f"holds a name twice: {', '.join(self.along)}"
+
+    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+        return () if port == "by" and len(self.along) == 1 else arriving
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        known, arriving = [a.name for a in ins["input"]], shape(ins["by"])
+        for name in self.along:
+            if name not in known:
+                yield f"shifts along {name!r}, which is no axis of its input", did_you_mean(name, known) or "Give it an input that has this axis"
+        if len(self.along) > 1 and arriving != (len(self.along),):
+            takes = f"one axis with {len(self.along)} samples, one for each of {', '.join(self.along)}"
+            yield f"takes at its port `by` {takes}; what comes has {list(arriving)} samples", "Give it that, or put one SteeredShift behind the other"
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        y, names = inputs["input"], [a.name for a in at.ins["input"]]
+        amounts = jnp.reshape(inputs["by"], (len(self.along),))
+        for k, name in enumerate(self.along):
+            d = names.index(name)
+            axis = at.ins["input"][d]
+            whole, part = resampling.steps(axis, self.gain * amounts[k] + self.offset, at.dtype)
+            y = resampling.shifted(y, d, axis.periodic, whole, part)
+        return {"output": y}

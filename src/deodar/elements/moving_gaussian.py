@@ -1,0 +1,84 @@
+"""The Gaussian stimulus that moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.element import Arrays, Setting, Time
+from deodar.elements._stimulus import Stimulus
+from deodar.leaves import per_axis
+from deodar.numerics.moments import on_grid
+from deodar.numerics.windows import gate
+from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class MovingGaussian(Stimulus):
+    """Localised input whose place changes: at a constant velocity, along a path, or both.
+
+    What has left an axis that is not periodic does not come back by itself.
+
+    Equation:
+        s(x, t) = amplitude * exp(-sum_i (x_i - c_i(t))^2 / (2 sigma_i^2)), c_i(t) = center_i + velocity_i t + p_i(t); on a periodic axis
+        the shortest way round.
+
+    Parameters:
+        axes: where it is defined; none: a constant for a node.
+        center: place at time 0 without a path, in axis units, one or one for each axis.
+        sigma: width in axis units, one or one for each axis; > 0.
+        amplitude: value at the centre.
+        velocity: axis units per unit of the document's time, one or one for each axis.
+        path: p, moments and the places at them, in the document's time unit and axis units; straight lines between them, standing before the
+            first and after the last. Round a periodic axis go on counting: from 350 to 370. None: p = 0.
+        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+
+    Ports:
+        output: over `axes`.
+
+    Shapes:
+        path: one row for each moment: its time, then one place for each axis.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
+    """
+
+    center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without a path")] = 0.0
+    sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
+    amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
+    velocity: Annotated[PerAxis, Live("axis/time", meaning="how fast it moves")] = 0.0
+    path: Annotated[ArrayLike | None, Rebuild("axis", meaning="moments and the places at them; none: it does not follow a path")] = None
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if isinstance(self.path, FrozenArray):
+            rows, columns = self.path.data, 1 + len(self.axes)
+            if rows.ndim != 2 or rows.shape[1] != columns or not rows.size:
+                yield "path", f"has shape {list(rows.shape)}; it has rows of {columns} numbers: the time, then one place for each axis"
+            elif (np.diff(rows[:, 0]) <= 0).any():
+                yield "path", "goes back in time; each row is later than the one before"
+
+    def steady(self) -> bool:
+        return False
+
+    def prepare(self, at: Setting) -> Any:
+        return {} if self.path is None else {"path": at.array(self.path)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
+        now = on_grid(time.now, time.dt)
+        every = zip(*(per_axis(v, self.axes) for v in (self.center, self.sigma, self.velocity)), strict=True)
+        for d, (axis, (center, sigma, velocity)) in enumerate(zip(self.axes, every, strict=True)):
+            place = center + velocity * now
+            if "path" in constants:
+                place = place + jnp.interp(now, constants["path"][:, 0], constants["path"][:, 1 + d])
+            distance = at.points(axis) - place
+            if axis.periodic:
+                distance = distance - axis.range * jnp.round(distance / axis.range)
+            y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
+        return {"output": y}

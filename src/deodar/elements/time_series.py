@@ -1,0 +1,112 @@
+"""The stimulus given as arrays over time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from deodar.element import Arrays, Setting, Time
+from deodar.elements._stimulus import Stimulus
+from deodar.leaves import is_neutral
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.moments import on_grid
+from deodar.numerics.windows import gate
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.registry import register
+
+WAYS = ("linear", "hold")
+
+
+@register
+@dataclass(frozen=True)
+class TimeSeries(Stimulus):
+    """Input that changes in any way: what was measured, or computed elsewhere, moment by moment.
+
+    Equation:
+        s(x, t) = amplitude * v(x, t), where v(x, times_k) = values(k, x); between two moments the straight line (`linear`) or the earlier of
+        the two (`hold`); before the first moment the first, after the last the last. With a period P: v(x, t) = v(x, t mod P).
+
+    Parameters:
+        axes: where it is defined; none: a number for a node.
+        times: the moments, rising, in the document's time unit.
+        values: for each moment one value for each sample of the axes (`TimeSeries.of(name, function, times, axes)` samples a function).
+        amplitude: factor.
+        interpolation: `linear` or `hold`.
+        period: P, time after which it begins again, in the document's time unit; moments later than that are never reached. 0: once.
+        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+
+    Ports:
+        output: over `axes`.
+
+    Shapes:
+        times: the moments.
+        values: the moments, then the samples of `axes`, in their order.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
+    """
+
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the values")] = (Axis("x", 0, 20, 21),)
+    times: Annotated[ArrayLike, Rebuild("time", meaning="the moments")] = FrozenArray([0.0, 100.0])
+    values: Annotated[ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")] = FrozenArray(
+        [[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]]
+    )
+    amplitude: Annotated[float, Live(meaning="factor")] = 1.0
+    interpolation: Annotated[str, Recompile(choices=WAYS, meaning="what stands between two moments")] = "linear"
+    period: Annotated[float, Live("time", lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = 0.0
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        times = self.times.data if isinstance(self.times, FrozenArray) else np.zeros(0)
+        if times.ndim != 1 or not times.size:
+            yield "times", f"has shape {list(times.shape)}; it is a list of moments, at least one"
+        elif (np.diff(times) <= 0).any():
+            yield "times", "does not rise; each moment is later than the one before"
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        given = self.values.shape if isinstance(self.values, FrozenArray) else ()
+        needed = (*(self.times.shape if isinstance(self.times, FrozenArray) else ()), *shape(self.axes))
+        if given != needed:
+            yield f"values has shape {list(given)}, its times and axes make {list(needed)}", "Give values of that shape"
+
+    def steady(self) -> bool:
+        return False
+
+    def prepare(self, at: Setting) -> Any:
+        return {"times": at.array(self.times), "values": at.array(self.values)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        times, values = constants["times"], constants["values"]
+        half, now = 0.5 * time.dt, time.now
+        if not is_neutral(self.period):
+            # in two parts, so that long runs lose no digits; half a step aside, so that rounding moves no moment to the period's other end
+            now = jnp.mod(jnp.mod(time.start, self.period) + time.rest + half, self.period) - half
+        now, last = on_grid(now, time.dt), len(times) - 1
+        if self.interpolation == "hold":
+            k = jnp.clip(jnp.sum(times <= now + half) - 1, 0, last)
+            y = values[k]
+        else:
+            k = jnp.clip(jnp.sum(times <= now) - 1, 0, max(last - 1, 0))
+            after = jnp.minimum(k + 1, last)
+            span = jnp.where(after > k, times[after] - times[k], 1.0)
+            share = jnp.clip((now - times[k]) / span, 0.0, 1.0)
+            y = (1 - share) * values[k] + share * values[after]
+        return {"output": self.amplitude * gate(self.windows, time, at.dtype) * y}
+
+    @classmethod
+    def of(cls, name: str, function: Callable[..., Any], times: Any, axes: Sequence[Axis], **others: Any) -> TimeSeries:
+        """The values of a function of time and the axes' values: `TimeSeries.of("s", lambda t, x: np.sin(t / 50 + x), range(1000), [x])`.
+
+        Args:
+            name: name of the element.
+            function: called once with arrays of equal number of dimensions, time first.
+            times: the moments, rising, in the document's time unit.
+            axes: where it is defined.
+            others: further parameters of the element.
+        """
+        moments = np.asarray(times, float)
+        grids = np.meshgrid(moments, *(a.points for a in axes), indexing="ij")
+        return cls(name, tuple(axes), moments, np.broadcast_to(np.asarray(function(*grids), float), grids[0].shape), **others)

@@ -1,0 +1,63 @@
+"""The transient detector."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.integrators import euler
+from deodar.parameters import Live, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class TransientDetector(Element):
+    """A pulse where the input changes, and silence where it stays: the difference between the input and a slow copy of it.
+
+    A step of height A gives a pulse A exp(-t / tau); input that rises steadily gives its slope times tau.
+
+    Equation:
+        tau dz/dt = -z + s(x, t); output = max(0, s - z); off = max(0, z - s)
+
+    Parameters:
+        axes: where it is defined; none: one number.
+        tau: time constant of the slow copy, in the document's time unit; > 0. After about three of it the new is old.
+        initial: z at the start; what the input has beyond it then counts as new.
+
+    Ports:
+        input: s, over `axes`.
+        output: what has come or grown, over `axes`; in the same instant as the input.
+        off: what has gone or shrunk, over `axes`.
+
+    Reference:
+        Berger, Faubel, Norman, Hock & Schöner (2012), The counter-change model of motion perception: an account based on dynamic field
+        theory, ICANN 2012, LNCS 7552 (detectors of increments and of decrements, by which motion is seen).
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
+    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the slow copy")] = 100.0
+    initial: Annotated[float, Live(meaning="slow copy at the start")] = 0.0
+
+    stateful: ClassVar[bool] = True
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "off": ("input",)}
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes), "off": tuple(self.axes)}
+
+    def init(self, at: Setting) -> Arrays:
+        return {"slow": at.full(tuple(self.axes), self.initial)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        change = inputs["input"] - state["slow"]
+        return {"output": jnp.maximum(0.0, change), "off": jnp.maximum(0.0, -change)}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        z = state["slow"]
+        return {"slow": euler(z, -z + inputs["input"], self.tau, time.dt)}

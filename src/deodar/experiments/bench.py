@@ -1,0 +1,167 @@
+"""The bench: an experiment with its model and its world opened, and its trials as pieces of work."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from deodar.experiments.actions import Push
+from deodar.experiments.batch import run_batch
+from deodar.experiments.checking import check
+from deodar.experiments.course import Course
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.levels import swept
+from deodar.experiments.pushes import with_pushes
+from deodar.experiments.rows import KEY, Row
+from deodar.experiments.run import run
+from deodar.experiments.tally import TIME
+from deodar.experiments.writing import write_records
+from deodar.model import edit, find
+from deodar.model.model import Model, load
+from deodar.model.resolve import resolve
+from deodar.numerics.axes import shape
+from deodar.recording.opened import named
+from deodar.runtime import memory
+from deodar.runtime.exchange import embodied
+from deodar.runtime.pieces import BATCH_BYTES
+from deodar.worlds._base import World
+
+MOST_COPIES = 250
+"""Trials of one batch at most: enough to be quick (from 64 copies of a line on more hardly help), few enough to lose little by a kill."""
+
+RECORD_BYTES = 256 * 2**20
+"""What the records of one batch may take before they are written (a guess that leaves room on a small machine)."""
+
+
+@dataclass
+class Bench:
+    """An experiment that can be run.
+
+    Attributes:
+        experiment: the experiment.
+        model: its model.
+        world: its world, or None.
+    """
+
+    experiment: Experiment
+    model: Model
+    world: World | None
+
+    @classmethod
+    def open(cls, experiment: Experiment, trust: bool = False) -> Bench:
+        """Open model and world of an experiment, and check everything that can be checked before a trial runs."""
+        given: Any = experiment.model
+        model = given if isinstance(given, Model) else load(given, trust)
+        wanted: Any = experiment.world
+        world = named(wanted, "world") if isinstance(wanted, str) and wanted else wanted or None
+        check(experiment, model, world)
+        return cls(experiment, model, world)
+
+    @cached_property
+    def cells(self) -> list[tuple[int, ...]]:
+        """For each trial the level (its number) of each factor."""
+        return self.experiment.cells
+
+    @cached_property
+    def batched(self) -> bool:
+        """Whether trials run beside each other in one program: nothing is done on the way, and what they see is computed in it."""
+        e, doc = self.experiment, self.model.document
+        known = () if self.world is None else self.world.sensors
+        looked = [*(v.of for c in e.conditions for v in c.views), *(m.view.of for m in e.measures)]
+        by_hand = any(not isinstance(a, Push) or a.when for a in e.actions)
+        inside = self.world is None or embodied(doc, self.world) is not None
+        return inside and not by_hand and not any(name in known for name in looked)
+
+    @cached_property
+    def swept(self) -> list[str]:
+        """Parameters in which the trials of one batch differ; of others each value has batches of its own."""
+        if not self.batched or self.world is not None:
+            return []
+        values: dict[str, list[Any]] = {}
+        for factor in self.experiment.factors:
+            for level in factor.sets:
+                for path, value in level.items():
+                    values.setdefault(path, [self.model.get(path)] if any(path not in other for other in factor.sets) else []).append(value)
+        return [path for path, given in values.items() if swept(self.model.document, path, given)]
+
+    def pieces(self) -> list[list[int]]:
+        """The trials, in the pieces in which they are run: always the same, whoever runs them."""
+        if not self.batched:
+            return [[k] for k in range(len(self.cells))]
+        groups: dict[str, list[int]] = {}
+        for k in range(len(self.cells)):
+            fixed = {path: value for path, value in self.changes(k).items() if path not in self.swept}
+            groups.setdefault(json.dumps(sorted(fixed.items()), default=str), []).append(k)
+        most, out = self._most(), list[list[int]]()
+        for group in groups.values():
+            size = math.ceil(len(group) / math.ceil(len(group) / most))
+            out += [group[i : i + size] for i in range(0, len(group), size)]
+        return out
+
+    def changes(self, trial: int) -> dict[str, Any]:
+        """The parameters that a trial's levels set."""
+        out: dict[str, Any] = {}
+        for factor, level in zip(self.experiment.factors, self.cells[trial], strict=True):
+            out |= factor.sets[level]
+        return out
+
+    def rows(self, trials: Sequence[int], records: Path | None = None) -> list[Row]:
+        """Run some trials and give their rows; `records`: the folder for what is recorded."""
+        out: list[Row] = []
+        for k, course, model in self._courses(trials, records is not None):
+            levels = {f.name: f.labels[n] for f, n in zip(self.experiment.factors, self.cells[k], strict=True)}
+            awaited = [c.name for c in self.experiment.conditions if c.ends and course.events[c.name] is None]
+            row: Row = {KEY: f"{k:06}", "trial": k, "levels": levels, "outcome": course.outcome}
+            row |= {"awaited": ", ".join(awaited) if course.outcome == TIME else "", "duration": course.duration}
+            row |= {"events": dict(course.events), "measures": dict(course.measures)}
+            if records is not None:
+                about = {"experiment": self.experiment.name, "trial": k, "seed": self.experiment.seed, "levels": levels, "outcome": course.outcome}
+                write_records(records, row[KEY], model.document, self.experiment.record, course, about)
+            out.append(row)
+        return out
+
+    def _courses(self, trials: Sequence[int], keep: bool) -> list[tuple[int, Course, Model]]:
+        e = self.experiment
+        watch = e.record if keep else ()
+        given: dict[str, Any] = {"seed": e.seed, "every": e.every, "dt": e.dt, "precision": e.precision, "measures": e.measures, "watch": watch}
+        given |= {"events": e.conditions, "world": self.world}
+        if not self.batched:
+            out: list[tuple[int, Course, Model]] = []
+            for k in trials:
+                model = self._with(self.changes(k))
+                out.append((k, run(model, e.limit, trial=k, actions=e.actions, **given), model))
+            return out
+        own = [self.changes(k) for k in trials]
+        model = self._with({path: value for path, value in own[0].items() if path not in self.swept})
+        values = {path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept}
+        staged, _ = with_pushes(model, e.actions)
+        courses = run_batch(staged, e.limit, trials, values=values, **given)
+        return [(k, course, model) for k, course in zip(trials, courses, strict=True)]
+
+    def _with(self, changes: Mapping[str, Any]) -> Model:
+        """The model with other parameters; it shares the programs that have been compiled."""
+        doc = self.model.document
+        for path, value in changes.items():
+            doc = edit.change(doc, path, value)
+        out = Model(document=doc, trusted=self.model.trusted)
+        out.programs = self.model.programs
+        return out
+
+    def _most(self) -> int:
+        """Trials of one batch at most."""
+        nodes = resolve(self.model.document)[0]
+        size, e = memory.copy_bytes(nodes, self.experiment.precision), self.experiment
+        by = {node.id: node for node in nodes}
+        looks = e.limit / (e.every or e.dt or self.model.document.step) + 1
+        cells = 0
+        for name in e.record:
+            entry, port = find.port(self.model.document, name)
+            node = by[entry.id]
+            cells += math.prod(shape(node.outs[port] if port in node.outs else node.ins[port]))
+        recorded = cells * looks * (8 if e.precision == "float64" else 4)
+        return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), int(RECORD_BYTES // max(1.0, recorded))))

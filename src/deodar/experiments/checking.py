@@ -1,0 +1,128 @@
+"""What can be known to be wrong with an experiment before anything runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.experiments.actions import Record, arena, targets
+from deodar.experiments.events import Reached
+from deodar.experiments.tally import require
+from deodar.experiments.view import PLACE, View, mask
+from deodar.model import edit, find
+from deodar.model.model import Model
+from deodar.model.resolve import resolve
+from deodar.runtime.exchange import used
+from deodar.runtime.run import require_step, whole
+from deodar.worlds._base import World
+
+if TYPE_CHECKING:
+    from deodar.experiments.experiment import Experiment
+
+
+def check(experiment: Experiment, model: Model, world: World | None) -> None:
+    """Refuse an experiment that names what is not there, or holds what cannot be; every problem is listed.
+
+    Raises:
+        ParameterError: with all problems.
+    """
+    problems: list[Problem] = []
+
+    def attempt(where: str, what: Callable[[], object]) -> bool:
+        try:
+            what()
+            return True
+        except DeodarError as error:
+            found = [p.where if not p.where or p.where.startswith(where) else f"{where}: {p.where}" for p in error.problems]
+            problems.extend(Problem(w or where, p.what, p.fix) for w, p in zip(found, error.problems, strict=True))
+            return False
+
+    doc = model.document
+    if not attempt("model", model.require) or not attempt("world", lambda: used(doc, world)):
+        raise ParameterError(problems)
+    _times(experiment, doc.step, doc.t0, attempt)
+    if attempt("dt", lambda: require_step(doc, doc.step if experiment.dt is None else experiment.dt)):
+        _factors(experiment, model, attempt)
+    attempt("conditions", lambda: require(experiment.conditions, experiment.measures))
+    looks = [(f"conditions.{c.name}", v) for c in experiment.conditions for v in c.views]
+    for where, view in [*looks, *((f"measures.{m.name}", m.view) for m in experiment.measures)]:
+        attempt(where, lambda view=view: _view(view, model, world))
+    names = [c.name for c in experiment.conditions]
+    for k, action in enumerate(experiment.actions):
+        attempt(f"actions.{k}", lambda action=action: targets(action, doc))
+        if action.moves:
+            attempt(f"actions.{k}", lambda: arena(world))
+        if action.when and action.when not in names:
+            attempt(f"actions.{k}.when", lambda action=action: _no_event(action.when, names))
+        if isinstance(action, Record) and not experiment.record:
+            problems.append(Problem(f"actions.{k}", "starts or stops recording, but nothing is recorded", "Name ports under record"))
+    for path in experiment.record:
+        attempt("record", lambda path=path: find.port(doc, path))
+    if problems:
+        raise ParameterError(problems)
+
+
+def _times(experiment: Experiment, step: float, t0: float, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
+    dt, limit = step if experiment.dt is None else experiment.dt, experiment.limit
+
+    def within(at: float, what: str) -> None:
+        if at - t0 > limit:
+            raise ParameterError(f"{what}: it is due at {at:g}, and a trial ends after {limit:g} at the latest", fix="Take a longer limit")
+
+    attempt("limit", lambda: whole(limit, dt, "the limit"))
+    if experiment.every is not None:
+        attempt("every", lambda: _positive(whole(experiment.every or 0.0, dt, "every")))
+    for k, action in enumerate(experiment.actions):
+        attempt(f"actions.{k}", lambda action=action: whole(action.at if action.when else action.at - t0, dt, "the time of an action"))
+        attempt(f"actions.{k}", lambda action=action: whole(getattr(action, "lasting", 0.0), dt, "how long it lasts"))
+        if not action.when:
+            attempt(f"actions.{k}", lambda action=action: within(action.at, "is never done"))
+    for c in experiment.conditions:
+        if isinstance(c, Reached):
+            attempt(f"conditions.{c.name}", lambda c=c: within(c.at, "can never hold"))
+
+
+def _positive(steps: int) -> None:
+    if steps == 0:
+        raise ParameterError("is 0; it is at least one step")
+
+
+def _factors(experiment: Experiment, model: Model, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
+    doc, taken = model.document, dict[str, str]()
+    step = doc.step if experiment.dt is None else experiment.dt
+
+    def level(path: str, value: Any) -> None:
+        find.target(doc, path)
+        changed = edit.change(doc, path, value)
+        require_step(changed, step)
+        Model(document=changed, trusted=model.trusted).require()
+
+    def once(path: str, name: str) -> None:
+        if taken.setdefault(path, name) != name:
+            raise ParameterError(f"sets {path}, which the factor {taken[path]} sets too", fix="Let one factor set it")
+
+    for factor in experiment.factors:
+        where = f"factors.{factor.name}"
+        for path in dict.fromkeys(path for given in factor.sets for path in given):
+            attempt(where, lambda path=path, factor=factor: once(path, factor.name))
+            for given in factor.sets:
+                if path in given and not attempt(where, lambda path=path, value=given[path]: level(path, value)):
+                    break
+
+
+def _view(view: View, model: Model, world: World | None) -> None:
+    if world is not None and view.of in world.sensors:
+        if view.near or view.reduce == PLACE:
+            raise ParameterError(f"{view.of} is a sensor of the world, whose samples have no places", fix="Name the port of a Sensor that reads it")
+        return
+    entry, port = view.place(model.document)
+    node = next(n for n in resolve(model.document)[0] if n.id == entry.id)
+    axes = node.outs[port] if port in node.outs else node.ins[port]
+    mask(axes, view.near, view.radius)
+    if view.reduce == PLACE and not axes:
+        raise ParameterError(f"{view.of} is one number, which stands nowhere", fix="Take reduce='max'")
+
+
+def _no_event(name: str, known: list[str]) -> None:
+    raise UnknownName(f"there is no condition {name!r}", fix=did_you_mean(name, known))

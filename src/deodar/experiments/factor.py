@@ -1,0 +1,82 @@
+"""A factor: what trials of an experiment differ in, and how trials are given its levels."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, cast
+
+import numpy as np
+
+from deodar.parameters import Part, Recompile, real, show
+
+DESIGNS = ("crossed", "shuffled", "random")
+
+Label = str | float
+"""What rows call a level: its value where it is one number or text, else its name."""
+
+
+@dataclass(frozen=True)
+class Factor(Part):
+    """What trials differ in.
+
+    Attributes:
+        name: what rows call it.
+        levels: a list of values of one parameter, or for each level its name and the values of parameters: {"near": {"left.center": 45}}.
+        path: the parameter, of an element or of the document, whose values the levels are; empty where levels name parameters themselves.
+    """
+
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    levels: Annotated[object, Recompile(meaning="values of one parameter, or for each level its name and the values of parameters")]
+    path: Annotated[str, Recompile(meaning="the parameter whose values the levels are")] = ""
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        levels: Any = self.levels
+        if isinstance(levels, (str, bytes)) or not isinstance(levels, (Mapping, Sequence, np.ndarray)):
+            yield "levels", f"needs a list of values, or an object of named levels, not {show(levels)}"
+            return
+        if len(levels) == 0:
+            yield "levels", "holds no levels, so there is nothing to run"
+            return
+        items = list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
+        if not self.path and any(not isinstance(v, Mapping) or not v for v in items):
+            yield "levels", 'needs for each level the parameters it sets, {"left.amplitude": 6}, because no path is given'
+        elif not self.path and not isinstance(levels, Mapping):
+            yield "levels", 'needs a name for each level: {"near": {"left.center": 45}}'
+        labels = self.labels
+        if len(set(labels)) < len(labels):
+            yield "levels", f"holds the level {next(v for v in labels if labels.count(v) > 1)!r} twice"
+
+    @property
+    def labels(self) -> list[Label]:
+        """What rows call each level."""
+        levels: Any = self.levels
+        if isinstance(levels, Mapping):
+            return list(cast("Mapping[str, Any]", levels))
+        return [v if isinstance(v, str) else f if (f := real(v)) is not None else str(v) for v in levels]
+
+    @property
+    def sets(self) -> list[dict[str, Any]]:
+        """For each level the parameters it sets."""
+        levels: Any = self.levels
+        values = list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
+        return [{self.path: v} if self.path else dict(v) for v in values]
+
+
+def assign(factors: Sequence[Factor], design: str, trials: int, seed: int) -> list[tuple[int, ...]]:
+    """For each trial the level (its number) of each factor.
+
+    Args:
+        factors: what trials differ in.
+        design: `crossed`: so many trials of each combination, one combination after another; `shuffled`: the same in an order drawn from the seed;
+            `random`: so many trials in all, each with levels drawn from the seed.
+        trials: how many.
+        seed: of the order and the draws.
+    """
+    counts = [len(f.labels) for f in factors]
+    draw = np.random.default_rng(seed)
+    if design == "random":
+        return [tuple(row) for row in draw.integers(0, counts, size=(trials, len(counts))).tolist()]
+    rows = [cell for cell in itertools.product(*map(range, counts)) for _ in range(trials)]
+    return [rows[k] for k in draw.permutation(len(rows))] if design == "shuffled" else rows

@@ -1,0 +1,41 @@
+"""What is measured of a trial: a value at its end, or when something happened."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+from deodar.experiments.view import PLACE, REDUCES, View
+from deodar.parameters import Part, PerAxis, Recompile
+
+
+@dataclass(frozen=True)
+class Measure(Part):
+    """One number of a trial, or one for each axis.
+
+    Attributes:
+        name: what rows call it.
+        of: path of a port, or name of a sensor of the world.
+        reduce: max, min, mean or sum of an array, or `place` of its largest sample in axis units (to a sample).
+        when: the event at whose time it is taken; empty: when the trial ends.
+        near: only samples around this place, in axis units, one number or one for each axis; none: all.
+        radius: how far around that place, along every axis.
+    """
+
+    name: Annotated[str, Recompile(meaning="what rows call it")]
+    of: Annotated[str, Recompile(meaning="path of a port, or name of a sensor of the world")]
+    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of an array")] = "max"
+    when: Annotated[str, Recompile(meaning="the event at whose time it is taken; empty: at the end")] = ""
+    near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: all samples")] = None
+    radius: Annotated[float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")] = 0.0
+
+    @property
+    def view(self) -> View:
+        """What has to be looked at."""
+        near = () if self.near is None else tuple(map(float, self.near)) if isinstance(self.near, Sequence) else (float(self.near),)
+        return View(self.of, self.reduce, near, self.radius)
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if self.near is not None and self.radius == 0.0:
+            yield "radius", "is 0, and a place alone holds no sample; say how far around it"

@@ -1,0 +1,31 @@
+"""Pushes as boosts that stand in the model: those with a time of their own need no hand while the trial runs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from deodar.elements.boost import Boost
+from deodar.experiments.actions import Action, Push
+from deodar.model import edit, find
+from deodar.model.model import Model
+
+
+def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Push, str]]:
+    """The model with a boost for each push, and the paths of those that wait for an event; the model itself where nothing is pushed."""
+    wanted = list(dict.fromkeys(a for a in actions if isinstance(a, Push)))
+    if not wanted:
+        return model, {}
+    doc, waiting, number = model.document, dict[Push, str](), 0
+    for push in wanted:
+        target = find.element(doc, push.element)
+        while (f"push{number}",) in doc.by_names():
+            number += 1
+        windows = () if push.when else ((push.at, push.at + push.lasting),)
+        boost = Boost(f"push{number}", amplitude=0.0 if push.when else push.amount, windows=windows)  # pyright: ignore[reportArgumentType]
+        doc, entry = edit.add(doc, boost)
+        doc = edit.connect(doc, entry, "", target, "")
+        if push.when:
+            waiting[push] = entry.path
+    staged = Model(document=doc, trusted=model.trusted)
+    staged.programs = model.programs  # so that the next trial finds what this one compiles
+    return staged, waiting

@@ -1,0 +1,174 @@
+"""The results of an experiment: a folder with a row for each trial, which goes on where it was stopped, and the table made of them."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from deodar.compiler.device import find
+from deodar.errors import OutputExists, RecordError
+from deodar.experiments import parcel
+from deodar.experiments.bench import Bench
+from deodar.experiments.jobs import Job, Standing, carry_out
+from deodar.experiments.rows import ABOUT, Row, Rows
+from deodar.experiments.writing import RECORDS
+from deodar.model import files as documents
+from deodar.model import output
+from deodar.recording import files, places, provenance
+
+if TYPE_CHECKING:
+    import xarray
+
+ROWS, TABLE, DATASET, EXPERIMENT, MODEL = "trials.jsonl", "trials.csv", "trials.nc", "experiment.json", "model.json"
+
+
+def carry(bench: Bench, out: str | Path | None, workers: int | None = None, progress: Callable[[Standing], None] | None = None) -> xarray.Dataset:
+    """Run the trials whose rows are not there yet, write the table, and give it.
+
+    Args:
+        bench: the experiment, opened.
+        out: the folder; None: nothing is kept.
+        workers: so many processes of one core each; none: here.
+        progress: told how far it has come, after each piece.
+    """
+    if out is None:
+        with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
+            return _carry(bench, Path(folder), workers, progress)
+    folder = output.location(out)
+    _claim(folder)
+    return _carry(bench, folder, workers, progress)
+
+
+def _claim(out: Path) -> None:
+    """A new folder, or one that an earlier call began; another one is left alone."""
+    if out.is_dir() and any(out.iterdir()) and not (out / ROWS).is_file():
+        raise OutputExists("is not the folder of an experiment, so nothing is written into it", where=str(out), fix="Choose another name")
+    if not out.is_dir():
+        places.claim_folder(out)
+        out.mkdir()
+
+
+def _carry(bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None) -> xarray.Dataset:
+    about = _about(bench, workers)
+    rows = Rows(out / ROWS, about)
+    if not (out / MODEL).exists():
+        documents.save(bench.model.document, out / MODEL)
+    if not (out / EXPERIMENT).exists():
+        output.write(out / EXPERIMENT, (json.dumps(_plan(bench), indent=2, ensure_ascii=False) + "\n").encode())
+    records = out / RECORDS if bench.experiment.record or any(type(a).__name__ == "Snapshot" for a in bench.experiment.actions) else None
+    carry_out(list(_jobs(bench, workers, records)), rows, progress, workers)
+    data = dataset(list(rows.found.values()), about)
+    output.write(out / TABLE, table(data).encode())
+    files.save(data, out / DATASET, force=True)
+    return data
+
+
+def _jobs(bench: Bench, workers: int | None, records: Path | None) -> Iterator[Job]:
+    handed = parcel.Parcel.of(bench) if workers else None
+    for piece in bench.pieces():
+        keys, given = tuple(f"{k:06}" for k in piece), {"trials": piece, "records": records}
+        if handed is None:
+            yield Job(keys, bench.rows, given, len(piece))
+        else:
+            yield Job(keys, parcel.work, {"parcel": handed, **given}, len(piece))
+
+
+def _about(bench: Bench, workers: int | None) -> dict[str, Any]:
+    """What makes the experiment: rows of another one are never mixed with its own."""
+    text, arrays = documents.dumps(bench.model.document)
+    digest = hashlib.sha256(text.encode() + (arrays or b"")).hexdigest()
+    made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
+    unit = bench.model.document.time_unit
+    world = None if bench.world is None else bench.world.describe()
+    return {**_plan(bench), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
+
+
+def _plan(bench: Bench) -> dict[str, Any]:
+    """The plain data of an experiment whose model stands beside it."""
+    return json.loads(json.dumps({**bench.experiment.to_data(), "model": MODEL}))
+
+
+# ------------------------------------------------------------------------------------------------ the table
+
+
+def load(path: str | Path) -> xarray.Dataset:
+    """The table of an experiment, from its folder; of one that was stopped, the trials that are there.
+
+    Raises:
+        RecordError: it is not the folder of an experiment.
+    """
+    folder = output.location(path)
+    try:
+        lines = [json.loads(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
+        return dataset(lines[1:], lines[0][ABOUT])
+    except (OSError, ValueError, LookupError, TypeError):
+        raise RecordError("is not the folder of an experiment", where=str(folder), fix="Name a folder that deodar experiment wrote") from None
+
+
+def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
+    """Rows as a Dataset over `trial`.
+
+    Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time of each condition and the measures
+    are variables. What did not happen is NaN. Measures of several numbers have a dimension of their own.
+    """
+    import xarray
+
+    rows = sorted(rows, key=lambda row: row["trial"])
+    unit = {"units": about["time_unit"]}
+    conditions, measures = list(about.get("conditions", {})), list(about.get("measures", {}))
+    coords: dict[str, Any] = {"trial": ("trial", np.asarray([r["trial"] for r in rows], np.int64))}
+    for name in about.get("factors", {}):
+        coords[name] = ("trial", _column([r["levels"][name] for r in rows]))
+    out: dict[str, Any] = {key: ("trial", np.asarray([r[key] for r in rows], dtype=str)) for key in ("outcome", "awaited")}
+    out["duration"] = ("trial", np.asarray([r["duration"] for r in rows], float), unit)
+    for name in conditions:
+        out[name] = ("trial", _column([_or_nan(r["events"][name]) for r in rows]), {**unit, "long_name": f"time of {name}"})
+    for name in measures:
+        found = [r["measures"][name] for r in rows]
+        count = max((len(v) for v in found if isinstance(v, list)), default=0)
+        if count:
+            values = np.asarray([[np.nan] * count if v is None else v for v in found], float)
+            out[name] = (("trial", f"{name}.axis"), values)
+        else:
+            out[name] = ("trial", np.asarray([_or_nan(v) for v in found], float))
+    return xarray.Dataset(out, coords, {provenance.KEY: json.dumps(about, ensure_ascii=False), "title": about["name"]})
+
+
+def table(data: xarray.Dataset) -> str:
+    """The table as CSV, one line for each trial; empty where something did not happen."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    columns: list[tuple[str, np.ndarray]] = []
+    for name in [*data.coords, *data.data_vars]:
+        values = data[name].values
+        if values.ndim == 1:
+            columns.append((str(name), values))
+        else:
+            columns += [(f"{name}.{k}", values[:, k]) for k in range(values.shape[1])]
+    writer.writerow([name for name, _ in columns])
+    for k in range(data.sizes["trial"]):
+        writer.writerow([_cell(values[k]) for _, values in columns])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, (float, np.floating)):
+        return "" if np.isnan(value) else repr(float(value)).removesuffix(".0")
+    return str(value)
+
+
+def _column(values: Sequence[Any]) -> np.ndarray:
+    """Numbers where all are, else text."""
+    return np.asarray(values, float) if not any(isinstance(v, str) for v in values) else np.asarray([str(v) for v in values], dtype=str)
+
+
+def _or_nan(value: Any) -> Any:
+    return np.nan if value is None else value

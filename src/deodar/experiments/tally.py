@@ -1,0 +1,134 @@
+"""The tally: what has happened when in trials that run beside each other, and what was measured then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from deodar.errors import ParameterError, UnknownName, did_you_mean
+from deodar.experiments.events import Event, Looks
+from deodar.experiments.measures import Measure
+from deodar.experiments.view import View
+
+TIME = "time"
+"""Outcome of a trial that was ended by nothing but its limit."""
+
+
+class Tally:
+    """What looks at trials have shown so far.
+
+    Attributes:
+        outcome: for each trial the event that ended it, or `time`; empty while it runs.
+        found: for each event (by its number) and trial the document time at which it happened; NaN: it did not.
+        measured: for each measure and trial its value; None: it was not taken.
+    """
+
+    def __init__(self, events: Sequence[Event], measures: Sequence[Measure], trials: int) -> None:
+        require(events, measures)
+        self.events, self.measures = tuple(events), tuple(measures)
+        self._order = _order(events)
+        self._number = {e.name: k for k, e in enumerate(events)}
+        self.outcome = [""] * trials
+        self.found = np.full((len(events), trials), np.nan)
+        self.measured: list[list[np.ndarray | None]] = [[None] * trials for _ in measures]
+        self._counts = np.zeros((len(events), trials), int)
+        self._been = np.zeros((len(events), trials), bool)
+        self._first: dict[View, np.ndarray] = {}
+
+    def take(self, rows: Sequence[int], times: np.ndarray, seen: Mapping[View, np.ndarray], last: bool) -> np.ndarray:
+        """Take down looks at some trials: `times` of the looks, and what they saw, (trials, looks, ...).
+
+        Args:
+            rows: which trials these are.
+            times: document time of each look.
+            seen: for each view what the looks saw.
+            last: whether the limit is reached at the last of these looks.
+
+        Returns:
+            For each of these trials how many of the looks belong to it: all while it runs, none when it had ended before.
+        """
+        at, n = np.asarray(rows), len(times)
+        if not self._first:
+            self._first = {view: np.array(values[:, :1]) for view, values in seen.items()}
+        looks = Looks(times, seen, {view: first[at] for view, first in self._first.items()})
+        running = np.array([not self.outcome[r] for r in rows])
+        hits = np.full((len(self.events), len(rows)), n)
+        for k in self._order:
+            event = self.events[k]
+            holds = np.broadcast_to(np.asarray(event.holds(looks)), (len(rows), n))
+            if event.turns:
+                before = self._been[k, at][:, None] | np.logical_or.accumulate(~holds, axis=1)
+                self._been[k, at] = before[:, -1]
+                holds = holds & before
+            looks.holds[event.name] = holds
+            counts = self._counts[k, at][:, None] + np.cumsum(holds, axis=1)
+            self._counts[k, at] = counts[:, -1]
+            reached = counts >= event.times
+            new = reached.any(axis=1) & np.isnan(self.found[k, at])
+            hits[k, new] = reached.argmax(axis=1)[new]
+        ends = np.full(len(rows), n)
+        for k in reversed(range(len(self.events))):  # of several at one look the first in the list is the outcome
+            if self.events[k].ends:
+                self._end(rows, running & (hits[k] < n) & (hits[k] <= ends), self.events[k].name)
+                ends = np.minimum(ends, hits[k])
+        if last:
+            self._end(rows, running & (ends == n), TIME)
+            ends = np.minimum(ends, n - 1)
+        happened = running & (hits <= ends) & (hits < n)
+        for k in range(len(self.events)):
+            self.found[k, at[happened[k]]] = times[hits[k, happened[k]]]
+        for m, measure in enumerate(self.measures):
+            when = hits[self._number[measure.when]] if measure.when else ends
+            took = happened[self._number[measure.when]] if measure.when else running & (ends < n)
+            for i in np.flatnonzero(took).tolist():
+                self.measured[m][rows[i]] = np.array(seen[measure.view][i, when[i]])
+        return np.where(running, np.minimum(ends + 1, n), 0)
+
+    def end(self, row: int, outcome: str, seen: Mapping[View, np.ndarray]) -> None:
+        """End a trial by hand, at what a look just saw."""
+        self.outcome[row] = outcome
+        for m, measure in enumerate(self.measures):
+            if not measure.when:
+                self.measured[m][row] = np.array(seen[measure.view][0, -1])
+
+    def events_of(self, row: int) -> dict[str, float | None]:
+        """Document time of each event of a trial; None: it did not happen."""
+        return {e.name: None if np.isnan(t) else float(t) for e, t in zip(self.events, self.found[:, row], strict=True)}
+
+    def measures_of(self, row: int) -> dict[str, float | list[float] | None]:
+        """Each measure of a trial; None: it was not taken."""
+        found = [values[row] for values in self.measured]
+        return {m.name: None if v is None else v.astype(float).tolist() for m, v in zip(self.measures, found, strict=True)}
+
+    def _end(self, rows: Sequence[int], which: np.ndarray, name: str) -> None:
+        for i in np.flatnonzero(which).tolist():
+            self.outcome[rows[i]] = name
+
+
+def require(events: Sequence[Event], measures: Sequence[Measure] = ()) -> None:
+    """Refuse events and measures that rows could not tell apart, and those made of events that are not there."""
+    names = [*(e.name for e in events), *(m.name for m in measures)]
+    twice = next((n for n in names if names.count(n) > 1 or n == TIME), None)
+    if twice is not None:
+        raise ParameterError("is the name of two events or measures, or of the limit", where=twice, fix="Give each a name of its own")
+    known = [e.name for e in events]
+    for name, others in [*((e.name, e.others) for e in events), *((m.name, (m.when,) if m.when else ()) for m in measures)]:
+        for other in others:
+            if other not in known:
+                raise UnknownName(f"there is no event {other!r}", where=name, fix=did_you_mean(other, known))
+    _order(events)
+
+
+def _order(events: Sequence[Event]) -> list[int]:
+    """Numbers of the events, those first that others are made of."""
+    done: list[str] = []
+    left = list(events)
+    while left:
+        ready = [e for e in left if all(other in done for other in e.others)]
+        if not ready:
+            raise ParameterError("is made of itself, so it could never be judged", where=left[0].name, fix="Leave its own name out of those it names")
+        done += [e.name for e in ready]
+        left = [e for e in left if e not in ready]
+    number = {e.name: k for k, e in enumerate(events)}
+    return [number[name] for name in done]

@@ -1,0 +1,38 @@
+"""Records of trials: a file for each, with what was recorded of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from deodar.experiments.course import Course
+from deodar.model import find
+from deodar.model.document import Document
+from deodar.model.resolve import resolve
+from deodar.recording import files
+from deodar.recording.record import dataset
+
+RECORDS = "records"
+
+
+def write_records(folder: Path, key: str, doc: Document, record: Sequence[str], course: Course, about: Mapping[str, Any]) -> None:
+    """Write what was recorded of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; what stands there of an earlier try is replaced."""
+    if record:
+        _write(folder / f"{key}.nc", doc, record, course.recorded, course.values, about)
+    for label, (time, values) in course.snapshots.items():
+        kept = {path: array[None] for path, array in values.items()}
+        _write(folder / f"{key}-{label}.nc", doc, list(kept), np.asarray([time]), kept, {**about, "snapshot": label})
+
+
+def _write(path: Path, doc: Document, names: Sequence[str], times: np.ndarray, values: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
+    nodes = {node.id: node for node in resolve(doc)[0]}
+    variables: list[Any] = []
+    for name in names:
+        entry, port = find.port(doc, name)
+        node = nodes[entry.id]
+        variables.append((entry, port, node.outs[port] if port in node.outs else node.ins[port], values[name]))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    files.save(dataset(doc, variables, times, None, {}, about), path, force=True)

@@ -1,0 +1,99 @@
+"""Groups that stay linked to a template: a change in the template reaches every use."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+
+from deodar.errors import ModelError, Problem, UnknownName, did_you_mean
+from deodar.leaves import leaves
+from deodar.model import edit, find
+from deodar.model.document import Connection, Document, Use
+from deodar.model.paths import display
+
+
+def refresh(doc: Document, template: Document) -> Document:
+    """A document in which every use of a template of this name is as the template now is."""
+    linked = [u.group for u in doc.uses if u.template == template.name]
+    if not linked:
+        known = [u.template for u in doc.uses]
+        raise UnknownName(
+            f"no group is linked to a template {template.name!r}",
+            fix=did_you_mean(template.name, known) or "Link one: model.insert(template, name, link=True)",
+        )
+    for group in linked:
+        doc = _refreshed(doc, next(u for u in doc.uses if u.group == group and u.template == template.name), template)
+    return doc
+
+
+def _refreshed(doc: Document, use: Use, template: Document) -> Document:
+    own = dict(use.elements)
+    mine = set(own.values())
+    _require_ends(doc, use, template)
+    doc = edit.remove(doc, [here for there, here in own.items() if there not in template.by_id()])
+    driving = {k.name for k in template.knobs}
+    doc = dc.replace(
+        doc,
+        connections=tuple(c for c in doc.connections if not (c.source in mine and c.target in mine)),
+        knobs=tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in mine)) if k.name in driving else k for k in doc.knobs),
+        uses=tuple(u for u in doc.uses if u.group[: len(use.group)] != use.group or not mine >= {i for _, i in u.elements}),
+    )
+    # what is renamed in the template moves out of the way first, so that two names can be exchanged
+    names = {own[e.id]: use.group + e.names for e in template.entries if e.id in own}
+    for k, (here, place) in enumerate(names.items()):
+        if doc.by_id()[here].names != place:
+            doc = edit.move(doc, here, (*use.group, f"\0{k}"))
+    now: dict[str, str] = {}
+    for e in template.entries:
+        place = use.group + e.names
+        element = dc.replace(e.element, name=place[-1])
+        if e.id in own:
+            doc = edit.move(doc, own[e.id], place)
+            entry = dc.replace(doc.by_id()[own[e.id]], element=element, every=e.every)
+            doc = dc.replace(doc, entries=tuple(entry if o.id == entry.id else o for o in doc.entries))
+        else:
+            doc, entry = edit.add(doc, element, place[:-1], e.every)
+        now[e.id] = entry.id
+    inside = tuple(dc.replace(c, source=now[c.source], target=now[c.target]) for c in template.connections)
+    doc = _driven(dc.replace(doc, connections=(*doc.connections, *inside)), template, now)
+    nested = [Use(use.group + u.group, u.template, tuple((t, now[i]) for t, i in u.elements)) for u in template.uses]
+    doc = dc.replace(doc, uses=(*doc.uses, *nested, Use(use.group, use.template, tuple(now.items()))))
+    for g in template.groups:
+        doc = edit.group(doc, use.group + g)
+    return doc
+
+
+def _driven(doc: Document, template: Document, now: dict[str, str]) -> Document:
+    """The template's document parameters, at the values that they have here, and what else drives a parameter of the new elements."""
+    for (i, leaf), name in doc.links().items():
+        if i in now.values():
+            if leaf not in [path for path, _, _ in leaves(doc.by_id()[i].element)]:
+                doc = edit.unlink(doc, i, leaf)
+            else:
+                doc = edit.knob(doc, name, next(k.value for k in doc.knobs if k.name == name))
+    for k in template.knobs:
+        if k.links and k.name not in [j.name for j in doc.knobs]:
+            doc = edit.knob(doc, k.name, k.value)
+        for i, leaf in k.links:
+            if (now[i], leaf) not in doc.links():
+                doc = edit.link(doc, now[i], leaf, k.name)
+    return doc
+
+
+def _require_ends(doc: Document, use: Use, template: Document) -> None:
+    """Refuse a template without something that a connection across the border of the group needs."""
+    there, by = {here: template.by_id().get(t) for t, here in use.elements}, doc.by_id()
+    problems: list[Problem] = []
+
+    def show(c: Connection) -> str:
+        return f"{by[c.source].path}.{c.source_port} -> {by[c.target].path}.{c.target_port}"
+
+    for c in doc.connections:
+        for end, port, other in ((c.source, c.source_port, c.target), (c.target, c.target_port, c.source)):
+            if end in there and other not in there:
+                entry = there[end]
+                ports = () if entry is None else find.outputs(entry) if end == c.source else entry.element.ports()
+                if port not in ports:
+                    missing = by[end].names[len(use.group) :] if entry is None else (*entry.names, port)
+                    problems.append(Problem(show(c), f"the template {use.template!r} has no {display(missing)!r} any more", "Disconnect them first"))
+    if problems:
+        raise ModelError(problems)

@@ -1,0 +1,49 @@
+"""Pictures as hues: what colour a pixel has, and which pixels lie in which cell of a coarser grid."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax.numpy as jnp
+
+from deodar.numerics import resampling
+from deodar.numerics.axes import Axis
+
+CHANNELS = 3
+"""Red, green and blue."""
+
+
+def hue_saturation_value(picture: Any) -> tuple[Any, Any, Any]:
+    """Hue (as a share of a turn, red 0), saturation and value of pixels with channels on the last axis."""
+    red, green, blue = picture[..., 0], picture[..., 1], picture[..., 2]
+    value = jnp.maximum(jnp.maximum(red, green), blue)
+    spread = value - jnp.minimum(jnp.minimum(red, green), blue)
+    safe = jnp.where(spread > 0, spread, 1.0)
+    sector = jnp.where(
+        value == red,
+        jnp.mod((green - blue) / safe, 6.0),
+        jnp.where(value == green, (blue - red) / safe + 2.0, (red - green) / safe + 4.0),
+    )
+    hue = jnp.where(spread > 0, sector / 6.0, 0.0)
+    saturation = jnp.where(value > 0, spread / jnp.where(value > 0, value, 1.0), 0.0)
+    return hue, saturation, value
+
+
+def from_hues(axis: Axis, turn: Any, dtype: Any) -> Any:
+    """How far the samples of a hue axis are from hues (as shares of a turn), the shorter way round: one axis more, at the end."""
+    distance = jnp.asarray(axis.points, dtype) - axis.lower - turn[..., None] * axis.range
+    return distance - axis.range * jnp.round(distance / axis.range)
+
+
+def cells(fine: Axis, coarse: Axis, dtype: Any) -> Any:
+    """Weights of the mean over the pixels whose middle lies in a cell; a cell without a pixel takes the nearest: shape (cells, pixels)."""
+    member = resampling.weights(coarse, fine.points, "nearest", dtype).T
+    count = jnp.sum(member, axis=1, keepdims=True)
+    nearest = resampling.weights(fine, coarse.points, "nearest", dtype)
+    return jnp.where(count > 0, member / jnp.maximum(count, 1.0), nearest)
+
+
+def same_side(fine: Axis, coarse: Axis) -> bool:
+    """Whether two axes are the same side of a picture: name and unit alike, ends at most a grid step apart."""
+    apart = max(abs(fine.lower - coarse.lower), abs(fine.upper - coarse.upper))
+    return fine.name == coarse.name and fine.unit == coarse.unit and apart <= coarse.step

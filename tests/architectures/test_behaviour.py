@@ -1,0 +1,118 @@
+"""Elementary behaviours: each begins, lasts and ends as its nodes say, and the constraints between them hold in every trial."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.architectures.behaviour import ON, SIGNAL, behaviour, competition, precondition, suppression
+from deodar.elements.boost import Boost
+from deodar.numerics.windows import Window
+
+X = dd.Axis("x", 0, 100, samples=51)
+
+
+def on(model: dd.Model, names: list[str], duration: float = 1200, trials: int = 20) -> dict[str, np.ndarray]:
+    """For each node or field whether it is above threshold, (trials, time), every ms."""
+    data = dd.simulate(model, duration, record=[f"{name}.activation" for name in names], trials=trials)
+    return {name: (data[f"{name}.activation"].values > 0).reshape(trials, int(duration) + 1, -1).any(-1) for name in names}
+
+
+def tell(model: dd.Model, target: str, amplitude: float, *windows: tuple[float, float]) -> None:
+    """A timed signal to one node."""
+    model.add(Boost(f"to {target}", [], amplitude=amplitude, windows=[Window(*w) for w in windows])) >> model[target]
+
+
+def several(*names: str) -> dd.Model:
+    model = dd.Model("several")
+    for name in names:
+        model.insert(behaviour(), name)
+    return model
+
+
+def test_it_lasts_until_it_is_satisfied_and_remembers_that_until_its_task_ends() -> None:
+    model = several("a")
+    tell(model, "a.task", ON, (100, 1000))
+    tell(model, "a.satisfaction", SIGNAL, (600, 660))
+    states = on(model, ["a.intention", "a.satisfaction"])
+    assert not states["a.intention"][:, :100].any() and states["a.intention"][:, 200:600].all()
+    assert not states["a.satisfaction"][:, :600].any() and states["a.satisfaction"][:, 700:1000].all()
+    assert not states["a.intention"][:, 700:].any() and not states["a.satisfaction"][:, 1100:].any()
+
+
+@pytest.mark.parametrize(("task", "signal"), [(True, False), (False, True)])
+def test_neither_the_task_nor_a_signal_alone_satisfies(task: bool, signal: bool) -> None:
+    model = several("a")
+    tell(model, "a.task", ON if task else 0.0, (100, 1200))
+    tell(model, "a.satisfaction", SIGNAL if signal else 0.0, (300, 1200))
+    assert not on(model, ["a.satisfaction"])["a.satisfaction"].any()
+
+
+def test_a_signal_while_another_is_intended_is_not_taken() -> None:
+    """Task and signal without the intention, which something holds down."""
+    model = several("a")
+    tell(model, "a.task", ON, (100, 1200))
+    tell(model, "a.intention", -6.0, (0, 1200))
+    tell(model, "a.satisfaction", SIGNAL, (300, 1200))
+    assert not on(model, ["a.satisfaction"])["a.satisfaction"].any()
+
+
+def test_what_is_perceived_must_be_what_was_intended() -> None:
+    for place, satisfied in ((30, False), (70, True)):
+        model = dd.Model("reach")
+        model.insert(behaviour([X]), "reach")
+        tell(model, "reach.task", ON, (100, 1200))
+        model.add(dd.GaussianStimulus("target", [X], center=70, sigma=4, amplitude=3)) >> model["reach.goal"]
+        model.add(dd.GaussianStimulus("hand", [X], center=place, sigma=4, amplitude=3, windows=[(500, 1200)])) >> model["reach.outcome"]
+        states = on(model, ["reach.intention", "reach.goal", "reach.outcome", "reach.satisfaction"])
+        assert states["reach.goal"][:, 300:500].all() and not states["reach.outcome"][:, :500].any()
+        assert (states["reach.satisfaction"][:, -1] == satisfied).all() and (states["reach.intention"][:, -1] != satisfied).all()
+        assert (states["reach.goal"][:, -1] != satisfied).all()
+
+
+def test_a_precondition_holds_back_without_a_moment_of_activity() -> None:
+    model = several("first", "then")
+    node = precondition(model, "first", "then")
+    for name in ("first", "then"):
+        tell(model, f"{name}.task", ON, (100, 1200))
+    tell(model, "first.satisfaction", SIGNAL, (600, 660))
+    states = on(model, ["first.intention", "then.intention", node.path])
+    assert not states["then.intention"][:, :601].any() and states[node.path][:, 200:600].all()
+    assert states["then.intention"][:, 800:].all() and not states["first.intention"][:, 700:].any()
+
+
+def test_suppression_interrupts_and_lets_go_on() -> None:
+    model = several("walk", "avoid")
+    suppression(model, "avoid", "walk")
+    tell(model, "walk.task", ON, (100, 1200))
+    tell(model, "avoid.task", ON, (500, 800))
+    states = on(model, ["walk.intention", "avoid.intention"])
+    assert states["walk.intention"][:, 200:500].all() and not states["walk.intention"][:, 600:800].any()
+    assert states["walk.intention"][:, 950:].all() and states["avoid.intention"][:, 600:800].all()
+
+
+def test_of_two_that_compete_one_is_active_and_noise_decides_which() -> None:
+    model = several("left", "right")
+    competition(model, "left", "right")
+    for name in ("left", "right"):
+        tell(model, f"{name}.task", ON, (100, 1200))
+    states = on(model, ["left.intention", "right.intention"], trials=100)
+    left, right = states["left.intention"], states["right.intention"]
+    assert not (left & right).any() and (left | right)[:, 250:].all()
+    assert 30 <= left[:, -1].sum() <= 70
+
+
+def test_who_is_first_wins() -> None:
+    model = several("left", "right")
+    competition(model, "left", "right")
+    tell(model, "left.task", ON, (100, 1200))
+    tell(model, "right.task", ON, (200, 1200))
+    states = on(model, ["left.intention", "right.intention"])
+    assert states["left.intention"][:, 200:].all() and not states["right.intention"].any()
+
+
+def test_all_behaviours_have_one_knob() -> None:
+    model = several("a", "b")
+    model.set("task to intention", 4.0)
+    assert model.get("a.task > intention.factor") == model.get("b.task > intention.factor") == 4.0

@@ -1,0 +1,80 @@
+"""Feature and place bound in one field: a cue in either brings the value of the other."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray
+
+import deodar as dd
+from deodar.analysis.peaks import peaks
+from deodar.architectures.feature_space import OBJECT, axes, feature_space
+from deodar.elements.boost import Boost
+
+SPACE, FEATURE = axes()
+SCENE = ((20.0, 0.0), (50.0, 120.0), (80.0, 240.0))
+
+
+def scene() -> dd.Model:
+    """Three objects, and a cue to each read-out that is not there yet."""
+    model = feature_space()
+    for k, at in enumerate(SCENE):
+        model.add(dd.GaussianStimulus(f"object {k}", [SPACE, FEATURE], center=at, sigma=[5, 20], amplitude=OBJECT)) >> model["bound"]
+    for name, axis, sigma in (("space", SPACE, 5), ("feature", FEATURE, 20)):
+        model.add(dd.GaussianStimulus(f"{name} cue", [axis], center=0, sigma=sigma, amplitude=0, windows=[(100, 400)])) >> model[name]
+    return model
+
+
+def at_end(model: dd.Model, sweep: dict[str, list[float]], duration: float = 700) -> xarray.Dataset:
+    record = [f"{name}.activation" for name in ("bound", "space", "feature")]
+    return dd.simulate(model, duration, record=record, every=duration, sweep=sweep, trials=5).isel(time=-1)
+
+
+@pytest.mark.parametrize(("cue", "brings"), [(0, 1), (1, 0)], ids=["place to feature", "feature to place"])
+def test_a_cue_brings_what_is_bound_to_it(cue: int, brings: int) -> None:
+    names = ("space", "feature")
+    model = scene()
+    model.set(f"{names[cue]} cue.amplitude", 6.0)
+    found = at_end(model, {f"{names[cue]} cue.center": [at[cue] for at in SCENE]})
+    for k, at in enumerate(SCENE):
+        for trial in range(5):
+            one = found.isel({f"{names[cue]} cue.center": k, "trial": trial})
+            for name, place, near in (("space", at[0], 3), ("feature", at[1], 12)):
+                (peak,) = peaks(one[f"{name}.activation"])
+                apart = abs(peak.position[0] - place)
+                assert min(apart, 360 - apart) < near
+            assert len(peaks(one["bound.activation"])) == 1
+
+
+def test_a_cue_that_meets_nothing_brings_nothing() -> None:
+    model = scene()
+    model.set("feature cue.amplitude", 6.0)
+    found = at_end(model, {"feature cue.center": [60.0, 180.0]}, 390)
+    assert float(found["space.activation"].max()) < 0 and float(found["bound.activation"].max()) < 0
+
+
+def test_nothing_is_selected_without_a_cue() -> None:
+    found = dd.simulate(scene(), 1000, record=["bound.activation"], every=10, trials=10)
+    assert float(found["bound.activation"].max()) < 0
+
+
+def test_a_conflict_of_cues_makes_up_no_object() -> None:
+    """The place of one object and the feature of another meet where nothing is."""
+    model = scene()
+    model.set("space cue.center", 20.0)
+    model.set("feature cue.center", 120.0)
+    for name in ("space", "feature"):
+        model.set(f"{name} cue.amplitude", 6.0)
+    u = dd.simulate(model, 390, record=["bound.activation"], every=390)["bound.activation"][-1]
+    assert float(u.sel(space=20, feature=120)) < 0
+
+
+def test_a_selection_outlives_its_cue_and_is_released() -> None:
+    model = scene()
+    model.set("space cue.center", 50.0)
+    model.set("space cue.amplitude", 6.0)
+    release = model.add(Boost("release", [], amplitude=-10, windows=[(1200, 1300)]))
+    for name in ("bound", "space", "feature"):
+        release >> model[name]
+    u = dd.simulate(model, 1600, record=["feature.activation"], every=10, trials=10)["feature.activation"]
+    assert (np.asarray(u.sel(time=1190).max("feature")) > 0).all() and float(u.sel(time=slice(1290, None)).max()) < 0

@@ -1,0 +1,92 @@
+"""`deodar experiment`: the table is written, a stop is gone on with, and what is wrong is told before anything runs."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from deodar import cli
+from deodar.experiments.events import Crosses
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.factor import Factor
+from deodar.experiments.results import load
+from tests.experiments.robots import decider
+
+
+@pytest.fixture
+def file(tmp_path, monkeypatch):
+    """Trials of a node that noise takes over its threshold, in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    conditions = [Crosses("decided", "u.activation"), Crosses("low", "u.activation", -3.0, "below", ends=False)]
+    Experiment("when", decider(), 400, 8, conditions, factors=[Factor("noise", [2.0, 4.0], "u.noise")]).save("when.json")
+    return tmp_path / "when.json"
+
+
+def call(*args):
+    """Status of a call without a bar."""
+    return cli.main(["experiment", "when.json", "--no-progress", *args])
+
+
+def test_a_table_a_dataset_and_what_made_them(file, capsys, tmp_path):
+    assert call() == 0
+    out = capsys.readouterr().out
+    assert "noise 2: 8 trials" in out and "16 trials: decided" in out and "Written to when-001: experiment.json" in out
+    assert {p.name for p in (tmp_path / "when-001").iterdir()} == {"experiment.json", "model.json", "trials.csv", "trials.jsonl", "trials.nc"}
+    lines = (tmp_path / "when-001" / "trials.csv").read_text().splitlines()
+    assert lines[0] == "trial,noise,outcome,awaited,duration,decided,low" and len(lines) == 17
+    assert call("--out", "when-001") == 0  # nothing is left to be run
+    again = cli.main(["experiment", "when-001/experiment.json", "--out", "again", "--no-progress"])
+    assert again == 0 and load(tmp_path / "again").identical(load(tmp_path / "when-001"))
+
+
+def test_after_a_stop_the_same_call_goes_on(file, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
+    assert call("--out", "whole") == 0
+    from deodar.experiments import jobs
+
+    real, count = jobs.Job.run, []
+
+    def stops(job):
+        count.append(job)
+        if len(count) > 2:
+            raise KeyboardInterrupt
+        return real(job)
+
+    monkeypatch.setattr(jobs.Job, "run", stops)
+    assert call("--out", "part", "--seed", "0") == 1
+    assert capsys.readouterr().err.endswith("Go on with: deodar experiment when.json --out part --seed 0\n")
+    assert load(tmp_path / "part").sizes["trial"] == 8
+    monkeypatch.setattr(jobs.Job, "run", real)
+    assert call("--out", "part") == 0
+    assert (tmp_path / "part" / "trials.csv").read_bytes() == (tmp_path / "whole" / "trials.csv").read_bytes()
+
+
+def test_json_and_other_numbers(file, capsys, tmp_path):
+    assert call("--trials", "2", "--seed", "5", "--json", "--out", "few") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["trials"] == 4 and sum(told["outcomes"].values()) == 4 and told["out"] == "few"
+    assert json.loads((tmp_path / "few" / "experiment.json").read_text())["seed"] == 5
+    assert call("--out", "few") == 1
+    assert "holds runs of another experiment: seed, trials differ" in capsys.readouterr().err
+
+
+def test_check_runs_nothing(file, capsys, tmp_path):
+    assert call("--check") == 0
+    assert "when: 16 trials, in 1 batch of at most 16" in capsys.readouterr().out
+    assert call("--check", "--json") == 0
+    assert json.loads(capsys.readouterr().out) == {"trials": 16, "batched": True, "pieces": [16]}
+    assert {p.name for p in tmp_path.iterdir()} == {"when.json", "when.model.json"}
+
+
+def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
+    data = json.loads(file.read_text())
+    data["conditions"]["decided"]["of"] = "v.activation"
+    file.write_text(json.dumps(data))
+    assert call("--out", "none") == 1
+    assert "conditions.decided: nothing is called 'v.activation'. Did you mean 'u.activation'?" in capsys.readouterr().err
+    assert not (tmp_path / "none").exists()
+    assert cli.main(["experiment", "wen.json"]) == 1
+    assert "there is no such file. Did you mean 'when.json'?" in capsys.readouterr().err
+    assert cli.main(["experiment", "when.model.json"]) == 1
+    assert "is no experiment" in capsys.readouterr().err

@@ -1,0 +1,70 @@
+"""The delay line: its input some time ago, for any delay, step and number of slots."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.delay import Delay
+from deodar.couplings.delay_line import DelayLine
+from deodar.elements.time_series import TimeSeries
+
+X = dd.Axis("x", 0, 2, 3)
+
+
+def late(delay, dt, slots=100, duration=60.0, precision="float64", smooth=False, **values):
+    """Time, what goes in, and what comes out."""
+    model = dd.Model("late", dt=dt)
+    t = np.arange(0, duration + dt, 1.0 if smooth else dt)
+    shown = np.sin(t / 9)[:, None] * [1.0, 2.0, -1.0] if smooth else np.random.default_rng(2).normal(size=(len(t), 3))
+    source = model.add(TimeSeries("s", [X], t, shown))
+    source >> model.add(DelayLine("line", [X], delay, slots, **values))
+    data = dd.simulate(model, duration, record=["s.output", "line.output"], precision=precision)
+    return data["time"].values, data["s.output"].values, data["line.output"].values
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize(("delay", "dt", "slots"), [(1.0, 1.0, 1), (7.0, 1.0, 7), (7.0, 1.0, 100), (3.0, 0.1, 30), (0.3, 0.1, 100), (25.0, 0.5, 50)])
+def test_a_whole_number_of_steps_is_exact(delay, dt, slots, precision):
+    _, s, y = late(delay, dt, slots, precision=precision, initial=0.7)
+    n = round(delay / dt)
+    np.testing.assert_array_equal(y[n:], s[:-n])
+    assert (y[:n] == np.float32(0.7) if precision == "float32" else y[:n] == 0.7).all()
+
+
+def test_between_two_steps_lies_a_straight_line():
+    _, s, y = late(2.25, 1.0)
+    np.testing.assert_allclose(y[3:], 0.75 * s[1:-2] + 0.25 * s[:-3], atol=1e-12)
+
+
+def test_fewer_slots_than_steps_are_a_coarser_line():
+    """Moments that lie h apart, of a sine of frequency w: never further from it than (h w)^2 / 8."""
+    for slots in (4, 8, 16):
+        t, _, y = late(16.0, 0.25, slots, smooth=True)
+        after = t > 16 + 16 / slots
+        wrong = abs(y[after, 0] - np.sin((t[after] - 16) / 9)).max()
+        assert wrong < 1.1 * ((16 / slots) ** 2 + 1) / 81 / 8
+
+
+def test_shorter_than_a_step_it_is_the_register():
+    model = dd.Model("register", dt=1.0)
+    u = model.add(dd.Field("u", [X], tau=5, noise=0.5))
+    for held in (Delay([X], 0.3, name="register"), DelayLine("line", [X], 0.01, 3, 0.3)):
+        u >> model.add(held)
+    data = dd.simulate(model, 30, record=["register", "line"], precision="float64")
+    np.testing.assert_array_equal(data["register.output"].values, data["line.output"].values)
+
+
+def test_a_delay_made_longer_while_it_runs():
+    model = dd.Model("longer", dt=1.0)
+    model.add(TimeSeries("s", [], [0, 1000], [0.0, 1000.0])) >> model.add(DelayLine("line", [], 5.0, 50))
+    s = dd.Session(model, precision="float64")
+    s.step(100)
+    assert s.read("line.output") == pytest.approx(95)
+    s.set("line.delay", 20.0)
+    assert s.read("line.output") == pytest.approx(80)  # 50 slots hold more than the five steps that were needed
+    s.set("line.delay", 200.0)
+    oldest = float(s.read("line.output"))
+    s.step(250)
+    assert oldest < 60 and float(s.read("line.output")) == pytest.approx(150)

@@ -1,0 +1,206 @@
+"""Associations: every rule against its closed form and a plain loop, and what they promise about gates, sampling, order and batches."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.hebbian import Hebbian
+from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
+from deodar.errors import ModelError, ParameterError
+from deodar.numerics.plasticity import RULES, SOURCE_RULES
+
+X, Z = dd.Axis("x", 0, 6, 4), dd.Axis("z", 0, 1, 3)
+PRE, POST = np.array([0.0, 1.0, 0.6, 0.3]), np.array([1.0, 0.4, 0.8])
+
+
+def model(rule="outstar", pre=PRE, post=POST, x=X, z=Z, gate=None, **others):
+    m = dd.Model("learning", dt=0.5)
+    w = m.add(Hebbian([z] if z else [], rule, name="w", gated=gate is not None, **others))
+    m.connect(m.add(Pattern("pre", [x] if x else [], pre)), w["input"])
+    m.connect(m.add(Pattern("post", [z] if z else [], post)), w["post"])
+    if gate is not None:
+        m.connect(m.add(Boost("gate", [], 1.0, windows=gate)), w["gate"])
+    return m
+
+
+def weights(m, duration, **options):
+    return dd.simulate(m, duration, record=["w.weights"], precision="float64", every=duration, **options)["w.weights"].values[-1]
+
+
+def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
+    """The docstring, step by step; w has the target first."""
+    x, z = np.where(pre > threshold, pre, 0)[None, :], np.where(post > threshold, post, 0)[:, None]
+    here = (x > 0) | (z < 0) if rule in SOURCE_RULES else (z > 0) | (x < 0)
+    for _ in range(steps):
+        change = {
+            "outstar": x * (z - w), "hebb": x * z, "association": np.sign(x) * (np.sign(z) - w), "instar": z * (x - w), "oja": z * (x - z * w)
+        }[rule]  # fmt: skip
+        new = np.minimum(w + dt * (rate * change - decay * w), most)
+        w = np.where(here & (x.max() > 0) & (z.max() > 0), new, w)
+    return w
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_the_rules_step_by_step(rule):
+    m = model(rule, rate=0.1, initial=0.2)
+    for decay, saturation in ((0.0, 0.0), (0.03, 0.0), (0.01, 0.45)):
+        m.change({"w.decay": decay, "w.saturation": saturation})
+        found = weights(m, 20)
+        wanted = plain(rule, np.full((3, 4), 0.2), PRE, POST, 40, 0.1, decay, saturation or np.inf)
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
+        assert (found != 0.2).any()
+
+
+def test_courses_and_fixed_points_in_closed_form():
+    n, dt, rate = 200, 0.5, 0.02
+    x, z = np.array([0.8]), np.array([0.7])
+    one = {"pre": x, "post": z, "x": dd.Axis("x", 0, 1, 1, periodic=True), "z": dd.Axis("z", 0, 1, 1, periodic=True), "rate": rate}
+    course = {
+        "outstar": (0.7 * (1 - (1 - dt * rate * 0.8) ** n), 0.7),
+        "instar": (0.8 * (1 - (1 - dt * rate * 0.7) ** n), 0.8),
+        "association": (1 - (1 - dt * rate) ** n, 1),
+        "oja": (0.8 / 0.7 * (1 - (1 - dt * rate * 0.49) ** n), 0.8 / 0.7),
+    }
+    for rule, (then, end) in course.items():
+        m = model(rule, **one)
+        assert weights(m, n * dt).item() == pytest.approx(then, abs=1e-9), rule
+        assert weights(m, 4000).item() == pytest.approx(end, abs=1e-6), rule
+    m = model("hebb", **one)
+    assert weights(m, n * dt).item() == pytest.approx(n * dt * rate * 0.8 * 0.7, abs=1e-9)
+    m.set("w.decay", 0.05)  # it settles where what is learned and what fades are equal
+    assert weights(m, 2000).item() == pytest.approx(rate * 0.56 / 0.05, abs=1e-6)
+    m.change({"w.decay": 0.0, "w.saturation": 0.3})
+    assert weights(m, 2000).item() == 0.3
+
+
+def test_oja_from_its_own_output_ends_at_unit_length():
+    m = dd.Model("oja", dt=0.5)
+    w = m.add(Hebbian([], "oja", rate=0.05, initial=0.1, threshold=0.05, name="w"))
+    m.connect(m.add(Pattern("pre", [X], PRE)), w["input"])
+    m.connect(w, w["post"])
+    found = weights(m, 2000)
+    assert X.step * np.sum(found**2) == pytest.approx(1, abs=1e-6)
+    seen = PRE / np.sqrt(X.step * np.sum(PRE**2))
+    np.testing.assert_allclose(found, seen, atol=1e-6)
+
+
+def test_between_arrays_of_any_dimension():
+    y = dd.Axis("y", 0, 2, 5)
+    rng = np.random.default_rng(1)
+    for pre_axes, post_axes in (([], []), ([], [Z]), ([X], []), ([X, y], [dd.Axis("p", 0, 1, 2), Z])):
+        pre, post = (0.6 + 0.4 * rng.random([a.samples for a in axes]) for axes in (pre_axes, post_axes))
+        m = dd.Model("any", dt=1)
+        w = m.add(Hebbian(post_axes, rate=0.1, name="w"))
+        m.connect(m.add(Pattern("pre", pre_axes, pre)), w["input"])
+        m.connect(m.add(Pattern("post", post_axes, post)), w["post"])
+        data = dd.simulate(m, 3, record=["w.weights", "w.output"], precision="float64", every=3).isel(time=-1)
+        wanted = post[(...,) + (None,) * pre.ndim] * (1 - (1 - 0.1 * pre) ** 3)
+        np.testing.assert_allclose(data["w.weights"].values, wanted, atol=1e-12)
+        cell = np.prod([a.step for a in pre_axes])
+        np.testing.assert_allclose(data["w.output"].values, cell * np.tensordot(wanted, pre, axes=pre.ndim), atol=1e-12)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_closed_gates_and_silent_sides_leave_the_bits(rule):
+    start = np.random.default_rng(2).standard_normal((3, 4))
+    m = model(rule, rate=0.3, decay=0.2, start=start, gate=[(10, 12)])
+    wanted = plain(rule, start, PRE, POST, 4, 0.3, 0.2, np.inf)
+    np.testing.assert_allclose(weights(m, 50), wanted, atol=1e-12)
+    for path in ("gate.amplitude", "pre.amplitude", "post.amplitude"):
+        m.set(path, 0.4 if path != "gate.amplitude" else 0.0)
+        for trials in [None, 3] if rule in ("outstar", "oja") else [None]:
+            found = dd.simulate(m, 50, record=["w.weights"], precision="float64", trials=trials, every=50)["w.weights"].isel(time=-1).values
+            assert np.array_equal(found, np.broadcast_to(start, found.shape))
+        m.set(path, 1.0)
+
+
+def test_a_source_without_an_answer_unlearns_nothing_and_is_read():
+    start = np.array([[0.0, 2, 0, 0], [0, 1, 0, 0], [0, 3, 0, 0]])
+    data = dd.simulate(model(start=start, post=0 * POST, rate=1.0), 10, record=["w.output", "w.weights"], every=10).isel(time=-1)
+    np.testing.assert_allclose(data["w.output"], X.step * np.array([2, 1, 3]))
+    np.testing.assert_array_equal(data["w.weights"], start)
+
+
+@pytest.mark.parametrize("rule", ["outstar", "hebb", "oja"])
+def test_a_learned_map_does_not_depend_on_the_sampling(rule):
+    def learned(n):
+        x, z = dd.Axis("x", 0, 40, n, periodic=True), dd.Axis("z", -10, 10, n + 1)
+        pre, post = np.exp(-((x.points - 17) ** 2) / 18), np.exp(-((z.points - 2) ** 2) / 8)
+        m = model(rule, pre, post, x, z, rate=0.05, threshold=0.0, initial=0.1)
+        data = dd.simulate(m, 50, record=["w.weights", "w.output"], precision="float64", every=50).isel(time=-1)
+        return data["w.weights"].values, data["w.output"].values
+
+    (coarse, drive), (fine, finer) = learned(40), learned(80)
+    np.testing.assert_allclose(fine[::2, ::2], coarse, atol=1e-12)
+    np.testing.assert_allclose(finer[::2], drive, atol=1e-8 * drive.max())
+
+
+def test_the_order_of_declaration_does_not_matter():
+    def built(order):
+        m = dd.Model("order", dt=1)
+        parts = {
+            "w": Hebbian([Z], "oja", rate=0.1, name="w", random=True, initial=0.5),
+            "pre": dd.Field("pre", [X], resting_level=1.0, noise=0.2),
+            "post": dd.Field("post", [Z], resting_level=1.0, noise=0.2),
+        }
+        for name in order:
+            m.add(parts[name])
+        for source, target in (("pre", "w.input"), ("post", "w.post"), ("w", "post.input")):
+            m.connect(source, target)
+        return weights(m, 100, seed=4)
+
+    np.testing.assert_allclose(built(["w", "pre", "post"]), built(["post", "w", "pre"]), atol=1e-10)
+
+
+@pytest.mark.parametrize("rule", ["outstar", "oja"])
+def test_trials_rows_and_sweeps_are_what_they_are_alone(rule):
+    m = dd.Model("batch", dt=1)
+    for k in (0, 1):  # two of one kind: rows of a group
+        w = m.add(Hebbian([Z], rule, name=f"w{k}", rate=0.1, decay=0.01, random=True, initial=0.5, seed=3))
+        m.connect(m.add(dd.Field(f"pre{k}", [X], noise=2.0, resting_level=0.5)), w["input"])
+        m.connect(m.add(dd.Field(f"post{k}", [Z], noise=2.0, resting_level=0.2)), w["post"])
+    names = ["w0.weights", "w1.weights"]
+    many = dd.simulate(m, 60, trials=4, sweep={"w1.rate": [0.05, 0.1]}, record=names, precision="float64", every=60).isel(time=-1)
+    m.remove("w1")
+    alone = dd.simulate(m, 60, trials=[2], record=names[:1], precision="float64", every=60)["w0.weights"].values[0, -1]
+    for rate in (0.05, 0.1):
+        found = many["w0.weights"].sel(trial=2)
+        found = found.sel({"w1.rate": rate}).values if "w1.rate" in found.dims else found.values
+        np.testing.assert_allclose(found, alone, atol=1e-10)
+    other = many["w1.weights"].sel(trial=2)
+    assert not np.allclose(other.sel({"w1.rate": 0.05}), other.sel({"w1.rate": 0.1}))
+
+
+# ------------------------------------------------------------------------------------------------ weights at the start
+
+
+def test_random_weights_are_one_map_at_any_sampling():
+    def start(n, **others):
+        x, z = dd.Axis("x", 0, 40, n, periodic=True), dd.Axis("z", -10, 10, n // 2 + 1)
+        m = model(pre=np.zeros(n), post=np.zeros(n // 2 + 1), x=x, z=z, random=True, initial=2.0, share=0.3, **others)
+        return dd.Session(m, precision="float64").read("w.weights")
+
+    coarse, fine = start(64), start(128)
+    assert np.array_equal(fine[::2, ::2], coarse)
+    patches = fine[:64:4, ::8]
+    assert 0.2 < (patches > 0).mean() < 0.4 and patches.max() < 2 and 0.8 < patches[patches > 0].mean() < 1.2
+    assert not np.array_equal(start(64, seed=1), coarse)
+
+
+def test_sparse_weights_may_be_all_alike():
+    x = dd.Axis("x", 0, 40, 64, periodic=True)
+    m = model(pre=np.zeros(64), x=x, initial=0.7, share=0.5)
+    assert set(np.unique(dd.Session(m, precision="float64").read("w.weights"))) == {0.0, 0.7}
+
+
+def test_weights_of_another_shape_are_refused_with_both_shapes():
+    with pytest.raises(ModelError, match=r"start has shape \[4, 3\]; target and source samples make \[3, 4\]"):
+        dd.Session(model(start=np.zeros((4, 3))))
+
+
+def test_an_unknown_rule_names_the_others():
+    with pytest.raises(ParameterError, match=r"'instarr'; it is one of .*instar.*Did you mean 'instar'"):
+        Hebbian([Z], "instarr")

@@ -1,0 +1,106 @@
+"""From numbers to peaks and back: exact where the samples hold the whole peak."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.peak_position import PeakPosition
+from deodar.couplings.rate_code import RateCode
+from deodar.couplings.space_code import SpaceCode
+from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
+from deodar.elements.time_series import TimeSeries
+from deodar.errors import ParameterError
+
+X, Y = dd.Axis("x", -20, 100, 121, unit="cm"), dd.Axis("y", 0, 50, 126, unit="cm")
+RING = dd.Axis("phi", -180, 180, 36, periodic=True, unit="deg")
+PAIR = dd.Axis("of", 0, 1, 2)
+
+
+def back(axes, sigma, rates, **values):
+    """What comes back of numbers that change from step to step."""
+    model = dd.Model("there and back", dt=1.0)
+    rates = np.asarray(rates)
+    source = model.add(TimeSeries("rates", [PAIR] if rates.ndim == 2 else [], np.arange(len(rates)), rates))
+    code = {k: v for k, v in values.items() if k in ("gain", "offset")}
+    source >> model.add(SpaceCode(axes, sigma, 2.5, name="place", **code)) >> model.add(RateCode(axes, name="rate", **values))
+    data = dd.simulate(model, len(rates) - 1, record=["rate.output", "rate.strength"], precision="float64")
+    return data["rate.output"].values, data["rate.strength"].values
+
+
+def test_on_a_line():
+    rates = np.random.default_rng(0).uniform(0.1, 0.9, 50)
+    found, strength = back([X], 3.0, rates, gain=80.0, offset=2.5)
+    np.testing.assert_allclose(found, rates, atol=1e-9)
+    np.testing.assert_allclose(strength, 2.5 * 3.0 * math.sqrt(2 * math.pi), rtol=1e-6)
+
+
+def test_in_the_plane():
+    rates = np.random.default_rng(1).uniform(-1, 1, (50, 2))
+    found, _ = back([X, Y], (4.0, 2.0), rates, gain=(-30.0, 10.0), offset=(40.0, 25.0))
+    np.testing.assert_allclose(found, rates, atol=1e-6)
+
+
+@pytest.mark.parametrize("sigma", [10.0, 20.0, 30.0])
+def test_on_a_ring(sigma):
+    rates = np.random.default_rng(2).uniform(-math.pi, math.pi, 50)
+    found, _ = back([RING], sigma, rates, gain=180 / math.pi)
+    np.testing.assert_allclose(found, rates, atol=1e-6)
+    turned, _ = back([RING], sigma, rates + 6 * math.pi, gain=180 / math.pi)
+    np.testing.assert_allclose(turned, rates, atol=1e-6)
+
+
+@pytest.mark.parametrize(("sigmas", "wrong"), [(6, 6.1e-9), (4, 1.4e-4), (2, 0.06)])
+def test_what_is_cut_off_draws_the_mean_inwards(sigmas, wrong):
+    """By the density of the normal distribution where the last cell ends: the mean of a Gaussian of which a tail is missing."""
+    sigma = 5.0
+    end = sigmas + 0.5 * X.step / sigma
+    found, _ = back([X], sigma, [X.lower + sigmas * sigma] * 2)
+    error = (found[0] - X.lower) / sigma - sigmas
+    assert 0 < error < wrong
+    assert error == pytest.approx(math.exp(-(end**2) / 2) / math.sqrt(2 * math.pi), rel=0.1)
+
+
+def test_from_a_peak_to_numbers_and_on_to_the_same_peak():
+    model = dd.Model("peak")
+    peak = model.add(dd.GaussianStimulus("peak", [X, RING], center=[33.3, 171.0], sigma=[3, 20]))
+    again = model.add(SpaceCode([X, RING], [3, 20], 1.0, gain=[5.0, 1.0], offset=[-7.0, 30.0], name="again"))
+    peak >> model.add(RateCode([X, RING], [5.0, 1.0], [-7.0, 30.0], name="rate")) >> again
+    data = dd.simulate(model, 1, dt=1.0, record=["peak.output", "again.output"], precision="float64")
+    np.testing.assert_allclose(data["again.output"].values, data["peak.output"].values, atol=1e-6)
+
+
+def test_on_one_axis_it_is_the_position_of_the_peak():
+    model = dd.Model("position")
+    u = model.add(dd.Field("u", [RING], noise=2.0, resting_level=-1))
+    for read in (PeakPosition(RING, 0.5, 7.0, name="position"), RateCode([RING], least=0.5, absent=7.0, name="rate")):
+        u >> model.add(read)
+    data = dd.simulate(model, 50, dt=1.0, record=["position", "rate", "position.strength", "rate.strength"], precision="float64")
+    np.testing.assert_allclose(data["rate.output"].values, data["position.output"].values, rtol=1e-12)
+    np.testing.assert_allclose(data["rate.strength"].values, data["position.strength"].values, rtol=1e-12)
+
+
+def test_without_a_peak_and_without_a_direction():
+    model = dd.Model("nothing")
+    rows = {"silent": np.zeros((121, 36)), "even": np.ones((121, 36))}
+    for name, values in rows.items():
+        rate = RateCode([X, RING], 1.0, 0.0, 0.5, [-1.0, -2.0], name=f"rate of {name}")
+        model.add(Pattern(name, [X, RING], values)) >> model.add(rate)
+    data = dd.simulate(model, 1, dt=1.0, record=["rate of silent.output", "rate of even.output"])
+    np.testing.assert_array_equal(data["rate of silent.output"].values[-1], [-1, -2])
+    np.testing.assert_allclose(data["rate of even.output"].values[-1], [40, -2], atol=1e-4)
+
+
+def test_what_has_no_inverse_is_refused():
+    with pytest.raises(ParameterError, match="gain: is 0"):
+        RateCode([X], 0.0)
+    with pytest.raises(ParameterError, match="axes: is empty"):
+        RateCode([])
+    model = dd.Model("live")
+    model.add(Boost("s", [X], 1.0)) >> model.add(RateCode([X], name="rate"))
+    with pytest.raises(ParameterError, match="gain: is 0"):
+        dd.Session(model).set("rate.gain", 0.0)

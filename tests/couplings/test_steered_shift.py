@@ -1,0 +1,101 @@
+"""The steered shift: the fixed shift by the same amount, whatever says how much, and there and back."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.couplings.shift import Shift
+from deodar.couplings.steered_shift import SteeredShift
+from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
+from deodar.errors import ModelError, ParameterError
+
+X, RING = dd.Axis("x", -2, 7, 10), dd.Axis("phi", 0, 360, 12, periodic=True, unit="deg")
+PAIR = dd.Axis("component", 0, 1, 2)
+SCENE = np.random.default_rng(3).normal(size=(10, 12))
+
+
+def scene() -> tuple[dd.Model, dd.model.model.Handle]:
+    model = dd.Model("shift")
+    return model, model.add(Pattern("scene", [X, RING], SCENE))
+
+
+def both(amounts, gain=1.0, offset=0.0):
+    """What two shifts one behind the other, one shift by a pair, and a fixed shift make of the same picture."""
+    model, source = scene()
+    behind = source
+    for axis, amount in zip((X, RING), amounts, strict=True):
+        behind = behind >> model.add(SteeredShift(axis.name, gain, offset, name=f"along {axis.name}"))
+        model.connect(model.add(Boost(f"by {axis.name}", [], amount)), behind["by"])
+    pair = model.add(SteeredShift(["x", "phi"], gain, offset, name="pair"))
+    source >> pair
+    model.connect(model.add(Pattern("amounts", [PAIR], amounts)), pair["by"])
+    source >> model.add(Shift([gain * a + offset for a in amounts], name="fixed"))
+    data = dd.simulate(model, 1, dt=1.0, record=["along phi.output", "pair.output", "fixed.output"], precision="float64")
+    return [data[name].values[-1] for name in data.data_vars]
+
+
+@pytest.mark.parametrize("amounts", [(0.0, 0.0), (3.0, 60.0), (-1.3, -400.5), (2.7, 7230.0), (40.0, 0.0)])
+def test_it_is_the_fixed_shift_by_that_amount(amounts):
+    one_by_one, pair, fixed = both(amounts)
+    np.testing.assert_allclose(pair, fixed, atol=1e-11)
+    np.testing.assert_allclose(one_by_one, fixed, atol=1e-11)
+    if amounts[0] == 40:
+        assert not fixed.any()
+
+
+def test_gain_and_offset():
+    one_by_one, pair, fixed = both((2.0, 31.5), gain=-1.0, offset=1.5)
+    np.testing.assert_allclose(pair, fixed, atol=1e-12)
+    np.testing.assert_allclose(one_by_one, fixed, atol=1e-12)
+    np.testing.assert_allclose(pair[3], 0.5 * (SCENE[3] + SCENE[4])[(np.arange(12) + 1) % 12], atol=1e-12)
+
+
+def test_from_the_eye_to_the_world_and_back():
+    """A peak at the place r on the retina and a gaze g arrive at r + g; a shift against the gaze brings it back."""
+    retina = dd.Axis("x", -30, 30, 121)
+    model = dd.Model("frames")
+    seen = model.add(dd.GaussianStimulus("seen", [retina], center=-5, sigma=2))
+    gaze = model.add(Boost("gaze", [], 12.5))
+    world, back = model.add(SteeredShift("x", name="world")), model.add(SteeredShift("x", -1.0, name="back"))
+    seen >> world >> back
+    for shift in (world, back):
+        model.connect(gaze, shift["by"])
+    data = dd.simulate(model, 1, dt=1.0, record=["seen.output", "world.output", "back.output"], precision="float64")
+    x = retina.points
+    np.testing.assert_allclose(data["world.output"].values[-1], np.exp(-((x - 7.5) ** 2) / 8), atol=1e-12)
+    np.testing.assert_allclose(data["back.output"].values[-1], data["seen.output"].values[-1], atol=1e-12)
+
+
+def test_it_follows_what_steers_in_every_step():
+    model, source = scene()
+    position = model.add(dd.Field("position", [], tau=5, resting_level=0, sigmoid=dd.Logistic(1.0)))
+    model.add(Boost("push", [], 3.0)) >> position
+    shift = model.add(SteeredShift("x", 4.0, name="shift"))
+    source >> shift
+    model.connect(position, shift["by"])
+    data = dd.simulate(model, 20, dt=1.0, record=["shift.output", "position.output"], precision="float64")
+    for g, y in zip(data["position.output"].values, data["shift.output"].values, strict=True):
+        places = X.points - 4.0 * g
+        wanted = [np.interp(places, X.points, column, left=0.0) for column in SCENE.T]
+        inside = places >= X.lower  # below the first sample it falls to zero within one cell
+        np.testing.assert_allclose(y[inside], np.array(wanted).T[inside], atol=1e-12)
+
+
+def test_mistakes_are_told():
+    with pytest.raises(ParameterError, match="along: is empty"):
+        SteeredShift([])
+    with pytest.raises(ParameterError, match="holds a name twice"):
+        SteeredShift(["x", "x"])
+    model, source = scene()
+    source >> model.add(SteeredShift("phy", name="shift"))
+    with pytest.raises(ModelError, match=r"shifts along 'phy'(.|\n)*Did you mean 'phi'"):
+        dd.Session(model)
+    model, source = scene()
+    pair = model.add(SteeredShift(["x", "phi"], name="pair"))
+    source >> pair
+    model.connect(model.add(Boost("one", [], 1.0)), pair["by"])
+    with pytest.raises(ModelError, match="one axis with 2 samples"):
+        dd.Session(model)

@@ -1,0 +1,92 @@
+"""A Gaussian that moves: where it stands at every step, on lines, rings and planes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.element import Setting, Time
+from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.errors import ParameterError
+
+X, Y = dd.Axis("x", 0, 30, 31), dd.Axis("y", -5, 5, 21)
+RING = dd.Axis("phi", 0, 360, 36, periodic=True)
+
+
+def seen(duration=40.0, dt=0.5, precision="float64", **values):
+    model = dd.Model("stimulus", dt=dt)
+    model.add(MovingGaussian("s", **values))
+    data = dd.simulate(model, duration, record=["s.output"], precision=precision)["s.output"]
+    return data["time"].values, data.values
+
+
+def plain(axis, places, sigma):
+    d = axis.points - np.asarray(places)[:, None]
+    if axis.periodic:
+        d = d - axis.range * np.round(d / axis.range)
+    return np.exp(-0.5 * (d / sigma) ** 2)
+
+
+def test_a_constant_velocity_on_a_plane():
+    t, y = seen(axes=[X, Y], center=[2, 4], sigma=[3, 1], amplitude=2.5, velocity=[0.6, -0.25])
+    np.testing.assert_allclose(y, 2.5 * plain(X, 2 + 0.6 * t, 3)[:, :, None] * plain(Y, 4 - 0.25 * t, 1)[:, None, :], atol=1e-12)
+
+
+def test_round_a_ring():
+    t, y = seen(axes=[RING], center=300, sigma=25, velocity=9.0, duration=100.0)
+    np.testing.assert_allclose(y, plain(RING, 300 + 9 * t, 25), atol=1e-12)
+    assert (RING.points[y.argmax(1)][[0, 10, 80]] == [300, 340, 300]).all()
+
+
+def test_a_path_stands_before_its_first_and_after_its_last_moment():
+    path = [[5, 3.0], [15, 23.0], [20, 10.0]]
+    t, y = seen(axes=[X], sigma=2, path=path)
+    np.testing.assert_allclose(y, plain(X, np.interp(t, [5, 15, 20], [3, 23, 10]), 2), atol=1e-12)
+    assert (y[t <= 5] == y[0]).all() and (y[t >= 20] == y[-1]).all()
+
+
+def test_path_and_velocity_and_centre_add_up():
+    path = [[0, 0.0, 0.0], [30, 6.0, -2.0]]
+    t, y = seen(axes=[X, Y], center=[5, 1], sigma=2, velocity=[0.1, 0.05], path=path)
+    share = np.minimum(t / 30, 1)
+    np.testing.assert_allclose(y, plain(X, 5 + 0.1 * t + 6 * share, 2)[:, :, None] * plain(Y, 1 + 0.05 * t - 2 * share, 2)[:, None, :], atol=1e-12)
+
+
+def test_without_motion_it_is_the_gaussian_stimulus():
+    _, y = seen(axes=[X], center=12, sigma=4, amplitude=3, windows=[(10, 20)])
+    model = dd.Model("stands", dt=0.5)
+    model.add(dd.GaussianStimulus("s", [X], center=12, sigma=4, amplitude=3, windows=[(10, 20)]))
+    np.testing.assert_array_equal(y, dd.simulate(model, 40, record=["s.output"], precision="float64")["s.output"].values)
+
+
+def test_how_a_run_is_cut_into_chunks_changes_no_bit():
+    """Time is kept as the start of a chunk and what has passed since: however it is divided, the same moment shows the same."""
+    element = MovingGaussian("s", [X], velocity=0.3, path=[[2, 0], [9, 7]])
+    at, dt = Setting({}, {"output": (X,)}, np.dtype("float32")), np.float32(0.1)
+    constants = element.prepare(at)
+    for tick in range(0, 140, 9):
+        shown = []
+        for first in (0, tick // 3, tick // 2, tick):
+            start = np.float32(first * 0.1)
+            time = Time(start, np.float32(first * 0.1 - float(start)) + np.float32(tick - first) * dt, dt)
+            shown.append(np.asarray(element.output(at, {}, {}, constants, time, None)["output"]))
+        for other in shown[1:]:
+            np.testing.assert_array_equal(other, shown[0])
+
+
+def test_a_document_keeps_the_path(tmp_path):
+    model = dd.Model("path")
+    model.add(MovingGaussian("s", [X], path=[[0, 1], [10, 5]]))
+    model.add(MovingGaussian("t", [X], velocity=0.5))
+    dd.save(model, tmp_path / "path.json")
+    assert dd.load(tmp_path / "path.json").document == model.document
+
+
+@pytest.mark.parametrize(
+    ("path", "what"),
+    [([[0, 1, 2]], "rows of 2 numbers"), ([1.0, 2.0], "rows of 2 numbers"), ([[0, 1], [0, 2]], "goes back in time"), ([[5, 1], [0, 2]], "back in")],
+)
+def test_a_path_that_is_none(path, what):
+    with pytest.raises(ParameterError, match=what):
+        MovingGaussian("s", [X], path=path)

@@ -1,0 +1,101 @@
+"""Input over time: straight lines or steps between moments, once or again and again."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.element import Setting, Time
+from deodar.elements.time_series import TimeSeries
+from deodar.errors import ModelError, ParameterError
+
+X, Y = dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 2, 3)
+TIMES = [2.0, 5.0, 6.0, 10.0]
+VALUES = np.random.default_rng(1).normal(size=(4, 5, 3))
+
+
+def seen(duration=24.0, dt=0.5, precision="float64", t0=0.0, **values):
+    model = dd.Model("series", dt=dt)
+    model.describe(t0=t0)
+    model.add(TimeSeries("s", **({"axes": [X, Y], "times": TIMES, "values": VALUES} | values)))
+    data = dd.simulate(model, duration, record=["s.output"], precision=precision)["s.output"]
+    return data["time"].values, data.values
+
+
+def lines(t):
+    flat = VALUES.reshape(4, -1)
+    return np.stack([np.interp(t, TIMES, column) for column in flat.T], axis=1).reshape(len(t), 5, 3)
+
+
+def test_straight_lines():
+    t, y = seen(amplitude=-2.0)
+    np.testing.assert_allclose(y, -2 * lines(t), atol=1e-12)
+
+
+def test_what_is_held_stands_until_the_next_moment():
+    t, y = seen(interpolation="hold")
+    which = np.maximum(np.searchsorted(TIMES, t, side="right") - 1, 0)
+    np.testing.assert_array_equal(y, VALUES[which])
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "hold"])
+@pytest.mark.parametrize("dt", [0.5, 0.1])
+def test_it_begins_again(interpolation, dt):
+    t, once = seen(11.5 if dt == 0.5 else 11.9, dt=dt, interpolation=interpolation, period=12.0)
+    _, often = seen(60.0, dt=dt, interpolation=interpolation, period=12.0)
+    for k in range(5):
+        part = often[k * len(t) :][: len(t)]
+        np.testing.assert_allclose(part, once, atol=1e-9)
+
+
+def test_a_day_later_it_is_still_in_time():
+    """Single precision alone cannot count milliseconds for a day."""
+    day = 86_400_000.0
+    _, early = seen(30.0, precision="float32", interpolation="hold", period=12.0)
+    _, late = seen(30.0, precision="float32", interpolation="hold", period=12.0, t0=day)
+    np.testing.assert_array_equal(early, late)
+
+
+def test_numbers_for_a_node_and_a_single_moment():
+    t, y = seen(axes=[], times=[1.0, 3.0], values=[0.0, 4.0], windows=[(2, 20)])
+    np.testing.assert_allclose(y, np.where((t >= 2) & (t < 20), np.clip(2 * (t - 1), 0, 4), 0), atol=1e-12)
+    _, y = seen(axes=[X], times=[7.0], values=[np.arange(5.0)])
+    assert (y == np.arange(5.0)).all()
+
+
+@pytest.mark.parametrize("period", [0.0, 7.3])
+def test_how_a_run_is_cut_into_chunks_changes_no_bit(period):
+    """Time is kept as the start of a chunk and what has passed since: however it is divided, the same moment shows the same."""
+    element = TimeSeries("s", [X, Y], TIMES, VALUES, period=period)
+    at, dt = Setting({}, {"output": (X, Y)}, np.dtype("float32")), np.float32(0.1)
+    constants = element.prepare(at)
+    for tick in range(0, 140, 9):
+        shown = []
+        for first in (0, tick // 3, tick // 2, tick):
+            start = np.float32(first * 0.1)
+            time = Time(start, np.float32(first * 0.1 - float(start)) + np.float32(tick - first) * dt, dt)
+            shown.append(np.asarray(element.output(at, {}, {}, constants, time, None)["output"]))
+        for other in shown[1:]:
+            np.testing.assert_array_equal(other, shown[0])
+
+
+def test_of_a_function():
+    series = TimeSeries.of("s", lambda t, x, y: t * x - y, range(4), [X, Y], interpolation="hold")
+    t = np.arange(4.0)[:, None, None]
+    np.testing.assert_array_equal(series.values.data, t * X.points[:, None] - Y.points)
+    np.testing.assert_array_equal(series.times.data, [0, 1, 2, 3])
+    assert TimeSeries.of("s", lambda t: 1.0, [0, 1], []).values.data.tolist() == [1, 1]
+
+
+def test_mistakes_are_told():
+    with pytest.raises(ParameterError, match="times: does not rise"):
+        TimeSeries("s", [], [0.0, 0.0], [1.0, 2.0])
+    with pytest.raises(ParameterError, match="times: has shape"):
+        TimeSeries("s", [], [[0.0, 1.0]], [1.0, 2.0])
+    with pytest.raises(ParameterError, match="interpolation: is 'cubic'"):
+        TimeSeries("s", [], [0.0], [1.0], interpolation="cubic")
+    model = dd.Model("shape")
+    model.add(TimeSeries("s", [X], [0.0, 1.0], VALUES[:, :, 0]))
+    with pytest.raises(ModelError, match=r"values has shape \[4, 5\], its times and axes make \[2, 5\]"):
+        dd.Session(model)

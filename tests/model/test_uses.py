@@ -1,0 +1,164 @@
+"""Groups that stay linked to a template: a change in it reaches every use, and what is around them stays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import DocumentError, ModelError, UnknownName
+from deodar.model import files
+
+
+def template() -> dd.Model:
+    """Two nodes and a coupling, one knob."""
+    model = dd.Model("switch")
+    a, b = model.add(dd.Field("a", [], resting_level=-2)), model.add(dd.Field("b", []))
+    a >> model.add(dd.Gain(2, name="drives")) >> b
+    model.parameter("tempo", 20.0)
+    model.link("a.tau", "tempo")
+    return model
+
+
+def host() -> dd.Model:
+    """Two uses, one copy, and something around them."""
+    model = dd.Model("host")
+    for name in ("left", "right"):
+        model.insert(template(), name, link=True)
+    model.insert(template(), "copy")
+    out = model.add(dd.Field("out", []))
+    model["left.b"] >> out
+    model["right.b"] >> dd.Gain(-1, name="less") >> model["left.a"]
+    return model
+
+
+def edges(model: dd.Model) -> set[tuple[str, str]]:
+    by = model.document.by_id()
+    return {(by[c.source].path, by[c.target].path) for c in model.document.connections}
+
+
+def test_a_change_reaches_every_use_and_no_copy() -> None:
+    model, changed = host(), template()
+    changed.set("a.resting_level", -3)
+    model.refresh(changed)
+    assert [model.get(f"{name}.a.resting_level") for name in ("left", "right", "copy")] == [-3, -3, -2]
+    assert not model.check()
+
+
+def test_refreshing_without_a_change_changes_nothing() -> None:
+    model = host()
+    ids, before = {e.path: e.id for e in model.document.entries}, edges(model)
+    data = dd.simulate(model, 100, every=10)
+    model.refresh(template())
+    assert {e.path: e.id for e in model.document.entries} == ids and edges(model) == before
+    again = dd.simulate(model, 100, every=10)
+    assert all(np.array_equal(data[name], again[name]) for name in data.data_vars)
+
+
+def test_what_is_new_comes_what_is_gone_goes_and_the_outside_stays() -> None:
+    model, changed = host(), template()
+    changed.remove("drives")
+    changed["a"] >> changed.add(dd.Field("middle", []), group="inner") >> changed["b"]
+    kept = {name: model[f"{name}.a"].id for name in ("left", "right")}
+    model.refresh(changed)
+    inside = {(f"{n}.a", f"{n}.inner.middle") for n in ("left", "right")} | {(f"{n}.inner.middle", f"{n}.b") for n in ("left", "right")}
+    around = {("left.b", "out"), ("right.b", "less"), ("less", "left.a"), ("copy.a", "copy.drives"), ("copy.drives", "copy.b")}
+    assert edges(model) == inside | around
+    assert {name: model[f"{name}.a"].id for name in kept} == kept
+    assert "left.drives" not in model and "copy.drives" in model
+
+
+def test_names_may_be_exchanged() -> None:
+    changed, model = template(), host()
+    first, second = model["left.a"].id, model["left.b"].id
+    changed.rename("a", "c")
+    changed.rename("b", "a")
+    changed.rename("c", "b")
+    model.refresh(changed)
+    assert (model["left.b"].id, model["left.a"].id) == (first, second)
+    assert ("less", "left.b") in edges(model) and model.get("left.b.resting_level") == -2
+
+
+def test_document_parameters_keep_their_values_here_and_drive_what_is_new() -> None:
+    model, changed = host(), template()
+    model.set("tempo", 50)
+    model.parameter("low", -7.0)
+    model.link("left.b.resting_level", "low")
+    changed.link("b.tau", "tempo")
+    changed.parameter("strength", 4.0)
+    changed.link("drives.factor", "strength")
+    model.refresh(changed)
+    assert {model.get(f"{n}.{e}.tau") for n in ("left", "right") for e in "ab"} == {50.0}
+    assert model.get("left.b.resting_level") == -7 and model.get("right.drives.factor") == model.get("strength") == 4
+    assert model.get("copy.drives.factor") == 2
+
+
+def test_uses_follow_their_group_and_their_file(tmp_path: Path) -> None:
+    model, changed = host(), template()
+    model.rename("left", "first")
+    model.move("right", "second.part")
+    dd.save(model, tmp_path / "host.json")
+    loaded = dd.load(tmp_path / "host.json")
+    assert loaded.document.uses == model.document.uses
+    changed.set("a.resting_level", -3)
+    loaded.refresh(changed)
+    assert loaded.get("first.a.resting_level") == loaded.get("second.part.right.a.resting_level") == -3
+
+
+def test_a_template_of_templates_stays_linked_at_both_levels() -> None:
+    outer, model = dd.Model("outer"), dd.Model("host")
+    outer.insert(template(), "inner", link=True)
+    model.insert(outer, "x", link=True)
+    changed = template()
+    changed.set("a.resting_level", -3)
+    model.refresh(changed)
+    assert model.get("x.inner.a.resting_level") == -3
+    outer.refresh(changed)
+    outer.add(dd.Field("more", []))
+    model.refresh(outer)
+    assert "x.more" in model
+    changed.set("a.resting_level", -4)
+    model.refresh(changed)
+    assert model.get("x.inner.a.resting_level") == -4
+
+
+def test_a_group_that_is_dissolved_or_removed_is_no_use() -> None:
+    model = host()
+    model.ungroup("left")
+    model.remove("right")
+    assert model.document.uses == ()
+    with pytest.raises(UnknownName, match="no group is linked to a template 'switch'"):
+        model.refresh(template())
+
+
+def test_a_refresh_can_be_undone() -> None:
+    model, changed = host(), template()
+    changed.set("a.resting_level", -3)
+    before = model.document
+    model.refresh(changed)
+    assert model.undo() and model.document == before
+
+
+def test_a_template_that_lost_what_others_need_is_refused() -> None:
+    model, changed = host(), template()
+    changed.remove("b")
+    before = model.document
+    with pytest.raises(ModelError, match=r"left\.b\.output -> out\.input: the template 'switch' has no 'b' any more") as caught:
+        model.refresh(changed)
+    assert len(caught.value.problems) >= 1 and model.document == before
+
+
+@pytest.mark.parametrize(
+    ("uses", "what"),
+    [
+        ({"left": 1}, "needs a template"),
+        ({"left": {"template": "switch", "elements": {"00000000": "nothing"}}}, "nothing"),
+        ({"lost": {"template": "switch", "elements": {}}}, "there is no group 'lost'"),
+    ],
+)
+def test_bad_uses_in_a_document_are_named(uses: object, what: str) -> None:
+    data, _ = files.to_data(host().document)
+    with pytest.raises(DocumentError, match=what):
+        files.from_data(data | {"uses": uses}, {})
