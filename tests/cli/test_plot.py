@@ -11,7 +11,9 @@ from PIL import Image
 
 import deodar as dd
 from deodar.cli import main
+from deodar.elements.sensor import Sensor
 from deodar.recording import files
+from tests.experiments.robots import room, straight
 from tests.recording.models import record, x, y
 
 
@@ -75,3 +77,19 @@ def test_bad_calls(here: Path, arguments: list[str], says: str, capsys: pytest.C
     error = capsys.readouterr().err
     assert says in error and "Traceback" not in error, error
     assert sorted(here.iterdir()) == before
+
+
+def test_a_path_is_drawn_in_its_arena_and_as_a_film(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = straight()
+    model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
+    files.save(dd.simulate(model, 40, record="pose.output", world=room()), "drive.zarr")
+    assert main(["plot", "drive.zarr", "pose.output", "--gif", "drive.gif", "--out", "drive.png"]) == 0
+    assert "drive.gif" in capsys.readouterr().out
+    with Image.open("drive.gif") as film, Image.open("drive.png") as figure:
+        assert getattr(film, "n_frames", 1) == 41 and figure.width > figure.height
+    assert main(["plot", "drive.zarr", "pose.output", "--gif", "drive.gif", "--force", "--json", "--out", "again.png"]) == 0
+    assert json.loads(capsys.readouterr().out)["gif"] == "drive.gif"
+    assert main(["plot", "small.zarr", "--gif", "no.gif"]) == 1
+    assert "a film shows one variable" in capsys.readouterr().err
+    assert main(["plot", "small.zarr", "n.activation", "--gif", "no.gif"]) == 1
+    assert "made without a world" in capsys.readouterr().err

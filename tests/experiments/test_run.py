@@ -63,6 +63,13 @@ def test_a_thing_that_comes_stops_the_robot_and_one_that_goes_lets_it_on():
     assert run(straight(), 500, world, events=[GOAL]).outcome == "reached"  # the box was put away after each trial
 
 
+def test_a_goal_that_moves_is_put_back_after_the_trial():
+    world = room()
+    early = run(straight(), 500, world, events=[GOAL]).duration
+    assert run(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration < early - 50
+    assert run(straight(), 500, world, events=[GOAL]).duration == early
+
+
 def test_an_action_between_two_looks_comes_at_its_own_time():
     often, seldom = (run(straight(), 120, room(), actions=[Place(61, "box", (50, 20), (4, 30))], watch=["pose"], every=every) for every in (1, 40))
     np.testing.assert_array_equal(often.values["pose"][::40], seldom.values["pose"])

@@ -10,7 +10,12 @@ from typing import TYPE_CHECKING
 from deodar.cli import _options
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
+    from matplotlib.figure import Figure
+
+    from deodar.figures._view import View
 
 HELP = "draw the variables of a record as SVG, PDF or PNG"
 EPILOG = """Without --kind each variable gets the kind that suits it: time_course (nodes, or fields at places), space_time (one dimension over
@@ -29,6 +34,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two")
     parser.add_argument("--reduce", choices=("maximum", "integral"), default="maximum", help="how it is projected (default maximum)")
     parser.add_argument("--place", action="append", metavar="X[,Y...]", help="place of a field whose time course is drawn; may be given again")
+    parser.add_argument("--gif", type=Path, metavar="FILE", help="also write a film of one variable that is a path (x and y over time), in its arena")
     parser.add_argument("--out", "-o", type=Path, metavar="FILE", help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here)")
     _options.add_force(parser)
     _options.add_json(parser)
@@ -56,14 +62,38 @@ def run(args: argparse.Namespace) -> int:
              axes=args.axes, places=spots, reduce=args.reduce)
         for n in names
     ]  # fmt: skip
-    figure = _panels.draw(views, args.kind)
+    if args.gif is not None or (args.kind == "path" and len(views) == 1):
+        figure = _path(args, data, views)
+    else:
+        figure = _panels.draw(views, args.kind)
     _files.save(figure, out, args.force)
     if args.json:
         kinds = {view.name: _panels.kind(view, args.kind).__name__.rpartition(".")[2] for view in views}
-        print(json.dumps({"out": str(out), "kinds": kinds}, indent=2, ensure_ascii=False))
+        film = {} if args.gif is None else {"gif": str(args.gif)}
+        print(json.dumps({"out": str(out), "kinds": kinds, **film}, indent=2, ensure_ascii=False))
     else:
-        print(f"Drew {', '.join(names)} into {_options.shown(out)}")
+        print(f"Drew {', '.join(names)} into {_options.shown(out)}" + (f" and {_options.shown(args.gif)}" if args.gif is not None else ""))
     return 0
+
+
+def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View]) -> Figure:
+    """The path in the arena in which it was recorded, and the film of it where one is wanted."""
+    from deodar.errors import RecordError
+    from deodar.figures import path
+    from deodar.recording.repeat import world_of
+
+    if len(views) != 1:
+        raise RecordError(
+            f"a film shows one variable, not {len(views)}", where="--gif", fix="Name the one that holds x and y, for example pose.output"
+        )
+    world, variable = world_of(data), data[views[0].name]
+    trial, where = views[0].trial, views[0].where
+    if args.gif is not None:
+        if world is None:
+            raise RecordError("the record was made without a world, so there is no arena to draw the path in", where="--gif", fix="Leave out --gif")
+        times = variable.sizes.get("time", 0)
+        path.animate(variable, args.gif, world, every=max(1, -(-times // path.MOST_FRAMES)), force=args.force, trial=trial, where=where)
+    return path.draw(variable, world, trial=trial, where=where)
 
 
 def _variables(data: xarray.Dataset, wished: list[str]) -> list[str]:

@@ -180,13 +180,13 @@ def _axes(shape: Sequence[int]) -> Axes:
 
 @contextlib.contextmanager
 def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]:
-    """Things in the world as they were, when the trial is over."""
+    """Things in the world and its goal as they were, when the trial is over."""
     if not any(a.moves for a in actions):
         yield
         return
     here = arena(world)
-    before: Any = copy.deepcopy(here.furniture)
+    before: Any = copy.deepcopy((here.furniture, here.goals))
     try:
         yield
     finally:
-        here.furniture = before
+        here.furniture, here.goals = before

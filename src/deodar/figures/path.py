@@ -59,16 +59,26 @@ def fill(place: FigureBase, view: View) -> None:
     _paint(place.subplots(), view, None)
 
 
-def animate(variable: xarray.DataArray, file: str | Path, arena: World, width: int = 480, every: int = 1, speed: float = 1.0, **view: Any) -> Path:
+def animate(
+    variable: xarray.DataArray,
+    file: str | Path,
+    arena: World,
+    width: int = 480,
+    every: int = 1,
+    speed: float = 1.0,
+    force: bool = False,
+    **view: Any,
+) -> Path:
     """Write a GIF of paths as they grow.
 
     Args:
         variable: what a sensor `place` or `pose` showed, over time.
-        file: where to; it ends in .gif and is not there yet.
+        file: where to; it ends in .gif.
         arena: the arena it was recorded in.
         width: in pixels.
         every: records between two frames.
         speed: time of the record over time of the film.
+        force: whether a file of that name is replaced.
         view: see `deodar.figures._view.View`: trial, where.
     """
     from PIL import Image, ImageDraw
@@ -77,7 +87,7 @@ def animate(variable: xarray.DataArray, file: str | Path, arena: World, width: i
     if path.suffix.lower() != ".gif":
         raise RecordError(f"the name ends in {path.suffix!r}; a film of a path is a GIF", where=str(path), fix="End it in .gif")
     here = _arena(arena)
-    output.claim(path, False)
+    output.claim(path, force)
     lines, times = _lines(looked), looked.times[::every]
     if not 2 <= len(times) <= MOST_FRAMES:
         raise RecordError(f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}", where=looked.name, fix="Choose another every=")

@@ -104,6 +104,16 @@ def repeat(
     return compare(data, new)
 
 
+def world_of(data: xarray.Dataset) -> World | None:
+    """The world that a record was made in, opened again; None: it had none.
+
+    Raises:
+        RecordError: the record does not say what made it.
+        WorldError: the world is not there any more, or is another one.
+    """
+    return _world(_made(data).get("world"))
+
+
 def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     """What differs between two records of one run; an incomplete one is compared as far as it goes."""
     before, after = _made(old), _made(new)

@@ -259,6 +259,8 @@ def _section_7(runs: Runs) -> list[Claim]:
         text = f"the carrot fails by cutting corners: share of its failures that touch a wall at the end ({words})"
         out.append(_share("7", text, failed, lambda r: r["touches_at_end"], 0.8, runs))
     for noise in NOISES:
+        text = f"a goal may change at any time: runs in which it moves while the robot drives, and that reach where it went, {noise} noise"
+        out.append(_share("3.2", text, runs.of(f"moved/planner/{noise}"), lambda r: r["success"], 0.9, runs))
         short = between(runs.kept("full", noise), (201, 1000), (0, 100))
         text = f"transient blockages do not result in planning anew: full obstacles of up to 100 steps after t = 200, {noise} noise"
         out.append(_share("7", text, short, lambda r: r["route"] == NORTH, 0.9, runs))

@@ -12,10 +12,12 @@ from deodar.analysis.paths import clearance, divergence, length
 from deodar.analysis.shortest import shortest
 from deodar.architectures.follow_the_carrot import follow
 from deodar.architectures.spa import CASE_3, DIRECTIONS, place, spa
+from deodar.experiments.actions import Move
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Leaves, Within
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
+from deodar.experiments.run import run
 from deodar.model.model import Model
 from deodar.papers.spa import cases
 from deodar.papers.spa.cases import LIMIT, RADIUS, STAY, Condition
@@ -81,9 +83,15 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
     narrated = c.name.startswith(("free", "narrative"))
     motivated = {side: f"{side}.motivation.activation" for side in ("west", "east")} if narrated else {}
     events = [Within("done", RADIUS, POSE, "goal.output", STAY), Leaves("moved", MOVED, POSE)]
-    [course] = run_batch(model, LIMIT, [trial], [*watch, *motivated.values()], events, world=arena)
+    moves = c.name.startswith("moved")
+    if moves:  # by hand, so beside the step
+        actions = [Move(cases.MOVES, "goal", place(*cases.GOES))]
+        course = run(model, LIMIT, arena, trial=trial, watch=watch, events=events, actions=actions)
+    else:
+        [course] = run_batch(model, LIMIT, [trial], [*watch, *motivated.values()], events, world=arena)
     start, goal = (place(*CASE_3[0]), place(*CASE_3[1])) if not c.many_starts else (pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial])
-    row = _row(c, trial, course.values[POSE], course.values[TOUCHING] > 0, goal, shortest(reference(c.maze), start, goal), arena)
+    best = None if moves else shortest(reference(c.maze), start, goal)
+    row = _row(c, trial, course.values[POSE], course.values[TOUCHING] > 0, place(*cases.GOES) if moves else goal, best, arena)
     intentions = np.stack([course.values[path] for path in STRONGEST.values()], axis=1)
     moved = course.events["moved"]
     weak = np.flatnonzero(intentions[: int(moved if moved is not None else len(intentions))].max(axis=1) <= STRONG)
