@@ -21,6 +21,8 @@ export class Observer {
   readonly world = new Live();
   private session = 0;
   private last = 0;
+  private clocks = 0;
+  private answered = 0;
   private ended = "";
   private streams = new Map<string, Stream>();
   private answers = new Map<number, Answer>();
@@ -77,7 +79,8 @@ export class Observer {
   async ask(message: ToServer): Promise<Answer> {
     const request = ++this.last;
     this.say({ ...message, request } as ToServer);
-    await this.until(() => this.answers.has(request));
+    // a clock ends what is told at once; the one before it does not know of the answer
+    await this.until(() => this.answers.has(request) && this.clocks > this.answered);
     return this.answers.get(request) as Answer;
   }
 
@@ -160,6 +163,7 @@ export class Observer {
       }
       case "answer":
         this.answers.set(message.request, message);
+        this.answered = this.clocks;
         break;
       case "scene":
       case "bodies":
@@ -167,6 +171,7 @@ export class Observer {
         break;
       case "clock":
         this.clock = message;
+        this.clocks++;
         this.say({ type: "drawn", frame: message.frame });
         break;
     }

@@ -57,6 +57,7 @@ class Page:
         self.clocks = 0
         self._request = 0
         self._answers: dict[int, dict[str, Any]] = {}
+        self._opened = self._answered = 0
         self._news = asyncio.Event()
 
     async def listen(self) -> None:
@@ -77,11 +78,14 @@ class Page:
         self.said[m["type"]] = m
         if m["type"] == "answer":
             self._answers[m["request"]] = m
+            self._answered = self.clocks
         elif m["type"] == "announced":
             self.forms[m["stream"]] = m
             self.frames.pop(m["stream"], None)
         elif m["type"] == "lost":
             self.lost[m["stream"]] = m
+        elif m["type"] == "opened":
+            self._opened = self.clocks
         elif m["type"] == "clock":
             self.clocks += 1
             if self.draws:
@@ -96,7 +100,8 @@ class Page:
         self._request += 1
         number = self._request
         await self.tell(type=type, request=number, **message)
-        await self.until(lambda: number in self._answers)
+        # a clock ends what is told at once; the one before it does not know of the answer
+        await self.until(lambda: number in self._answers and self.clocks > self._answered)
         return self._answers.pop(number)
 
     async def do(self, type: str, **message: Any) -> dict[str, Any]:
@@ -137,7 +142,8 @@ class Page:
 
     async def runs(self) -> None:
         """Wait until the document that is open is compiled."""
-        await self.until(lambda: self.said.get("opened", {}).get("document") and not self.clock["busy"])
+        # a clock follows what was opened; the one before it told of another document
+        await self.until(lambda: self.said.get("opened", {}).get("document") and self.clocks > self._opened and not self.clock["busy"])
 
 
 @contextlib.asynccontextmanager

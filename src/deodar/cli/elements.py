@@ -38,10 +38,11 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps({room: {name: _line(cls) for name, cls in found.items()} for room, found in listed.items()}, indent=2))
         return 0
+    width = max(len(name) for found in listed.values() for name in found)
     for room, found in listed.items():
         print(room.split(".")[-1])
         for name, cls in found.items():
-            print(f"  {name:18}{_line(cls)}")
+            print(f"  {name:{width}}  {_line(cls)}")
     return 0
 
 
