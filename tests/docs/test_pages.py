@@ -16,9 +16,11 @@ TEXTS = [*sorted(ROOT.glob("*.md")), *sorted(DOCS.rglob("*.md"))]
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 DRAWN_ELSEWHERE = {
     "README.md": {"saliency-coffee.png", "studio-selection.png"},
+    "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},
 }
-"""The pictures of the README are drawn by the pages that explain them, those of the studio by `studio/build.py pictures`."""
+"""The pictures of the README are drawn by the pages that explain them, those of the studio by `studio/build.py pictures`, those of many
+runs by `deodar reproduce`."""
 
 
 @pytest.mark.parametrize("page", pages.pages(), ids=lambda p: p.stem)
