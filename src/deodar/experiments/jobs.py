@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import concurrent.futures
-import contextlib
 import multiprocessing
-import os
-import signal
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
@@ -16,6 +13,7 @@ from typing import Any
 from deodar.errors import WorkerError
 from deodar.experiments.rows import Row, Rows
 from deodar.runtime.interrupt import stoppable
+from deodar.runtime.workers import begin
 
 
 @dataclass(frozen=True)
@@ -100,7 +98,7 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 
 def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequence[Row]]]:
     context = multiprocessing.get_context("spawn")
-    with stoppable() as check, concurrent.futures.ProcessPoolExecutor(workers, context, _begin) as pool:
+    with stoppable() as check, concurrent.futures.ProcessPoolExecutor(workers, context, begin) as pool:
         waiting, running = list(reversed(jobs)), dict[concurrent.futures.Future[Sequence[Row]], Job]()
         try:
             while waiting or running:
@@ -115,10 +113,3 @@ def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequen
             raise WorkerError("a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers") from None
         finally:
             pool.shutdown(cancel_futures=True)
-
-
-def _begin() -> None:
-    """One core, and no Ctrl-C: whoever started the worker ends it."""
-    os.environ["NPROC"] = "1"
-    with contextlib.suppress(ValueError):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)

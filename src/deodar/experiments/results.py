@@ -78,7 +78,7 @@ def _jobs(bench: Bench, workers: int | None, records: Path | None) -> Iterator[J
         if handed is None:
             yield Job(keys, bench.rows, given, len(piece))
         else:
-            yield Job(keys, parcel.work, {"parcel": handed, **given}, len(piece))
+            yield Job(keys, parcel.work, {"handed": handed, **given}, len(piece))
 
 
 def _about(bench: Bench, workers: int | None) -> dict[str, Any]:

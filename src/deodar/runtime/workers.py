@@ -10,30 +10,26 @@ from __future__ import annotations
 import concurrent.futures
 import contextlib
 import dataclasses as dc
-import functools
-import json
 import mmap
 import multiprocessing
 import multiprocessing.connection
 import os
-import pickle
 import signal
 import sys
 import tempfile
 import threading
 import types
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from deodar import registry
 from deodar.errors import Interrupted, ParameterError, WorkerError
-from deodar.model import files
 from deodar.model.model import Model
 from deodar.parameters import show
+from deodar.runtime.parcel import Parcel
 from deodar.runtime.pieces import Part
 from deodar.worlds._base import World
 
@@ -46,19 +42,13 @@ class Job:
     """One piece, as a worker gets it.
 
     Attributes:
-        document: the document as JSON text, and its `arrays` as the content of their file.
-        kinds: the classes outside deodar that the document names, pickled: reading them imports their modules, which registers them.
-        world: the world, pickled.
+        parcel: the model and its world.
         settings: the arguments of `simulate` for this piece.
         board: the file that all processes map: for each piece the steps done, and at the end whether to stop.
         number: which piece this is.
     """
 
-    document: str
-    arrays: bytes
-    trusted: bool
-    kinds: bytes
-    world: bytes
+    parcel: Parcel
     settings: Mapping[str, Any]
     board: str
     number: int
@@ -84,15 +74,12 @@ def run(model: Model, world: World | None, pieces: Sequence[Mapping[str, Any]], 
     Raises:
         WorkerError: something cannot be handed to another process, or a process has died.
     """
-    data, arrays = files.to_data(model.document)
-    _require_module([*_outside(data), *([type(world)] if world is not None else [])])
-    kinds, world_ = _pickled(_outside(data), "an element"), _pickled(world, f"the world {type(world).__name__}")
-    given = (json.dumps(data), files.pack(arrays) if arrays else b"", model.trusted, kinds, world_)
+    parcel = Parcel.of(model, world)
     context = multiprocessing.get_context("spawn")
     with _board(len(pieces) + 1) as (path, board):
-        jobs = [Job(*given, settings, path, k) for k, settings in enumerate(pieces)]
+        jobs = [Job(parcel, settings, path, k) for k, settings in enumerate(pieces)]
         started: Callable[[], list[Any]] = list
-        pool = concurrent.futures.ProcessPoolExecutor(min(workers, len(jobs)), context, _begin)
+        pool = concurrent.futures.ProcessPoolExecutor(min(workers, len(jobs)), context, begin)
         try:
             with _alone() as started:
                 futures = [pool.submit(work, job) for job in jobs]
@@ -158,43 +145,10 @@ def _alone() -> Generator[Callable[[], list[Any]]]:
             signal.signal(signal.SIGINT, before)
 
 
-def _outside(data: Mapping[str, Any]) -> list[type]:
-    """Classes outside deodar that the document names."""
-    used = {name: registry.kind(name) for name in _kinds(data["elements"])}
-    return [cls for _, cls in sorted(used.items()) if not cls.__module__.startswith("deodar.")]
-
-
-def _require_module(classes: Sequence[type]) -> None:
-    here = [cls.__name__ for cls in classes if cls.__module__ == "__main__"]
-    if here:
-        raise WorkerError(
-            f"{', '.join(here)} is written in the script itself, which worker processes do not run",
-            fix="Put it into a module of its own and import it, or run without workers",
-        )
-
-
-def _kinds(data: Any) -> Iterator[str]:
-    if isinstance(data, Mapping):
-        if isinstance(data.get("kind"), str):
-            yield data["kind"]
-        for value in data.values():
-            yield from _kinds(value)
-    elif isinstance(data, list):
-        for value in data:
-            yield from _kinds(value)
-
-
-def _pickled(what: Any, name: str) -> bytes:
-    try:
-        return pickle.dumps(what)
-    except Exception as error:  # a class may refuse in any way
-        raise WorkerError(f"{name} cannot be handed to other processes ({type(error).__name__}: {error})", fix="Run without workers") from None
-
-
 # ------------------------------------------------------------------------------------------------ in the worker
 
 
-def _begin() -> None:
+def begin() -> None:
     """One core, no Ctrl-C, and an end when the parent ends."""
     os.environ["NPROC"] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -219,15 +173,7 @@ def work(job: Job) -> Part:
             if board[-1]:
                 raise KeyboardInterrupt
 
-        model = _model(job.document, job.arrays, job.trusted, job.kinds)
         try:
-            return simulate(model, world=pickle.loads(job.world), progress=told, **job.settings), True
+            return simulate(job.parcel.model, world=job.parcel.world(), progress=told, **job.settings), True
         except Interrupted as error:
             return error.data, False
-
-
-@functools.lru_cache(maxsize=1)  # the next piece of the same run finds the compiled programs that a model keeps
-def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
-    pickle.loads(kinds)
-    held = files.unpack(arrays, "the document") if arrays else {}
-    return Model(document=files.from_data(json.loads(document), held), trusted=trusted)

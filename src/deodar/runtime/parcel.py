@@ -1,0 +1,100 @@
+"""The parcel: a model and its world as another process gets them, as plain data.
+
+A worker imports deodar and nothing else, so what the script that started it has defined must be importable.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import functools
+import json
+import pickle
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, cast
+
+from deodar import registry
+from deodar.errors import WorkerError
+from deodar.model import files
+from deodar.model.model import Model
+from deodar.worlds._base import World
+
+
+@dc.dataclass(frozen=True)
+class Parcel:
+    """A model and its world, packed.
+
+    Attributes:
+        document: the model's document as JSON text, and its `arrays` as the content of their file.
+        trusted: whether functions that the document names may be run.
+        kinds: the classes outside deodar that the document names, pickled: reading them imports their modules, which registers them.
+        packed: the world, pickled.
+    """
+
+    document: str
+    arrays: bytes
+    trusted: bool
+    kinds: bytes
+    packed: bytes
+
+    @classmethod
+    def of(cls, model: Model, world: World | None) -> Parcel:
+        """Pack both.
+
+        Raises:
+            WorkerError: something of them cannot be handed to another process.
+        """
+        data, arrays = files.to_data(model.document)
+        outside = _outside(data)
+        _require_module([*outside, *([type(world)] if world is not None else [])])
+        held = files.pack(arrays) if arrays else b""
+        return cls(json.dumps(data), held, model.trusted, _pickled(outside, "an element"), _pickled(world, f"the world {type(world).__name__}"))
+
+    @property
+    def model(self) -> Model:
+        """The model; the next piece of the same run finds the compiled programs that it keeps."""
+        return _model(self.document, self.arrays, self.trusted, self.kinds)
+
+    def world(self) -> World | None:
+        """The world, another one each time."""
+        return pickle.loads(self.packed)
+
+
+@functools.lru_cache(maxsize=1)
+def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
+    pickle.loads(kinds)
+    held = files.unpack(arrays, "the document") if arrays else {}
+    return Model(document=files.from_data(json.loads(document), held), trusted=trusted)
+
+
+def _outside(data: Mapping[str, Any]) -> list[type]:
+    """Classes outside deodar that the document names."""
+    used = {name: registry.kind(name) for name in _kinds(data["elements"])}
+    return [cls for _, cls in sorted(used.items()) if not cls.__module__.startswith("deodar.")]
+
+
+def _require_module(classes: Sequence[type]) -> None:
+    here = [cls.__name__ for cls in classes if cls.__module__ == "__main__"]
+    if here:
+        raise WorkerError(
+            f"{', '.join(here)} is written in the script itself, which worker processes do not run",
+            fix="Put it into a module of its own and import it, or run without workers",
+        )
+
+
+def _kinds(data: Any) -> Iterator[str]:
+    if isinstance(data, Mapping):
+        found = cast("Mapping[str, Any]", data)
+        if isinstance(found.get("kind"), str):
+            yield found["kind"]
+        for value in found.values():
+            yield from _kinds(value)
+    elif isinstance(data, list):
+        for value in cast("list[Any]", data):
+            yield from _kinds(value)
+
+
+def _pickled(what: Any, name: str) -> bytes:
+    try:
+        return pickle.dumps(what)
+    except Exception as error:  # a class may refuse in any way
+        raise WorkerError(f"{name} cannot be handed to other processes ({type(error).__name__}: {error})", fix="Run without workers") from None
