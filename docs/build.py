@@ -32,8 +32,8 @@ def pictures(only: Sequence[str] = ()) -> None:
         with tempfile.TemporaryDirectory() as name, pages.quiet():
             folder = Path(name)
             pages.run(page, folder)
-            for made in folder.rglob("*.png"):
-                if made.name in shown and "examples" not in made.relative_to(folder).parts:  # those are the gallery's
+            for made in pages.drawn(folder):
+                if made.name in shown:
                     shutil.copyfile(made, kept / made.name)
 
 

@@ -91,7 +91,12 @@ def run(page: Path, folder: Path) -> list[str]:
             if block.prints is not None:
                 differs = difference(block.prints, printed.getvalue())
                 assert not differs, f"{block.where}: {differs}\n--- printed:\n{printed.getvalue()}"
-    return sorted(p.name for p in folder.rglob("*.png"))
+    return sorted(p.name for p in drawn(folder))
+
+
+def drawn(folder: Path) -> list[Path]:
+    """The pictures that a page wrote into its folder; those of the examples beside it are the gallery's."""
+    return [path for path in folder.rglob("*.png") if "examples" not in path.relative_to(folder).parts]
 
 
 def _run(block: Block, names: dict[str, Any]) -> None:

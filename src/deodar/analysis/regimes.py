@@ -223,7 +223,8 @@ def regimes(
             selection = selects(isolated, STRONG * up.after, limit=limit)
             apart = separation(isolated, STRONG * up.after, limit)
             tell("forgetting")
-            lost, pressed = (measure(isolated, STRONG * up.after, accuracy, limit) for measure in (forgetting, suppression))
+            lost = forgetting(isolated, STRONG * up.after, accuracy, limit)
+            pressed = suppression(isolated, STRONG * up.after, accuracy, limit) if memory.outlives else None
             forgets, suppressed = (t.value if t else None for t in (lost, pressed))
             tell("detection by a boost")
             boosts = tuple(boosted(isolated, share * up.before, accuracy, limit) for share in SHARES)

@@ -78,15 +78,9 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
 
 def _open(out: Path, about: Mapping[str, Any]) -> Rows:
     """The rows in a folder: a new one, or one that an earlier call began; another folder is left alone."""
-    from deodar.errors import OutputExists
-    from deodar.experiments.rows import Rows
-    from deodar.recording import places
+    from deodar.experiments.rows import Rows, claim
 
-    if out.is_dir() and any(out.iterdir()) and not (out / ROWS).is_file():
-        raise OutputExists("is not the folder of a reproduction, so nothing is written into it", where=str(out), fix="Choose another name")
-    if not out.is_dir():
-        places.claim_folder(out)
-        out.mkdir()
+    claim(out, ROWS, "a reproduction")
     return Rows(out / ROWS, about)
 
 

@@ -14,7 +14,6 @@ from deodar.compiler.plan import Leaf
 from deodar.errors import ParameterError, TimeError, WorldError
 from deodar.experiments.course import Course
 from deodar.experiments.events import Event
-from deodar.experiments.levels import leaves_of
 from deodar.experiments.measures import Measure
 from deodar.experiments.reader import Place, with_readers
 from deodar.experiments.tally import Tally
@@ -24,6 +23,7 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
 from deodar.runtime import memory
+from deodar.runtime.driven import driven
 from deodar.runtime.exchange import embodied
 from deodar.runtime.run import Run, whole
 from deodar.runtime.session import require_model, require_seed
@@ -96,8 +96,8 @@ def run_batch(
     places = {view: at.get(view) or _place(doc, view) for view in views}
     order = list(dict.fromkeys([*watched, *places.values()])) or [_anything(doc)]
     swept = {path: np.asarray(v, float) for path, v in (values or {}).items()}
-    driven = [leaves_of(doc, path) for path in swept]
-    flock = _Flock(model, read, precision, float(step), require_seed(seed), numbers, world, driven, [*swept.values()])
+    leaves = [driven(doc, path) for path in swept]
+    flock = _Flock(model, read, precision, float(step), require_seed(seed), numbers, world, leaves, [*swept.values()])
     axes = {p: flock.batch.program.axes(flock.batch.program.port(*p)) for p in order}
     kept: list[list[Sequence[np.ndarray]]] = [[] for _ in numbers]
     looks = np.zeros(len(numbers), int)

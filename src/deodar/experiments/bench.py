@@ -161,7 +161,6 @@ class Bench:
         cells = 0
         for name in e.record:
             entry, port = find.port(self.model.document, name)
-            node = by[entry.id]
-            cells += math.prod(shape(node.outs[port] if port in node.outs else node.ins[port]))
+            cells += math.prod(shape(by[entry.id].axes(port)))
         recorded = cells * looks * (8 if e.precision == "float64" else 4)
         return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), int(RECORD_BYTES // max(1.0, recorded))))

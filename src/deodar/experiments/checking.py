@@ -117,8 +117,7 @@ def _view(view: View, model: Model, world: World | None) -> None:
             raise ParameterError(f"{view.of} is a sensor of the world, whose samples have no places", fix="Name the port of a Sensor that reads it")
         return
     entry, port = view.place(model.document)
-    node = next(n for n in resolve(model.document)[0] if n.id == entry.id)
-    axes = node.outs[port] if port in node.outs else node.ins[port]
+    axes = next(n for n in resolve(model.document)[0] if n.id == entry.id).axes(port)
     mask(axes, view.near, view.radius)
     if view.reduce == PLACE and not axes:
         raise ParameterError(f"{view.of} is one number, which stands nowhere", fix="Take reduce='max'")

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.compiler.device import find
-from deodar.errors import OutputExists, RecordError
+from deodar.errors import RecordError
 from deodar.experiments import parcel
 from deodar.experiments.bench import Bench
 from deodar.experiments.jobs import Job, Standing, carry_out
-from deodar.experiments.rows import ABOUT, Row, Rows
+from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
-from deodar.recording import files, places, provenance
+from deodar.recording import files, provenance
 
 if TYPE_CHECKING:
     import xarray
@@ -43,17 +43,8 @@ def carry(bench: Bench, out: str | Path | None, workers: int | None = None, prog
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
             return _carry(bench, Path(folder), workers, progress)
     folder = output.location(out)
-    _claim(folder)
+    claim(folder, ROWS, "an experiment")
     return _carry(bench, folder, workers, progress)
-
-
-def _claim(out: Path) -> None:
-    """A new folder, or one that an earlier call began; another one is left alone."""
-    if out.is_dir() and any(out.iterdir()) and not (out / ROWS).is_file():
-        raise OutputExists("is not the folder of an experiment, so nothing is written into it", where=str(out), fix="Choose another name")
-    if not out.is_dir():
-        places.claim_folder(out)
-        out.mkdir()
 
 
 def _carry(bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None) -> xarray.Dataset:

@@ -87,3 +87,16 @@ class Rows:
                 os.fsync(file.fileno())
         except OSError as error:
             raise OutputError(f"cannot be written: {error.strerror or error}", where=str(self.path)) from None
+
+
+def claim(folder: Path, file: str, of: str) -> None:
+    """Make the folder in which rows are kept, or take the one that an earlier call began, which holds `file`; another one is left alone.
+
+    Raises:
+        OutputExists: the folder holds something else; `of` says of what it should be.
+    """
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / file).is_file():
+        raise OutputExists(f"is not the folder of {of}, so nothing is written into it", where=str(folder), fix="Choose another name")
+    if not folder.is_dir():
+        places.claim_folder(folder)
+        folder.mkdir()

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import copy
 from collections.abc import Callable, Generator, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -185,8 +183,8 @@ def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]
         yield
         return
     here = arena(world)
-    before: Any = copy.deepcopy((here.furniture, here.goals))
+    before = here.arrangement()
     try:
         yield
     finally:
-        here.furniture, here.goals = before
+        here.arrange(before)

@@ -32,7 +32,6 @@ def _write(path: Path, doc: Document, names: Sequence[str], times: np.ndarray, v
     variables: list[Any] = []
     for name in names:
         entry, port = find.port(doc, name)
-        node = nodes[entry.id]
-        variables.append((entry, port, node.outs[port] if port in node.outs else node.ins[port], values[name]))
+        variables.append((entry, port, nodes[entry.id].axes(port), values[name]))
     path.parent.mkdir(parents=True, exist_ok=True)
     files.save(dataset(doc, variables, times, None, {}, about), path, force=True)

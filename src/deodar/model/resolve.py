@@ -39,6 +39,10 @@ class Node:
     level: tuple[int, ...] = ()
     declared: bool = True
 
+    def axes(self, port: str) -> Axes:
+        """Axes at a port, an output or an input."""
+        return self.outs[port] if port in self.outs else self.ins[port]
+
     def passes(self, port: str) -> Sequence[str]:
         """Input ports that an output port passes on in the same instant."""
         direct = type(self.element).direct.get(port.removesuffix(WAVES), ())

@@ -16,7 +16,7 @@ from deodar.compiler.plan import Leaf, cost
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
 from deodar.errors import Interrupted, ParameterError, TimeError, WorkerError
-from deodar.leaves import get, leaves
+from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -25,6 +25,7 @@ from deodar.numerics.axes import shape
 from deodar.parameters import real, show
 from deodar.recording.provenance import provenance
 from deodar.runtime import memory, pieces
+from deodar.runtime.driven import driven
 from deodar.runtime.exchange import embodied
 from deodar.runtime.interrupt import stoppable
 from deodar.runtime.run import Run, require_step, whole
@@ -211,7 +212,7 @@ class _Points:
             found = [number for number in map(real, given) if number is not None]
             if not given or len(found) < len(given):
                 raise ParameterError(f"needs a list of numbers, not {show(values)}", where=f"sweep of {path}")
-            self.leaves.append(_driven(doc, path))
+            self.leaves.append(driven(doc, path))
             _require_on(doc, path, self.leaves[-1], values)
             lists.append(found)
         self.lists = lists
@@ -253,21 +254,6 @@ def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequen
             )
 
 
-def _driven(doc: Document, path: str) -> list[Leaf]:
-    found = find.target(doc, path)
-    if found.entry is None:
-        links = next(k.links for k in doc.knobs if k.name == found.knob)
-        if not links:
-            raise ParameterError(f"the document parameter {path!r} drives nothing", fix="Link something to it: model.link(path, name)")
-        return list(links)
-    get(found.entry.element, found.parameter)
-    known = {leaf: p for leaf, _, p in leaves(found.entry.element) if p.form != "array"}
-    inside = [leaf for leaf in known if leaf == found.parameter or leaf.startswith(found.parameter + ".")]
-    if not inside:
-        raise ParameterError("cannot be swept: changing it makes another program", where=path, fix=f"Sweep one of: {', '.join(known)}")
-    return [(found.entry.id, leaf) for leaf in inside]
-
-
 class _Store:
     """Arrays for everything that is recorded, filled as the run goes on."""
 
@@ -305,8 +291,7 @@ def _list(record: Sequence[str] | str) -> list[str]:
 
 def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
     node = next(n for n in nodes if n.id == ident)
-    axes = node.outs[port] if port in node.outs else node.ins[port]
-    return math.prod(shape(axes))
+    return math.prod(shape(node.axes(port)))
 
 
 def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, Sequence[int]]:

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from deodar.errors import WorldError, did_you_mean
-from deodar.parameters import real
 
 WORDS = ("unit", "contact")
 PLACES = {"start": (2, 3), "goal": (2, 2)}
@@ -34,7 +33,7 @@ def asked(argument: str) -> tuple[str, Mapping[str, Any]]:
 
 def _place(name: str, value: str, argument: str) -> list[float]:
     least, most = PLACES[name]
-    numbers = [real(_float(word)) for word in value.split()]
+    numbers = [_float(word) for word in value.split()]
     if not least <= len(numbers) <= most or None in numbers:
         what = "x and y, and a heading in rad if wanted" if most > least else "x and y"
         raise WorldError(f"{name} is {value!r}; it is {what}, with spaces between", where=f"arena:{argument}", fix=f"For example {name}=20 30")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 import math
@@ -173,6 +174,14 @@ class Arena(PureWorld):
         if problems:
             raise WorldError(problems)
         self.goals = goals
+
+    def arrangement(self) -> Any:
+        """All that may be changed while it runs, things and goals, as it is now: for `arrange`."""
+        return copy.deepcopy((self.furniture, self.goals))
+
+    def arrange(self, kept: Any) -> None:
+        """Things and goals as they were."""
+        self.furniture, self.goals = kept
 
     def scene(self) -> Scene:
         """The arena from above, in its unit: what stands in it now for the first copy, its goals, and the vehicle of each copy once it has begun."""
