@@ -21,8 +21,8 @@ export class Observer {
   readonly world = new Live();
   private session = 0;
   private last = 0;
-  private clocks = 0;
-  private answered = 0;
+  /** Whether the clock does not know yet of the newest answer: one ends all that is told at once. */
+  private late = false;
   private ended = "";
   private streams = new Map<string, Stream>();
   private answers = new Map<number, Answer>();
@@ -79,8 +79,7 @@ export class Observer {
   async ask(message: ToServer): Promise<Answer> {
     const request = ++this.last;
     this.say({ ...message, request } as ToServer);
-    // a clock ends what is told at once; the one before it does not know of the answer
-    await this.until(() => this.answers.has(request) && this.clocks > this.answered);
+    await this.until(() => this.answers.has(request) && !this.late);
     return this.answers.get(request) as Answer;
   }
 
@@ -163,7 +162,7 @@ export class Observer {
       }
       case "answer":
         this.answers.set(message.request, message);
-        this.answered = this.clocks;
+        this.late = true;
         break;
       case "scene":
       case "bodies":
@@ -171,7 +170,7 @@ export class Observer {
         break;
       case "clock":
         this.clock = message;
-        this.clocks++;
+        this.late = false;
         this.say({ type: "drawn", frame: message.frame });
         break;
     }

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.element import Setting, Time
 from deodar.elements.moving_gaussian import MovingGaussian
 from deodar.errors import ParameterError
+from tests.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 30, 31), dd.Axis("y", -5, 5, 21)
 RING = dd.Axis("phi", 0, 360, 36, periodic=True)
@@ -63,16 +63,7 @@ def test_without_motion_it_is_the_gaussian_stimulus():
 def test_how_a_run_is_cut_into_chunks_changes_no_bit():
     """Time is kept as the start of a chunk and what has passed since: however it is divided, the same moment shows the same."""
     element = MovingGaussian("s", [X], velocity=0.3, path=[[2, 0], [9, 7]])
-    at, dt = Setting({}, {"output": (X,)}, np.dtype("float32")), np.float32(0.1)
-    constants = element.prepare(at)
-    for tick in range(0, 140, 9):
-        shown = []
-        for first in (0, tick // 3, tick // 2, tick):
-            start = np.float32(first * 0.1)
-            time = Time(start, np.float32(first * 0.1 - float(start)) + np.float32(tick - first) * dt, dt)
-            shown.append(np.asarray(element.output(at, {}, {}, constants, time, None)["output"]))
-        for other in shown[1:]:
-            np.testing.assert_array_equal(other, shown[0])
+    require_the_same_in_any_chunks(element, (X,))
 
 
 def test_a_document_keeps_the_path(tmp_path):

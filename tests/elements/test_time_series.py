@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.element import Setting, Time
 from deodar.elements.time_series import TimeSeries
 from deodar.errors import ModelError, ParameterError
+from tests.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 2, 3)
 TIMES = [2.0, 5.0, 6.0, 10.0]
@@ -68,16 +68,7 @@ def test_numbers_for_a_node_and_a_single_moment():
 def test_how_a_run_is_cut_into_chunks_changes_no_bit(period):
     """Time is kept as the start of a chunk and what has passed since: however it is divided, the same moment shows the same."""
     element = TimeSeries("s", [X, Y], TIMES, VALUES, period=period)
-    at, dt = Setting({}, {"output": (X, Y)}, np.dtype("float32")), np.float32(0.1)
-    constants = element.prepare(at)
-    for tick in range(0, 140, 9):
-        shown = []
-        for first in (0, tick // 3, tick // 2, tick):
-            start = np.float32(first * 0.1)
-            time = Time(start, np.float32(first * 0.1 - float(start)) + np.float32(tick - first) * dt, dt)
-            shown.append(np.asarray(element.output(at, {}, {}, constants, time, None)["output"]))
-        for other in shown[1:]:
-            np.testing.assert_array_equal(other, shown[0])
+    require_the_same_in_any_chunks(element, (X, Y))
 
 
 def test_of_a_function():

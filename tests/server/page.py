@@ -57,7 +57,7 @@ class Page:
         self.clocks = 0
         self._request = 0
         self._answers: dict[int, dict[str, Any]] = {}
-        self._opened = self._answered = 0
+        self._late = False  # whether the clock does not know yet of what was told: one ends all that is told at once
         self._news = asyncio.Event()
 
     async def listen(self) -> None:
@@ -78,16 +78,17 @@ class Page:
         self.said[m["type"]] = m
         if m["type"] == "answer":
             self._answers[m["request"]] = m
-            self._answered = self.clocks
+            self._late = True
         elif m["type"] == "announced":
             self.forms[m["stream"]] = m
             self.frames.pop(m["stream"], None)
         elif m["type"] == "lost":
             self.lost[m["stream"]] = m
         elif m["type"] == "opened":
-            self._opened = self.clocks
+            self._late = True
         elif m["type"] == "clock":
             self.clocks += 1
+            self._late = False
             if self.draws:
                 await self.tell(type="drawn", frame=m["frame"])
 
@@ -100,8 +101,7 @@ class Page:
         self._request += 1
         number = self._request
         await self.tell(type=type, request=number, **message)
-        # a clock ends what is told at once; the one before it does not know of the answer
-        await self.until(lambda: number in self._answers and self.clocks > self._answered)
+        await self.until(lambda: number in self._answers and not self._late)
         return self._answers.pop(number)
 
     async def do(self, type: str, **message: Any) -> dict[str, Any]:
@@ -142,8 +142,7 @@ class Page:
 
     async def runs(self) -> None:
         """Wait until the document that is open is compiled."""
-        # a clock follows what was opened; the one before it told of another document
-        await self.until(lambda: self.said.get("opened", {}).get("document") and self.clocks > self._opened and not self.clock["busy"])
+        await self.until(lambda: self.said.get("opened", {}).get("document") and not self._late and not self.clock["busy"])
 
 
 @contextlib.asynccontextmanager
