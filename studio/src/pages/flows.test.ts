@@ -1,10 +1,9 @@
-import { beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it } from "vitest";
 
-import type { Answer, DocumentView, Kind, ToServer } from "../protocol";
-import { socket } from "../socket";
+import type { DocumentView, Kind } from "../protocol";
 import { useStudio } from "../store";
-import { type Asked, useDialogs } from "./dialogs";
 import { choosePicture, leave, open, save, saveAs, takeFile } from "./flows";
+import { fresh, notices, person, sent, server } from "./scripted";
 
 const document: DocumentView = {
   file: "", title: "selection", time_unit: "ms", dt: null, notes: "", axes: [], elements: [], connections: [], groups: [], knobs: [],
@@ -14,42 +13,11 @@ const picture: Kind = {
   name: "Picture", room: "worlds", title: "Picture", equation: [], reference: "", parameters: [], ports: {}, levels: {}, example: null,
 };
 
-let sent: ToServer[];
-let leaves = () => {};
-
-// A server that gives these answers in turn, and then says that all is done.
-function server(...answers: Partial<Answer>[]): void {
-  vi.spyOn(socket, "ask").mockImplementation(async (message) => {
-    sent.push(message);
-    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null };
-  });
-}
-
-// A person who gives these answers in turn. Answers with the questions that stood there.
-function person(...answers: unknown[]): Asked[] {
-  const questions: Asked[] = [];
-  leaves = useDialogs.subscribe(({ asked }) => {
-    if (asked !== null) {
-      questions.push(asked);
-      queueMicrotask(() => (asked.answer as (answer: unknown) => void)(answers.shift()));
-    }
-  });
-  return questions;
-}
-
 function given(state: Partial<DocumentView>): void {
   useStudio.setState({ document: { ...document, ...state } });
 }
 
-const notices = () => useStudio.getState().notices.map((n) => `${n.level}: ${n.problem.what}`);
-
-beforeEach(() => {
-  sent = [];
-  useStudio.setState(useStudio.getInitialState(), true);
-  leaves();
-  useDialogs.setState(useDialogs.getInitialState(), true);
-  vi.restoreAllMocks();
-});
+beforeEach(fresh);
 
 describe("leaving a document", () => {
   it("asks nothing where all is saved", async () => {

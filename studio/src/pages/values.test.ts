@@ -1,43 +1,9 @@
-import { beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it } from "vitest";
 
-import type { Answer, ToServer } from "../protocol";
-import { socket } from "../socket";
-import { useStudio } from "../store";
-import { type Asked, useDialogs } from "./dialogs";
+import { fresh, notices, person, sent, server } from "./scripted";
 import { takeValues, takenText } from "./values";
 
-let sent: ToServer[];
-let leaves = () => {};
-
-// A server that gives these answers in turn, and then says that all is done.
-function server(...answers: Partial<Answer>[]): void {
-  vi.spyOn(socket, "ask").mockImplementation(async (message) => {
-    sent.push(message);
-    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null };
-  });
-}
-
-// A person who gives these answers in turn. Answers with the questions that stood there.
-function person(...answers: unknown[]): Asked[] {
-  const questions: Asked[] = [];
-  leaves = useDialogs.subscribe(({ asked }) => {
-    if (asked !== null) {
-      questions.push(asked);
-      queueMicrotask(() => (asked.answer as (answer: unknown) => void)(answers.shift()));
-    }
-  });
-  return questions;
-}
-
-const notices = () => useStudio.getState().notices.map((n) => `${n.level}: ${n.problem.what}`);
-
-beforeEach(() => {
-  sent = [];
-  useStudio.setState(useStudio.getInitialState(), true);
-  leaves();
-  useDialogs.setState(useDialogs.getInitialState(), true);
-  vi.restoreAllMocks();
-});
+beforeEach(fresh);
 
 describe("taking over the values of a file", () => {
   it("says how many there were, where everything matched", async () => {

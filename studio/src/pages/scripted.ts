@@ -1,0 +1,42 @@
+// A server and a person that answer as a test says, and what was asked of them.
+
+import { vi } from "vitest";
+import type { Answer, ToServer } from "../protocol";
+import { socket } from "../socket";
+import { useStudio } from "../store";
+import { type Asked, useDialogs } from "./dialogs";
+
+// What was sent to the server since `fresh`.
+export const sent: ToServer[] = [];
+let leaves = () => {};
+
+// A server that gives these answers in turn, and then says that all is done.
+export function server(...answers: Partial<Answer>[]): void {
+  vi.spyOn(socket, "ask").mockImplementation(async (message) => {
+    sent.push(message);
+    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null };
+  });
+}
+
+// A person who gives these answers in turn. Answers with the questions that stood there.
+export function person(...answers: unknown[]): Asked[] {
+  const questions: Asked[] = [];
+  leaves = useDialogs.subscribe(({ asked }) => {
+    if (asked !== null) {
+      questions.push(asked);
+      queueMicrotask(() => (asked.answer as (answer: unknown) => void)(answers.shift()));
+    }
+  });
+  return questions;
+}
+
+export const notices = () => useStudio.getState().notices.map((n) => `${n.level}: ${n.problem.what}`);
+
+// Nothing asked, nothing told, as before the first test.
+export function fresh(): void {
+  sent.length = 0;
+  useStudio.setState(useStudio.getInitialState(), true);
+  leaves();
+  useDialogs.setState(useDialogs.getInitialState(), true);
+  vi.restoreAllMocks();
+}
