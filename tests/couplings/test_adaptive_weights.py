@@ -34,3 +34,13 @@ def test_the_rule(gated, apart):
         gate = 1.0 if not gated or 2 <= step * 0.5 < 3 else 0.0
         w = w + 0.5 * 0.1 * gate * (POST - w) * (OTHER if apart else PRE)[:, None]
     assert np.allclose(learned(gated, apart), out, rtol=0, atol=1e-14)
+
+
+def test_a_negative_gate_counts_as_zero():
+    model = dd.Model("learning")
+    out = model.add(AdaptiveWeights([Z], rate=0.1, initial=0.2, gated=True, name="w"))
+    model.connect(model.add(Pattern("pre", [X], PRE)), out["input"])
+    model.connect(model.add(Pattern("post", [Z], POST)), out["post"])
+    model.connect(model.add(Boost("gate", (), -1.0)), out["gate"])
+    y = dd.simulate(model, 5, record=["w.output"], precision="float64")["w.output"].values
+    assert np.allclose(y, X.step * PRE.sum() * 0.2, rtol=0, atol=1e-14)

@@ -191,3 +191,20 @@ def test_color_space_of_a_picture():
     for code in codes:
         reference = plain.color_space(pixels, [x, y, channel], code)
         np.testing.assert_allclose(data[f"{code.name}.output"].values[0], reference, rtol=1e-9, atol=1e-12, err_msg=code.name)
+
+
+@pytest.mark.parametrize("sigma", [0, 31])
+def test_the_integral_of_a_color_space_is_independent_of_the_sampling_of_hue(sigma):
+    from deodar.elements.pattern import Pattern
+
+    pixels = np.random.default_rng(5).random((6, 5, 3))
+    x, y, channel = dd.Axis("x", 0, 5, 6), dd.Axis("y", 0, 4, 5), dd.Axis("channel", 0, 2, 3)
+    model = dd.Model("colours")
+    picture = model.add(Pattern("picture", [x, y, channel], pixels))
+    for samples in (12, 24, 48):
+        code = model.add(ColorSpace([x, y, dd.Axis("hue", 0, 360, samples, periodic=True)], sigma, name=f"code{samples}"))
+        model.connect(picture, code)
+        model.connect(code, model.add(dd.Project([], name=f"total{samples}")))
+    data = dd.simulate(model, 1, record=[f"total{n}.output" for n in (12, 24, 48)], precision="float64")
+    totals = [float(data[f"total{n}.output"][0]) for n in (12, 24, 48)]
+    np.testing.assert_allclose(totals, totals[-1], rtol=2e-3)

@@ -102,7 +102,7 @@ def color_space(picture, source, p):
             continue
         for k, hue in enumerate(hues):
             away = min(abs(hue - hue_axis.lower - h * period + m * period) for m in (-1, 0, 1))
-            votes[i, j, k] = s * (math.exp(-(away**2) / (2 * p.sigma**2)) if p.sigma else max(0.0, 1 - away / step))
+            votes[i, j, k] = s * (math.exp(-(away**2) / (2 * p.sigma**2)) if p.sigma else max(0.0, 1 - away / step) / step)
     out = np.zeros(tuple(a.samples for a in p.axes))
     x, y = [_members(a, b) for a, b in zip(source[:2], p.axes[:2], strict=True)]
     for i, j in np.ndindex(*out.shape[:2]):

@@ -36,7 +36,7 @@ class AdaptiveWeights(Coupling):
     Ports:
         input: any axes.
         post: what the weights learn, over `axes`.
-        gate: one number; only where `gated`.
+        gate: one number; only where `gated`. Below 0 it counts as 0.
         pre: what decides which weights learn, over the axes of the input; only where `apart`.
         output: over `axes`; it follows the input in the same instant, with the weights learned so far.
 
@@ -82,7 +82,7 @@ class AdaptiveWeights(Coupling):
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         x, w = inputs["pre" if self.apart else "input"], state["weights"]
-        speed = self.rate * inputs["gate"] if self.gated else self.rate
+        speed = self.rate * jnp.maximum(inputs["gate"], 0.0) if self.gated else self.rate
         pre = x.reshape(x.shape + (1,) * len(self.axes))
         return {"weights": w + time.dt * speed * (inputs["post"] - w) * pre}
 

@@ -24,17 +24,19 @@ class ColorSpace(Coupling):
 
     Equation:
         y(x, hue) = mean over the pixels p of the cell of S(p) * w(hue - H(p)), with hue H and saturation S of each pixel;
-        S counts as 0 where the value is below `darkest`; w is the two nearest hues, or exp(-d^2 / (2 sigma^2)).
+        S counts as 0 where the value is below `darkest`. w(d) = exp(-d^2 / (2 sigma^2)); for sigma = 0 w is a density of
+        integral 1, max(0, 1 - |d| / step) / step, which divides S between the two nearest samples.
 
     Parameters:
         axes: the picture's two dimensions (their sampling may be coarser than the picture's) and hue last; hue is periodic.
-        sigma: width of the code along hue, in units of the hue axis; 0: the hue itself (shared by its two neighbours).
+        sigma: width of the code along hue, in units of the hue axis; 0: the hue itself (divided between its two neighbours).
         darkest: value (largest channel, 0 to 1) below which a pixel has no colour: its saturation is mostly noise.
 
     Ports:
         input: picture over the same two dimensions and a last axis of three samples, the channels red, green and blue,
             values 0 to 1.
-        output: over `axes`, 0 to 1.
+        output: over `axes`; 0 to 1, for sigma = 0 per unit of the hue axis, 0 to 1 / step. Its integral over hue does not depend on the
+            sampling of hue.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 11 and the smoothing after it. Hue and
@@ -71,7 +73,7 @@ class ColorSpace(Coupling):
         saturation = jnp.where(value < self.darkest, 0.0, saturation)
         distance = from_hues(hue_axis, turn, at.dtype)
         if is_neutral(self.sigma):
-            code = jnp.maximum(0.0, 1.0 - jnp.abs(distance) / hue_axis.step)
+            code = jnp.maximum(0.0, 1.0 - jnp.abs(distance) / hue_axis.step) / hue_axis.step
         else:
             code = jnp.exp(-0.5 * (distance / self.sigma) ** 2)
         y = saturation[..., None] * code

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-import jax.numpy as jnp
+import jax
 
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
@@ -36,5 +36,5 @@ class Logistic(Sigmoid):
     threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
 
     def __call__(self, u: Any) -> Any:
-        # the same function as 1 / (1 + exp(..)), in the form that vectorises best and cannot overflow
-        return 0.5 + 0.5 * jnp.tanh(0.5 * self.beta * (u - self.threshold))
+        # by tanh it would be exactly 0 in single precision where it should be 1e-8 and less
+        return jax.nn.sigmoid(self.beta * (u - self.threshold))
