@@ -34,7 +34,8 @@ def toy(monkeypatch, tmp_path):
         claims = [Claim("trials", len(rows), f">= {paper.least}", len(rows) >= paper.least, n=len(rows)), Claim("heard", None, "?", None, "reported")]
         return Report(claims, {"nothing": Figure((1, 1))}, {"table": "| a |\n"})
 
-    paper.jobs, paper.report, paper.about = jobs, report, lambda quick: {"paper": "toy", "quick": quick}
+    paper.jobs, paper.report, paper.BY_CONDITION = jobs, report, ("runs",)
+    paper.about = lambda quick: {"paper": "toy", "quick": quick, "runs": {"d": 6}}
     monkeypatch.setattr(papers, "names", lambda: ["toy"])
     monkeypatch.setattr(papers, "paper", lambda name: paper)
     monkeypatch.chdir(tmp_path)
@@ -94,6 +95,15 @@ def test_quick_is_another_experiment(toy, capsys):
     assert call("--quick", "--out", "here") == 0
     assert call("--out", "here") == 1
     assert "holds runs of another experiment: quick differ" in capsys.readouterr().err
+
+
+def test_a_folder_is_extended_when_the_paper_has_further_conditions(toy, tmp_path):
+    assert call("--out", "here") == 0
+    jobs = toy.jobs
+    toy.jobs = lambda quick: [*jobs(quick), Job(("e/0",), lambda trial: [{"key": "e/0"}], {"trial": 0})]
+    toy.about, toy.ran = lambda quick: {"paper": "toy", "quick": quick, "runs": {"d": 6, "e": 1}}, []
+    assert call("--out", "here") == 0 and toy.ran == []
+    assert json.loads((tmp_path / "here" / "results.json").read_text())["settings"]["runs"] == 7
 
 
 def test_only_some_conditions(toy, capsys):

@@ -55,6 +55,61 @@ def test_another_experiment_is_refused_and_left_alone(tmp_path):
     assert file.read_bytes() == before
 
 
+SMALL = {"paper": "test", "made_by": {"jax": "1"}, "runs": {"a": 3}, "carrots": {}}
+BY = ("runs", "carrots", "planners")
+
+
+def test_an_experiment_with_further_conditions_resumes_the_file(tmp_path):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, SMALL, BY).append(ROWS)
+    larger = {**SMALL, "runs": {"b": 1, "a": 3}, "planners": {"b": {"reflection": 0.8}}}
+    again = Rows(file, larger, BY)
+    assert list(again.found.values()) == ROWS
+    again.append([{"key": "b/0"}])
+    assert list(Rows(file, larger, BY).found) == ["a/0", "a/1", "a/2", "b/0"]
+    lines = file.read_text().splitlines()
+    assert [k for k, line in enumerate(lines) if '"about"' in line] == [0, 4]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"runs": {"a": 4}}, "runs of a differ"),
+        ({"runs": {"b": 3}}, "runs of a differ"),
+        ({"carrots": {"a": "fast"}}, "carrots of a differ"),
+        ({"planners": {"a": None}}, "planners of a differ"),
+        ({"runs": {"a": 3, "b": 1}, "made_by": {"jax": "2"}}, "made_by differ"),
+        ({"runs": {"a": 3, "b": 1}, "limit": 4}, "limit differ"),
+    ],
+)
+def test_a_condition_with_other_settings_or_another_version_is_refused(tmp_path, change, words):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, SMALL, BY).append(ROWS)
+    before = file.read_bytes()
+    with pytest.raises(OutputExists, match=words):
+        Rows(file, SMALL | change, BY)
+    assert file.read_bytes() == before
+
+
+def test_without_names_of_conditions_an_entry_must_be_equal(tmp_path):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, SMALL).append(ROWS)
+    with pytest.raises(OutputExists, match="runs differ"):
+        Rows(file, SMALL | {"runs": {"a": 3, "b": 1}})
+
+
+@pytest.mark.parametrize("cut", [1, 20, 60])
+def test_an_extension_that_is_cut_off_is_extended_again(tmp_path, cut):
+    file = tmp_path / "runs.jsonl"
+    Rows(file, SMALL, BY).append(ROWS)
+    larger = SMALL | {"runs": {"a": 3, "b": 1}}
+    Rows(file, larger, BY)
+    whole = file.read_bytes()
+    file.write_bytes(whole[:-cut])
+    assert list(Rows(file, larger, BY).found.values()) == ROWS
+    assert file.read_bytes() == whole
+
+
 @pytest.mark.parametrize("text", ["hello", '{"key": 1}\n', "[1]\n", '{"about": {}}\nhello\n'])
 def test_what_holds_no_rows_is_refused_and_left_alone(tmp_path, text):
     file = tmp_path / "runs.jsonl"

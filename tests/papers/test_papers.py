@@ -22,6 +22,8 @@ def test_a_paper_is_what_the_command_needs(name, quick):
     again = pickle.loads(pickle.dumps(jobs))  # they travel to workers
     assert [job.arguments for job in again] == [dict(json.loads(json.dumps(job.arguments))) for job in jobs]
     assert json.loads(json.dumps(paper.about(quick))) == json.loads(json.dumps(paper.about(quick)))
+    named = {name for entry in paper.BY_CONDITION for name in paper.about(quick)[entry]}
+    assert named == {key.rpartition("/")[0] for key in keys}
 
 
 @pytest.mark.parametrize("name", papers.names())

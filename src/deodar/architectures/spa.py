@@ -136,14 +136,17 @@ def level(noise: str) -> tuple[float, float, float]:
     return NOISE[noise]
 
 
-def spa(arena: Arena, noise: str = "low") -> Model:
+def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> Model:
     """The architecture for an arena; it is run in this one, or in another of the same size and unit.
 
     Args:
         arena: says how large the planning fields are, and in which unit places are read; `maze` makes the published ones.
         noise: none, low or high: on the map, and how strong the place input is. That of the place sense itself is the arena's.
+        place_factor: factor on the place input. None takes that of the level of noise: 1.2 with high noise, 1 otherwise. The paper does not
+            mention the 1.2; the published code has it.
     """
-    on_map, _, trust = level(noise)
+    on_map, _, by_level = level(noise)
+    trust = by_level if place_factor is None else place_factor
     axes = space(arena)
     model = Model("simultaneous planning and action", time_unit="1 = 64 ms", dt=1.0)
     model.describe(notes="Billing, Lowe & Sandamirskaya (2015), figure 4. Run it in an arena with a goal; time is in steps of 64 ms.")

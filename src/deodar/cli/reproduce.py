@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 HELP = "run the experiments of a paper again, and check what it says"
 EPILOG = """What is done is kept after each run: Ctrl-C, or a machine that goes down, loses nothing. The same call with --out FOLDER goes on,
-with the same results as if nothing had happened."""
+with the same results as if nothing had happened. A folder that has only some of the conditions is extended by the others."""
 
 ROWS = "runs.jsonl"
 RESULTS = "results.json"
@@ -31,7 +31,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
     parser.epilog = EPILOG
     parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.names())}")
-    parser.add_argument("--quick", action="store_true", help="20 runs of each condition; a claim is false only where they exclude it")
+    parser.add_argument("--quick", action="store_true", help="at most 20 runs of each condition; a claim is false only where they exclude it")
     parser.add_argument("--only", nargs="+", default=[], metavar="CONDITION", help="only conditions whose names begin so, for example z/carrot")
     parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to go on with (default: PAPER-001, PAPER-002, ... here)")
     parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the runs among N processes of one core each")
@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
     paper = papers.paper(args.paper)
     jobs = _chosen(args, paper.jobs(args.quick))
     out: Path = args.out or places.free(Path.cwd(), args.paper)
-    rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())})
+    rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())}, paper.BY_CONDITION)
     try:
         with Bar(args.no_progress or args.json, "runs") as bar:
             carry_out(jobs, rows, bar.show, args.workers or None)
@@ -76,12 +76,12 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
     return [job for job in jobs if not args.only or job.keys[0].startswith(tuple(args.only))]
 
 
-def _open(out: Path, about: Mapping[str, Any]) -> Rows:
+def _open(out: Path, about: Mapping[str, Any], by_condition: Sequence[str]) -> Rows:
     """The rows in a folder: a new one, or one that an earlier call began; another folder is left alone."""
     from deodar.experiments.rows import Rows, claim
 
     claim(out, ROWS, "a reproduction")
-    return Rows(out / ROWS, about)
+    return Rows(out / ROWS, about, by_condition)
 
 
 def _write(args: argparse.Namespace, out: Path, report: Report, settings: Mapping[str, Any]) -> int:

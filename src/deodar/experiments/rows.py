@@ -1,10 +1,10 @@
-"""The rows of an experiment in a file: appended as trials end, and read again when it goes on after whatever stopped it."""
+"""The rows of an experiment in a file: appended as trials end, and read again when the experiment is resumed or extended."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,11 +20,14 @@ ABOUT, KEY = "about", "key"
 class Rows:
     """A file of JSON lines: first what makes the experiment, then a row for each trial that has ended.
 
-    A file that is there is gone on with, if it is of the same experiment. A last line that was cut off when a process died is dropped.
+    An existing file is resumed if it holds the same experiment, or the same experiment with fewer conditions: then a second line of what makes
+    the experiment is appended, and the rows of the new conditions follow it. A last line that was cut off when a process died is dropped.
 
     Args:
         path: the file; it is made where there is none.
         about: what makes the experiment, as plain data: rows of another one are never mixed with these.
+        by_condition: names of the entries of `about` that map names of conditions to their settings. A condition that the file has must have
+            the same settings in all of these entries; a condition that the file does not have is an extension. Every other entry must be equal.
 
     Attributes:
         found: rows by their keys.
@@ -35,7 +38,7 @@ class Rows:
         OutputError: it cannot be written.
     """
 
-    def __init__(self, path: Path, about: Mapping[str, Any]) -> None:
+    def __init__(self, path: Path, about: Mapping[str, Any], by_condition: Sequence[str] = ()) -> None:
         self.path = path
         self.found: dict[str, Row] = {}
         told = json.loads(json.dumps({ABOUT: about}))
@@ -46,10 +49,13 @@ class Rows:
             return
         if not isinstance(lines[0].get(ABOUT), dict):
             raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
-        if lines[0] != told:
-            changed = sorted(k for k in {*told[ABOUT], *lines[0][ABOUT]} if told[ABOUT].get(k) != lines[0][ABOUT].get(k))
+        made = [line[ABOUT] for line in lines if KEY not in line][-1]
+        changed = different(told[ABOUT], made, by_condition)
+        if changed:
             raise OutputExists(f"holds runs of another experiment: {', '.join(changed)} differ", where=str(path), fix="Choose another name")
-        self.found = {row[KEY]: row for row in lines[1:]}
+        if made != told[ABOUT]:
+            self._write(json.dumps(told) + "\n", "a")
+        self.found = {row[KEY]: row for row in lines if KEY in row}
 
     def append(self, rows: Iterable[Row]) -> None:
         """Keep rows, on the disk when this returns; those of a key that is there already are left out."""
@@ -69,7 +75,7 @@ class Rows:
                 found = json.loads(line)
             except ValueError:
                 found = None
-            if not isinstance(found, dict) or (number > 1 and KEY not in found):
+            if not isinstance(found, dict) or (number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)):
                 raise RecordError(f"line {number} is no row", where=str(self.path), fix="Take that line out, and the trial is run again")
             lines.append(found)
         if whole < len(content):
@@ -87,6 +93,22 @@ class Rows:
                 os.fsync(file.fileno())
         except OSError as error:
             raise OutputError(f"cannot be written: {error.strerror or error}", where=str(self.path)) from None
+
+
+def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:
+    """The entries in which a design differs from the one that rows were made with; of entries by condition those of conditions with rows.
+
+    Args:
+        new: what makes the experiment now.
+        made: what made it when the rows were run.
+        by_condition: names of the entries that map names of conditions to settings.
+    """
+    changed = [k for k in {*new, *made} - {*by_condition} if new.get(k) != made.get(k)]
+    known = {name for k in by_condition for name in made.get(k, {})}
+    for k in by_condition:
+        now, then = new.get(k, {}), made.get(k, {})
+        changed += [f"{k} of {name}" for name in known if (name in now, now.get(name)) != (name in then, then.get(name))]
+    return sorted(changed)
 
 
 def claim(folder: Path, file: str, of: str) -> None:

@@ -8,7 +8,7 @@ import pytest
 from deodar.analysis.paths import clearance, length
 from deodar.analysis.shortest import shortest
 from deodar.architectures.spa import place
-from deodar.papers.spa import cases, pairs
+from deodar.papers.spa import cases, pairs, trials
 from deodar.worlds.arena import Arena
 
 
@@ -85,3 +85,25 @@ def test_obstacles_stand_where_the_paper_has_them(what, rows, columns):
     np.testing.assert_allclose(np.asarray(thing.box) * 100, [*low, *high])
     onset, duration = cases.windows(what)[7]
     assert tuple(times[7]) == (onset, onset + duration)
+
+
+def test_the_design_grows_by_the_planner_under_other_terms():
+    found = {name: c for name, c in cases.conditions(False).items() if c.terms and c.method == "planner"}
+    kinds = ["sticking-planner/low", "sticking-planner/high", "factor-1.0-planner/high", "reflection-0.8-planner/low", "reflection-1.0-planner/low"]
+    assert list(found) == [f"{maze}/{kind}" for maze in ("z", "large") for kind in kinds]
+    assert [len(c.trials) for c in found.values()] == [96] * 5 + [40] * 5
+    assert cases.design(False)["planners"] == {name: c.terms for name, c in found.items()}
+    assert found["z/sticking-planner/low"].terms == {"contact": "stick"} and found["large/reflection-1.0-planner/low"].terms == {"reflection": 1.0}
+    assert found["z/factor-1.0-planner/high"].terms == {"factor": 1.0}
+
+
+def test_the_terms_reach_the_world_and_the_model():
+    found = cases.conditions(False)
+    assert cases.world(found["large/reflection-0.8-planner/low"]).reflection == 0.8
+    assert cases.world(found["z/planner/low"]).reflection == 0.6
+    assert cases.world(found["z/sticking-planner/high"]).contact == "stick"
+    strengths = {}
+    for name in ("z/factor-1.0-planner/high", "z/planner/high", "z/planner/low"):
+        model = trials._bench(name, False)[1]
+        strengths[name] = model["own place"].element.amplitude
+    assert strengths == {"z/factor-1.0-planner/high": 8.0, "z/planner/high": pytest.approx(9.6), "z/planner/low": 8.0}

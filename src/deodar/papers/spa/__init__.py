@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 HELP = "Billing, Lowe & Sandamirskaya (2015): a robot plans its way through two mazes while it drives"
 
+BY_CONDITION = ("runs", "carrots", "planners")
+"""Entries of `about` that map names of conditions to their settings."""
+
 
 def about(quick: bool) -> dict[str, Any]:
     """What makes the design: rows of another one are not mixed with its own."""

@@ -112,7 +112,7 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
 def _bench(name: str, quick: bool) -> tuple[Arena, Model]:
     c = cases.conditions(quick)[name]
     arena = cases.world(c)
-    return arena, spa(arena, c.noise)
+    return arena, spa(arena, c.noise, c.factor)
 
 
 def _row(c: Condition, trial: int, pose: np.ndarray, touching: np.ndarray, goal: Any, best: np.ndarray | None, arena: Arena) -> Row:
