@@ -157,6 +157,10 @@ class Element(Part):
         """What does not fit between the parameters and the axes at the ports, with what to type if it is not another connection."""
         return iter(())
 
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        """What is probably a mistake, although it runs: (what is wrong and why, what to type). Called only where nothing is a misfit."""
+        return iter(())
+
     def kernels(self) -> Sequence[Kernel]:
         """The kernels it convolves with, whose way of being applied is chosen before it is compiled."""
         return ()

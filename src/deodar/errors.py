@@ -9,16 +9,22 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
+
+Severity = Literal["problem", "warning"]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong: where it stands, what it is, and what to type instead."""
+    """One thing that is wrong: where it stands, what it is, and what to type instead.
+
+    A `problem` stops a run. A `warning` never does: the model runs, but probably not as it was meant.
+    """
 
     where: str
     what: str
     fix: str = ""
+    severity: Severity = "problem"
 
     def __str__(self) -> str:
         text = f"{self.where}: {self.what}" if self.where else self.what

@@ -38,6 +38,11 @@ def modules(room: str) -> list[str]:
     return [f"deodar.{room}.{name}" for name in sorted(names) if not name.startswith("_")]
 
 
+def imported(room: str) -> list[Any]:
+    """The modules of an extension folder themselves, in the order of their names."""
+    return [importlib.import_module(name) for name in modules(room)]
+
+
 def kinds(room: str | None = None) -> dict[str, type[Any]]:
     """Every registered kind by name, or those declared in one room; a user's own kinds belong to the room None."""
     for each in ROOMS:

@@ -416,12 +416,13 @@ export type Play = {
   request?: number;
 };
 
-// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one. A warning stops no run.
 export type Problem = {
   what: string;
   where?: string;
   fix?: string;
   element?: string;
+  severity?: "problem" | "warning";
 };
 
 // Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same where it is None.

@@ -53,7 +53,7 @@ def test_json_of_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert cli.main(["check", str(_bad(tmp_path / "m.json")), "--json"]) == 1
     found = json.loads(capsys.readouterr().out)["problems"]
     assert [p["where"] for p in found] == ["v", "loose"]
-    assert all(set(p) == {"where", "what", "fix"} and p["fix"] for p in found)
+    assert all(set(p) == {"severity", "where", "what", "fix"} and p["fix"] for p in found)
 
 
 def test_json_of_a_file_that_cannot_be_read_lists_its_problems_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -70,3 +70,27 @@ def test_checking_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[s
     cli.main(["check", str(tmp_path / "m.json")])
     assert sorted(tmp_path.iterdir()) == before
     capsys.readouterr()
+
+
+def _doubtful(path: Path) -> Path:
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(dd.Field("u", [X]))
+    dd.save(model, path)
+    return path
+
+
+def test_warnings_are_listed_and_leave_the_status_at_0(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = _doubtful(tmp_path / "m.json")
+    assert cli.main(["check", str(path)]) == 0
+    first, last = capsys.readouterr().out.splitlines()
+    assert first.startswith("warning: left: ") and last == f"{path}: no problem, 1 warning. 2 elements, 1 connections."
+
+
+def test_strict_counts_warnings_as_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = _doubtful(tmp_path / "m.json")
+    assert cli.main(["check", str(path), "--strict"]) == 1
+    assert capsys.readouterr().out.startswith("warning: left: ")
+    assert cli.main(["check", str(path), "--strict", "--json"]) == 1
+    (found,) = json.loads(capsys.readouterr().out)["problems"]
+    assert found["severity"] == "warning" and found["where"] == "left"
+    assert cli.main(["check", str(_good(tmp_path / "good.json")), "--strict"]) == 0

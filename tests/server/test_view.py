@@ -68,6 +68,13 @@ def test_a_document_with_problems_is_shown_with_them() -> None:
     assert seen.problems and len(seen.elements) == 5
 
 
+def test_a_warning_is_shown_as_one() -> None:
+    made = dd.Model("m")
+    made.add(dd.GaussianStimulus("s", [X], center=5, windows=[(100, 100)])) >> made.add(dd.Field("u", [X]))
+    (found,) = shown(made).problems
+    assert found.severity == "warning" and found.element == made["s"].id
+
+
 @pytest.mark.parametrize(
     ("parameter", "value"),
     [

@@ -11,17 +11,20 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from deodar.errors import Problem
 
-HELP = "list everything that is wrong with a document, each with its path"
+HELP = "list everything that is wrong with a document, and what is probably a mistake, each with its path"
+EPILOG = """A problem stops a run; a warning never does. Status 1 if there is a problem, or, with --strict, a warning."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
+    parser.epilog = EPILOG
     parser.add_argument("file", type=Path, metavar="FILE", help="a document (.json)")
+    parser.add_argument("--strict", action="store_true", help="count warnings as problems: status 1")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if there is any problem."""
+    """Status 1 if there is any problem; if `--strict`, for warnings too."""
     from deodar.errors import DocumentError
     from deodar.importers.opening import load
 
@@ -32,16 +35,20 @@ def run(args: argparse.Namespace) -> int:
             raise
         print(_json(error.problems))
         return 1
-    problems = model.check()
+    found = model.check()
+    failed = any(args.strict or p.severity == "problem" for p in found)
     if args.json:
-        print(_json(problems))
-    elif problems:
-        print("\n".join(str(p) for p in problems))
-    else:
-        d = model.document
-        print(f"{args.file}: good. {len(d.entries)} elements, {len(d.connections)} connections.")
-    return 1 if problems else 0
+        print(_json(found))
+        return int(failed)
+    for p in found:
+        print(f"warning: {p}" if p.severity == "warning" else p)
+    if not failed:
+        d, n = model.document, len(found)
+        good = f"no problem, {n} warning{'s' if n > 1 else ''}" if found else "good"
+        print(f"{args.file}: {good}. {len(d.entries)} elements, {len(d.connections)} connections.")
+    return int(failed)
 
 
-def _json(problems: Sequence[Problem]) -> str:
-    return json.dumps({"problems": [{"where": p.where, "what": p.what, "fix": p.fix} for p in problems]}, indent=2, ensure_ascii=False)
+def _json(found: Sequence[Problem]) -> str:
+    listed = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in found]
+    return json.dumps({"problems": listed}, indent=2, ensure_ascii=False)

@@ -42,13 +42,14 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None and not failed:
         save(done.model, args.out, args.force)
     if args.json:
-        found = [{"where": p.where, "what": p.what, "fix": p.fix} for p in problems]
+        found = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
         written = str(args.out) if args.out is not None and not failed else None
         print(json.dumps({**done.report.data(), "problems": found, "out": written}, indent=2, ensure_ascii=False))
         return int(failed)
     _show(done.report)
-    if problems:
-        print("It does not run as it is:\n" + "\n".join(f"  {p}" for p in problems))
+    for severity, title in (("problem", "It does not run as it is:"), ("warning", "It runs, but this is probably a mistake:")):
+        if listed := [f"  {p}" for p in problems if p.severity == severity]:
+            print("\n".join([title, *listed]))
     if failed:
         print("Nothing was written: --strict.")
     elif args.out is not None:

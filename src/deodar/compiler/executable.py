@@ -24,7 +24,7 @@ from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Port, Program, array_key, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
 from deodar.leaves import leaves, resting, structure
-from deodar.model.check import check
+from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
@@ -357,9 +357,10 @@ def executable(
     ways = () if exact else tuple(ways_of(doc, lifted, batch.size, body is not None).items())
     key = (signature(doc), ways, outside, precision, exact, batch, tuple(map(tuple, sweep)), neutral, devices.name(place), body and body.key)
     if key not in model.programs:
-        problems = model.check() if doc is model.document else check(doc)
-        if problems:
-            raise ModelError(problems)
+        if doc is model.document:
+            model.require()
+        elif found := problems(doc):
+            raise ModelError(found)
         made = Executable(doc, precision, batch, sweep, place, exact, body)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
@@ -27,6 +27,19 @@ class Stimulus(Element):
     def pattern(self, at: Setting) -> Any:
         """The stimulus while it is on, over its axes."""
         raise NotImplementedError
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        for k, w in enumerate(self.windows):
+            if w.stop < w.start:
+                yield (
+                    f"windows.{k} ends at {w.stop:g}, before it begins at {w.start:g}, so it is never on",
+                    f"Write start and stop: ({w.stop:g}, {w.start:g}), or ({w.start:g}, {w.start + w.stop:g}) if {w.stop:g} is its duration",
+                )
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        for k, w in enumerate(self.windows):
+            if w.stop == w.start:
+                yield f"windows.{k} begins and ends at {w.start:g}, so it is never on", "Give it a stop after its start, or leave it out"
 
     def steady(self) -> bool:
         return not self.windows

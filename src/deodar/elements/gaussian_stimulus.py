@@ -52,7 +52,8 @@ class GaussianStimulus(Stimulus):
         Recompile(choices=("periodic", "zero"), meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides"),
     ] = dc.field(default=None, kw_only=True)
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        yield from super().misfits(ins)
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes"
 

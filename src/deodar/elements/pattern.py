@@ -43,7 +43,8 @@ class Pattern(Stimulus):
     values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        yield from super().misfits(ins)
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         if given != shape(self.axes):
             yield f"values has shape {list(given)}, its axes have {list(shape(self.axes))} samples", "Give values of that shape"

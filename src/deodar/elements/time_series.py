@@ -66,7 +66,8 @@ class TimeSeries(Stimulus):
         elif (np.diff(times) <= 0).any():
             yield "times", "does not rise; each moment is later than the one before"
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        yield from super().misfits(ins)
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         needed = (*(self.times.shape if isinstance(self.times, FrozenArray) else ()), *shape(self.axes))
         if given != needed:

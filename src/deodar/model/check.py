@@ -2,15 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from deodar.errors import Problem
 from deodar.model.document import Document
 from deodar.model.order import order
-from deodar.model.resolve import resolve
+from deodar.model.resolve import Node, resolve
+from deodar.model.wiring import Wiring
+from deodar.registry import imported
 
 
 def check(doc: Document) -> list[Problem]:
-    """All problems; none means that it compiles."""
-    nodes, problems = resolve(doc)
-    if not problems:
-        problems = order(nodes)[1]
-    return problems
+    """All problems of the structure; where there is none, what the single checks find: warnings, and problems of the document's own step."""
+    found, nodes = _structure(doc)
+    return found or judge(doc, nodes)
+
+
+def problems(doc: Document) -> list[Problem]:
+    """What stops every run, whatever its step: no warnings. None means that the document compiles."""
+    return _structure(doc)[0]
+
+
+def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
+    """What elements say about themselves, and what the files of `checks` find in the graph, in the order of the elements."""
+    wiring = Wiring(doc, nodes)
+    found = [Problem(n.path, what, fix, "warning") for n in wiring.declared for what, fix in n.element.warnings(n.ins)]
+    for family in imported("model.checks"):
+        found += family.check(wiring)
+    place = {e.path: k for k, e in enumerate(doc.entries)}
+    return sorted(dict.fromkeys(found), key=lambda p: (p.severity, place.get(p.where, len(place))))
+
+
+def _structure(doc: Document) -> tuple[list[Problem], list[Node]]:
+    nodes, found = resolve(doc)
+    return found or order(nodes)[1], nodes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import html
 import sys
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
 from deodar.leaves import get
 from deodar.model import edit, files, find, uses
-from deodar.model.check import check
+from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
 from deodar.model.paths import Names, display, quote, readings, split
 from deodar.parameters import show
@@ -260,15 +260,14 @@ class Model:
         return iter([Handle(self, e.id) for e in self.document.entries])
 
     def check(self) -> list[Problem]:
-        """Everything that is wrong, each with its path and the line that declared it; none means that it runs."""
-        where = {e.path: self.declared.get(e.id, "") for e in self.document.entries}
-        return [Problem(f"{p.where} ({where[p.where]})" if where.get(p.where) else p.where, p.what, p.fix) for p in check(self.document)]
+        """Problems and warnings, each with its path and the line that declared it; without a problem it runs."""
+        return self._placed(check(self.document))
 
     def require(self) -> None:
-        """Raise with every problem, if there is any."""
-        problems = self.check()
-        if problems:
-            raise ModelError(problems)
+        """Raise a `ModelError` with every problem that stops a run, if there is any; warnings do not count."""
+        found = self._placed(problems(self.document))
+        if found:
+            raise ModelError(found)
 
     def to_json(self) -> str:
         """The document as JSON text (arrays by name only; `save` writes them beside it)."""
@@ -290,6 +289,10 @@ class Model:
         return f"<b>{html.escape(self.name)}</b><table>{head}{rows}</table>"
 
     # -------------------------------------------------------------------------------- inside
+
+    def _placed(self, found: Sequence[Problem]) -> list[Problem]:
+        where = {e.path: self.declared.get(e.id, "") for e in self.document.entries}
+        return [dc.replace(p, where=f"{p.where} ({where[p.where]})") if where.get(p.where) else p for p in found]
 
     def _commit(self, document: Document) -> None:
         if self._doubted is not None and self.history.depth < self._doubted:

@@ -17,7 +17,7 @@ from deodar.errors import Problem as Wrong
 from deodar.importers import opening
 from deodar.leaves import get
 from deodar.model import edit, files
-from deodar.model.check import check
+from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.runtime.engine import Engine
@@ -103,8 +103,8 @@ class Project:
     def failures(self) -> list[Problem]:
         """Why nothing runs, if so."""
         doc = None if self.model is None else self.model.document
-        problems, paths = self.engine.failure
-        return [*view.problems(self.failure, doc), *view.problems(problems, doc, paths)]
+        found, paths = self.engine.failure
+        return [*view.problems(self.failure, doc), *view.problems(found, doc, paths)]
 
     # -------------------------------------------------------------------------------- opening and closing
 
@@ -149,9 +149,8 @@ class Project:
         self._ask_unsaved(discard)
         try:
             doc = await asyncio.to_thread(read)
-            problems = check(doc)
-            if problems:
-                raise DocumentError(problems)
+            if found := problems(doc):
+                raise DocumentError(found)
         except DeodarError as error:
             await self._leave()
             self.trouble = (title, error.problems)
@@ -346,7 +345,7 @@ class Project:
             if not self.busy:
                 self._starting = asyncio.create_task(self._restart())
             return "recompile"
-        if session.cost(doc) == "recompile" and check(doc):
+        if session.cost(doc) == "recompile" and problems(doc):
             return "recompile"
         cost: Any = await asyncio.wrap_future(self.engine.call(lambda: self.engine.adopt(model, doc)))
         return cost
@@ -354,7 +353,7 @@ class Project:
     async def _restart(self) -> None:
         """Try again to compile what did not, now that it was edited."""
         await asyncio.sleep(0)  # the edit enters the history first
-        if self.model is not None and not check(self.model.document):
+        if self.model is not None and not problems(self.model.document):
             await self._start(self.session)
 
     def _reported(self) -> str:

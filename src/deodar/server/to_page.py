@@ -8,12 +8,13 @@ from deodar.server.message import Data, Id, Message
 
 
 class Problem(Data, frozen=True):
-    """One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one."""
+    """One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one. A warning stops no run."""
 
     what: str
     where: str = ""
     fix: str = ""
     element: Id = ""
+    severity: Literal["problem", "warning"] = "problem"
 
 
 class ParameterForm(Data, frozen=True):

@@ -58,7 +58,7 @@ def problems(found: Iterable[Wrong], doc: Document | None = None, paths: Sequenc
     out: list[Problem] = []
     for p in found:
         concerned = [e.id for path in (p.where, *paths) for e in entries if _names(path, e.path)] or [""]
-        out += [Problem(what=p.what, where=p.where, fix=p.fix, element=ident) for ident in dict.fromkeys(concerned)]
+        out += [Problem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity) for ident in dict.fromkeys(concerned)]
     return out
 
 

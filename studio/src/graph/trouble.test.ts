@@ -12,6 +12,11 @@ test("the failure of the run comes before the problems of the document", () => {
   expect(troubleOf("v", { document, clock })).toBe("");
 });
 
+test("a warning marks no element as broken", () => {
+  const document = fakeDocument([], [], { problems: [{ what: "never on", element: "u", severity: "warning" }] });
+  expect(troubleOf("u", { document, clock: null })).toBe("");
+});
+
 test("a name made from a connection gives way to the kind", () => {
   expect(labelOf("colour>Convolve", "Convolve", "Convolution")).toBe("Convolution");
   expect(labelOf("colour>Gain2", "Gain", "Gain")).toBe("Gain");

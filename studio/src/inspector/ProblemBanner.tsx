@@ -2,6 +2,7 @@
 
 import { IconAlertTriangle } from "@tabler/icons-react";
 
+import { isWarning } from "../pages/problems";
 import type { Problem } from "../protocol";
 import { useStudio } from "../store";
 
@@ -15,11 +16,12 @@ export function ProblemBanner({ element }: { element: string }) {
     return null;
   }
   return (
-    <div className="problem-banner" role="alert">
+    <div className="problem-banner" role="alert" data-warning={problems.every(isWarning) || undefined}>
       <IconAlertTriangle size={16} />
       <ul>
         {problems.map((problem, i) => (
           <li key={i}>
+            {isWarning(problem) && "Warning: "}
             {problem.what}
             {problem.fix !== undefined && problem.fix !== "" && <div className="problem-fix">{problem.fix}</div>}
           </li>

@@ -1,13 +1,17 @@
 // One thing that is wrong: where, what, what to do about it.
 
 import type { Problem } from "../protocol";
+import { isWarning } from "./problems";
 import classes from "./ProblemText.module.css";
 
 export function ProblemText({ problem }: { problem: Problem }) {
   return (
     <div className={classes.problem}>
       {problem.where !== undefined && problem.where !== "" && <div className={classes.where}>{problem.where}</div>}
-      <div className={classes.what}>{problem.what}</div>
+      <div className={classes.what}>
+        {isWarning(problem) && "Warning: "}
+        {problem.what}
+      </div>
       {problem.fix !== undefined && problem.fix !== "" && <div className={classes.fix}>{problem.fix}</div>}
     </div>
   );

@@ -1,10 +1,11 @@
-// What is wrong with the open document, in a list; a click goes to the element. Only where something is.
+// Problems and warnings of the open document, in a list; a click goes to the element. Absent without either.
 
 import { Button, Popover, UnstyledButton } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
 import type { Problem } from "../protocol";
 import { useStudio } from "../store";
+import { countText, isWarning } from "./problems";
 import { ProblemText } from "./ProblemText";
 import classes from "./ProblemsMenu.module.css";
 
@@ -15,11 +16,12 @@ export function ProblemsMenu() {
   if (problems.length === 0) {
     return null;
   }
-  const label = problems.length === 1 ? "1 problem" : `${problems.length} problems`;
+  const label = countText(problems);
+  const color = problems.every(isWarning) ? "yellow" : "red";
   return (
     <Popover position="bottom-end" withArrow shadow="md" trapFocus returnFocus>
       <Popover.Target>
-        <Button size="compact-sm" color="red" variant="light" px={7} leftSection={<IconAlertTriangle size={15} />} aria-label={label} title={label}>
+        <Button size="compact-sm" color={color} variant="light" px={7} leftSection={<IconAlertTriangle size={15} />} aria-label={label} title={label}>
           {problems.length}
         </Button>
       </Popover.Target>

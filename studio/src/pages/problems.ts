@@ -1,0 +1,17 @@
+// Problems and warnings, counted in words and told apart.
+
+import type { Problem } from "../protocol";
+
+export function isWarning(problem: Problem): boolean {
+  return problem.severity === "warning";
+}
+
+// "1 problem, 2 warnings"; empty without either.
+export function countText(found: readonly Problem[]): string {
+  const warnings = found.filter(isWarning).length;
+  return [counted(found.length - warnings, "problem"), counted(warnings, "warning")].filter((text) => text !== "").join(", ");
+}
+
+function counted(n: number, noun: string): string {
+  return n === 0 ? "" : n === 1 ? `1 ${noun}` : `${n} ${noun}s`;
+}

@@ -1,0 +1,69 @@
+"""A warning says what is probably a mistake; it never stops a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.model.check import check, problems
+from deodar.numerics.axes import Axes
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+@dataclass(frozen=True)
+class Doubtful(Boost):
+    """An element that warns."""
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        yield "is doubtful", "Take another"
+
+
+def _model() -> dd.Model:
+    model = dd.Model("m")
+    model.add(Doubtful("b", [X])) >> model.add(dd.Field("u", [X]))
+    return model
+
+
+def test_an_element_warns_with_its_path_and_line() -> None:
+    model = _model()
+    (found,) = [p for p in model.check() if p.what == "is doubtful"]
+    assert found.severity == "warning" and found.fix == "Take another"
+    assert found.where.startswith("b (test_warnings.py:")
+
+
+def test_a_warning_stops_no_run() -> None:
+    model = _model()
+    assert problems(model.document) == []
+    model.require()
+    data = dd.simulate(model, duration=3, dt=1, record="u.activation")
+    assert np.isfinite(data["u.activation"].values).all()
+    session = dd.Session(model, dt=1)
+    session.step(2)
+    session.set("b.amplitude", 2.0)
+    session.step(2)
+
+
+def test_problems_come_without_warnings_because_these_need_a_graph_that_is_sound() -> None:
+    model = _model()
+    model.add(dd.Gain(2, name="loose"))
+    assert {p.severity for p in check(model.document)} == {"problem"}
+
+
+def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(0, 50), (300, 100)])) >> model.add(dd.Field("u", [X]))
+    (found,) = model.check()
+    assert found.severity == "problem" and found.where.startswith("s (")
+    assert "windows.1 ends at 100, before it begins at 300" in found.what and "(100, 300)" in found.fix
+
+
+def test_a_window_without_duration_is_a_warning() -> None:
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(dd.Field("u", [X]))
+    (found,) = model.check()
+    assert found.severity == "warning" and "is never on" in found.what
