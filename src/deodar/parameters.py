@@ -81,6 +81,9 @@ class FrozenArray:
         """Shape of the array."""
         return self.data.shape
 
+    def __reduce__(self) -> tuple[type[FrozenArray], tuple[np.ndarray]]:
+        return type(self), (self.data,)  # NumPy's own copies and pickles can be written to
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, FrozenArray) and other.digest == self.digest
 
@@ -192,15 +195,14 @@ def parameter(cls: type[Any], name: str) -> Parameter:
 
 
 def _read(field: dc.Field[Any], hint: Any) -> Parameter:
-    declaration: Declaration = Recompile()
+    d: Declaration = Recompile()
     if typing.get_origin(hint) is typing.Annotated:
         hint, *extra = typing.get_args(hint)
-        declaration = next((e for e in extra if isinstance(e, Declaration)), declaration)
+        d = next((e for e in extra if isinstance(e, Declaration)), d)
     form, of, optional = _form(hint)
     default = field.default
     if default is dc.MISSING and field.default_factory is not dc.MISSING:
         default = field.default_factory()
-    d = declaration
     return Parameter(
         field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off
     )  # fmt: skip
@@ -220,11 +222,8 @@ def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
         if len(rest) == 1:
             form, of, _ = _form(rest[0])
             return form, of, True
-    if hint is FrozenArray:
-        return "array", None, False
-    simple: dict[Any, Form] = {float: "number", int: "integer", bool: "flag", str: "text"}
-    if hint in simple:
-        return simple[hint], None, False
+    if form := _SIMPLE.get(hint):
+        return form, None, False
     if origin in (collections.abc.Mapping, dict):
         return ("pairs" if args[1] is str else "numbers"), None, False
     if origin in (collections.abc.Sequence, tuple, list):
@@ -308,10 +307,9 @@ def _texts(p: Parameter, value: Any) -> tuple[str, ...]:
 
 def _per_axis(p: Parameter, value: Any) -> float | tuple[float, ...]:
     if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1):
-        values = tuple(_number(p, v) for v in typing.cast(Any, value))
-        if not values:
+        if not len(value):
             raise ValueError("needs one number, or one for each axis, not none")
-        return values
+        return tuple(_number(p, v) for v in typing.cast(Any, value))
     return _number(p, value)
 
 
@@ -370,6 +368,7 @@ def is_text(value: str) -> bool:
     return True
 
 
+_SIMPLE: dict[Any, Form] = {float: "number", int: "integer", bool: "flag", str: "text", FrozenArray: "array"}
 _NORMAL: dict[Form, Callable[[Parameter, Any], Any]] = {
     "number": _number, "integer": _integer, "flag": _flag, "text": _text, "texts": _texts, "per_axis": _per_axis,
     "axes": _list, "axis": _declared, "part": _declared, "parts": _list, "array": _array, "numbers": _numbers, "pairs": _pairs,

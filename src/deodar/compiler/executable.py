@@ -393,5 +393,5 @@ def require_trust(model: Model, doc: Document) -> None:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",
                 where=e.path,
-                fix="If you trust it, load it with dd.load(file, trust=True), or on the command line with --trust",
+                fix="If you trust it, type dd.load(file, trust=True), or --trust; after unpickling dd.Model(document=model.document)",
             )

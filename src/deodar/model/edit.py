@@ -280,6 +280,17 @@ class History:
         self._future: list[Document] = []
         self.document = document
 
+    def __copy__(self) -> History:
+        """A history of the same documents, which goes its own way from here."""
+        other = History(self.document)
+        other._past, other._future = list(self._past), list(self._future)
+        return other
+
+    @property
+    def documents(self) -> tuple[Document, ...]:
+        """Every document that is kept: the past, the present one, and what was undone."""
+        return (*self._past, self.document, *self._future)
+
     @property
     def depth(self) -> int:
         """How many changes can be undone."""

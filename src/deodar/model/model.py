@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses as dc
 import html
 import sys
@@ -73,6 +74,25 @@ class Model:
         self._doubted: int | None = None
         self.declared: dict[str, str] = {}
         self.programs: dict[Hashable, Any] = {}
+
+    def __copy__(self) -> Model:
+        """An independent model with the same document, history and trust, without compiled programs."""
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__, history=copy.copy(self.history), declared=dict(self.declared), programs={})
+        return other
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Model:
+        """The same as `copy.copy`: documents never change, so that copies share them."""
+        memo[id(self)] = other = copy.copy(self)
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What a pickle holds: no compiled programs, and no trust in functions that a document names.
+
+        Whoever reads the pickle decides whether to trust them: `Model(document=model.document)`.
+        """
+        plain = not any(e.element.outside() for d in self.history.documents for e in d.entries)
+        return {**self.__dict__, "programs": {}, "_trusted": self._trusted and plain}
 
     # -------------------------------------------------------------------------------- building
 

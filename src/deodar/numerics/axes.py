@@ -56,6 +56,10 @@ class Axis:
             raise AxesError(what, where=f"axis {show(args[0] if args else values.get('name', ''))}", fix="For example Axis('x', 0, 100, samples=101)")
         return super().__new__(cls)
 
+    def __reduce__(self) -> tuple[type[Self], tuple[Any, ...]]:
+        """Copy and pickle by the values, which are checked again when they are read."""
+        return type(self), (self.name, self.lower, self.upper, self.samples, self.periodic, self.unit)
+
     def __post_init__(self) -> None:
         for key in ("lower", "upper"):
             value = real(getattr(self, key))
