@@ -3,6 +3,7 @@
 export type AddKnob = {
   type: "add_knob";
   request?: number;
+  session?: number;
   name: string;
   element: string;
   parameter: string;
@@ -22,6 +23,7 @@ export type Announced = {
 // The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
 // with discard) or `replace` (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it changed
 // and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file of another tool that was opened.
+// `version` is the first version of the document that holds the change, where the request was one.
 export type Answer = {
   type: "answer";
   request: number;
@@ -32,6 +34,7 @@ export type Answer = {
   carried?: number;
   unmatched?: string[];
   imported?: string;
+  version?: number;
 };
 
 // Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
@@ -39,6 +42,7 @@ export type Answer = {
 export type ApplyPreset = {
   type: "apply_preset";
   request?: number;
+  session?: number;
   path: string;
 };
 
@@ -46,6 +50,7 @@ export type ApplyPreset = {
 export type ApplyPresetText = {
   type: "apply_preset_text";
   request?: number;
+  session?: number;
   name: string;
   text: string;
 };
@@ -54,6 +59,7 @@ export type ApplyPresetText = {
 export type Arrange = {
   type: "arrange";
   request?: number;
+  session?: number;
   layout: Record<string, unknown>;
   undoable?: boolean;
 };
@@ -145,6 +151,7 @@ export type Clock = {
 export type Close = {
   type: "close";
   request?: number;
+  session?: number;
   discard?: boolean;
 };
 
@@ -181,6 +188,7 @@ export type Costs = {
 export type Describe = {
   type: "describe";
   request?: number;
+  session?: number;
   name?: string | null;
   notes?: string | null;
   dt?: number | null;
@@ -293,6 +301,7 @@ export type Lengthen = {
 export type Link = {
   type: "link";
   request?: number;
+  session?: number;
   name: string;
   element: string;
   parameter: string;
@@ -345,6 +354,7 @@ export type MoveThing = {
 export type OpenExample = {
   type: "open_example";
   request?: number;
+  session?: number;
   name: string;
   discard?: boolean;
 };
@@ -353,6 +363,7 @@ export type OpenExample = {
 export type OpenFile = {
   type: "open_file";
   request?: number;
+  session?: number;
   path: string;
   discard?: boolean;
 };
@@ -361,6 +372,7 @@ export type OpenFile = {
 export type OpenText = {
   type: "open_text";
   request?: number;
+  session?: number;
   name: string;
   text: string;
   discard?: boolean;
@@ -439,6 +451,7 @@ export type Push = {
 export type Recover = {
   type: "recover";
   request?: number;
+  session?: number;
   name: string;
   discard?: boolean;
 };
@@ -455,6 +468,7 @@ export type Recovery = {
 export type Redo = {
   type: "redo";
   request?: number;
+  session?: number;
 };
 
 // End of `push`.
@@ -467,6 +481,7 @@ export type Release = {
 export type RemoveKnob = {
   type: "remove_knob";
   request?: number;
+  session?: number;
   name: string;
 };
 
@@ -489,6 +504,7 @@ export type Reset = {
 export type Save = {
   type: "save";
   request?: number;
+  session?: number;
   path?: string;
   replace?: boolean;
 };
@@ -514,6 +530,7 @@ export type SceneView = {
 export type Set = {
   type: "set";
   request?: number;
+  session?: number;
   element: string;
   parameter: string;
   value: unknown;
@@ -611,12 +628,14 @@ export type Trouble = {
 export type Undo = {
   type: "undo";
   request?: number;
+  session?: number;
 };
 
 // Let a parameter stand for itself again.
 export type Unlink = {
   type: "unlink";
   request?: number;
+  session?: number;
   element: string;
   parameter: string;
 };
@@ -632,6 +651,7 @@ export type Unwatch = {
 export type UseWorld = {
   type: "use_world";
   request?: number;
+  session?: number;
   kind: string;
   path: string;
 };
@@ -640,6 +660,7 @@ export type UseWorld = {
 export type UseWorldContent = {
   type: "use_world_content";
   request?: number;
+  session?: number;
   kind: string;
   name: string;
   content: string;

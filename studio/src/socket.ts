@@ -1,5 +1,6 @@
 // The one connection to the server: it comes back when it is lost, and then asks for everything again.
 
+import { addressed } from "./addressed";
 import { decode } from "./frames";
 import type { Answer, Folder, ToPage, ToServer } from "./protocol";
 import { useStudio } from "./store";
@@ -49,7 +50,7 @@ class Socket {
   // Say something without waiting for an answer; dropped while there is no connection.
   post(message: ToServer): void {
     if (this.socket?.readyState === WebSocket.OPEN) {
-      this.socket.send(JSON.stringify(message));
+      this.socket.send(JSON.stringify(addressed(message, useStudio.getState().session)));
     }
   }
 

@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, UnknownName
-from deodar.model import files
+from deodar.model import edit, files, find
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -104,3 +104,28 @@ def test_a_knob_without_one_says_how_to_make_it() -> None:
     model.add(dd.Field("u", [X]))
     with pytest.raises(UnknownName, match=r"model.parameter\(name, value\)"):
         model.link("u.tau", "gain")
+
+
+@pytest.mark.parametrize("change", ["link", "put", "number", "move", "every"])
+def test_an_element_that_is_gone_is_an_error_that_says_so(model: dd.Model, change: str) -> None:
+    doc, gone = model.document, model["u"].id
+    model.remove("u")
+    with pytest.raises(UnknownName, match="removed"):
+        match change:
+            case "link":
+                edit.link(model.document, gone, "tau", "gain")
+            case "put":
+                edit.put(model.document, gone, "tau", 3.0)
+            case "number":
+                find.number(model.document, gone, "tau")
+            case "move":
+                edit.move(model.document, gone, ("w",))
+            case _:
+                edit.every(model.document, gone, 2)
+    assert find.number(doc, gone, "tau") == 3
+
+
+@pytest.mark.parametrize("leaf", ["kernel", "kernel.0", "kernel.7.sigma", "axes", "nonsense", "tau.0", ""])
+def test_only_a_number_can_become_a_document_parameter(model: dd.Model, leaf: str) -> None:
+    with pytest.raises(ParameterError, match="cannot be linked"):
+        find.number(model.document, model["u"].id, leaf)

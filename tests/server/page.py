@@ -8,7 +8,7 @@ import json
 import threading
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import websockets
@@ -145,12 +145,15 @@ class Page:
         await self.until(lambda: self.said.get("opened", {}).get("document") and not self._late and not self.clock["busy"])
 
 
+P = TypeVar("P", bound=Page)
+
+
 @contextlib.asynccontextmanager
-async def page(address: str, draws: bool = True, **how: Any) -> AsyncIterator[Page]:
+async def page(address: str, draws: bool = True, kind: type[P] = Page, **how: Any) -> AsyncIterator[P]:  # type: ignore[assignment]
     """Connect to a studio."""
     host = address.split("//")[1].split("/")[0]
     async with websockets.connect(f"ws://{host}/ws", max_size=None, **how) as socket:
-        one = Page(socket, draws)
+        one = kind(socket, draws)
         listening = asyncio.create_task(one.listen())
         try:
             await one.until(lambda: "clock" in one.said)

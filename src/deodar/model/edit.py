@@ -13,7 +13,7 @@ from typing import Any
 
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, UnknownName, did_you_mean
-from deodar.leaves import get, leaves, replace
+from deodar.leaves import get, replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, Entry, Knob, Use
 from deodar.model.paths import Names, display, stored_id
@@ -63,7 +63,7 @@ def remove_group(doc: Document, group: Names) -> Document:
 
 def move(doc: Document, ident: str, names: Names) -> Document:
     """A document in which an element stands under another path; its id stays."""
-    entry = doc.by_id()[ident]
+    entry = find.entry(doc, ident)
     if names == entry.names:
         return doc
     _vacant(doc, names)
@@ -170,7 +170,7 @@ def disconnect(doc: Document, source: str, source_port: str, target: str, target
 
 def put(doc: Document, ident: str, path: str, value: Any) -> Document:
     """A document with another value of one parameter of an element, linked ones excepted."""
-    entry = doc.by_id()[ident]
+    entry = find.entry(doc, ident)
     if path.split(".")[0] == "name":
         raise ParameterError("a name is changed by renaming the element", where=entry.path, fix="model.rename(path, name)")
     for (i, leaf), name in doc.links().items():
@@ -190,7 +190,7 @@ def change(doc: Document, path: str, value: Any) -> Document:
 
 def every(doc: Document, ident: str, ticks: int) -> Document:
     """A document in which an element runs at another step."""
-    require_ticks(ticks, doc.by_id()[ident].path)
+    require_ticks(ticks, find.entry(doc, ident).path)
     return dc.replace(doc, entries=tuple(dc.replace(e, every=ticks) if e.id == ident else e for e in doc.entries))
 
 
@@ -220,16 +220,12 @@ def remove_knob(doc: Document, name: str) -> Document:
 
 def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
     """A document in which a parameter of an element takes its value from a document parameter."""
-    entry = doc.by_id()[ident]
+    entry = find.entry(doc, ident)
     found = next((k for k in doc.knobs if k.name == name), None)
     if found is None:
         names = [k.name for k in doc.knobs]
         raise UnknownName(f"there is no document parameter {name!r}", fix=did_you_mean(name, names) or "Make it: model.parameter(name, value)")
-    known = [path for path, _, p in leaves(entry.element) if p.form != "array"]
-    if leaf not in known:
-        raise ParameterError(
-            f"{entry.path}.{leaf} cannot be linked: it is not a number that can change while the model runs", fix=did_you_mean(leaf, known)
-        )
+    find.number(doc, ident, leaf)
     if (ident, leaf) in doc.links():
         raise ModelError(f"{entry.path}.{leaf} is already linked to {doc.links()[ident, leaf]!r}", fix="Unlink it first")
     doc = _put(doc, ident, leaf, found.value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 
-from deodar.errors import UnknownName, did_you_mean
+from deodar.errors import ParameterError, UnknownName, did_you_mean
 from deodar.leaves import leaves
 from deodar.model.document import Document, Entry
 from deodar.model.paths import readings
@@ -18,6 +18,14 @@ class Target:
     entry: Entry | None
     parameter: str
     knob: str = ""
+
+
+def entry(doc: Document, ident: str) -> Entry:
+    """The entry of an id; an id whose element was removed is an error."""
+    found = doc.by_id().get(ident)
+    if found is None:
+        raise UnknownName(f"the element with the id {ident} was removed from the document")
+    return found
 
 
 def element(doc: Document, path: str) -> Entry:
@@ -78,3 +86,13 @@ def target(doc: Document, path: str) -> Target:
         raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, known))
     everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [k.name for k in doc.knobs]
     raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, everything))
+
+
+def number(doc: Document, ident: str, leaf: str) -> float:
+    """The value of a parameter of an element that a document parameter can drive; any other parameter is an error."""
+    found = entry(doc, ident)
+    known = {path: value for path, value, p in leaves(found.element) if p.form != "array"}
+    if leaf not in known:
+        what = f"{found.path}.{leaf} cannot be linked: it is not a number that can change while the model runs"
+        raise ParameterError(what, fix=did_you_mean(leaf, list(known)))
+    return float(known[leaf])

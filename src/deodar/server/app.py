@@ -64,8 +64,9 @@ class Studio:
     @contextlib.asynccontextmanager
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
         self._hub = Hub(self._root, self._trust, self._world)
-        if self._file is not None:
-            await self._hub.project.open_file(self._file, True)
+        project, file = self._hub.project, self._file
+        if file is not None:
+            await project.turns.take(lambda: project.open_file(file, True))
         self._ready()
         yield
         await self._hub.close()

@@ -39,6 +39,7 @@ class Connection:
     """One socket.
 
     Attributes:
+        number: tells this connection from all others of this studio, also from those that ended.
         streams: what the page watches, by its numbers.
         pushes: whether the hand that reaches in is this page's.
         follower: what the page knows of the bodies in the world; None: it does not look.
@@ -46,6 +47,7 @@ class Connection:
 
     def __init__(self, socket: WebSocket, hub: Hub) -> None:
         self.hub = hub
+        self.number = hub.numbered()
         self.streams: dict[int, Stream] = {}
         self.pushes = False
         self.follower: Follower | None = None

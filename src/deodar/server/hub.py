@@ -31,6 +31,7 @@ class Hub:
         self._told = False
         self._told_costs: tuple[Bill, Costs] | None = None
         self.connections: set[Connection] = set()
+        self._connected = 0
         self.workspace = Workspace(root)
         self.keeper = Keeper(state_folder())
         self.embodiment = Embodiment(world)
@@ -99,6 +100,11 @@ class Hub:
         return self._told_costs[1]
 
     # -------------------------------------------------------------------------------- watching
+
+    def numbered(self) -> int:
+        """The number of a new connection."""
+        self._connected += 1
+        return self._connected
 
     def watch(self) -> None:
         """Tell the engine what all pages together look at."""

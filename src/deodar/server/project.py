@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses as dc
-from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -15,8 +14,7 @@ from typing import Any, Literal
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
 from deodar.importers import opening
-from deodar.leaves import get
-from deodar.model import edit, files
+from deodar.model import edit, files, find
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -25,14 +23,14 @@ from deodar.runtime.session import Session
 from deodar.server import content, view
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper
+from deodar.server.recent_changes import RecentChanges
 from deodar.server.to_page import Changed, DocumentView, Problem
+from deodar.server.turns import Turns
 from deodar.server.workspace import Workspace, digest
 from deodar.worlds._base import World
 
 Ask = Literal["unsaved", "replace"]
 Cost = Literal["live", "rebuild", "recompile"]
-MOST_CHANGES = 256
-"""Changes of single parameters that a page may lag behind before it is sent the whole document."""
 
 LOOKS = ("panels", "folded")
 """What of the layout is no edit worth asking about: how panels stand, which groups are folded."""
@@ -49,8 +47,10 @@ class Asks(Exception):
 class Project:
     """What is open, if anything.
 
+    Whatever changes it is called through `turns`.
+
     Attributes:
-        session: counts the documents that were opened.
+        turns: one change after the other.
         version: counts what a page has to be told.
         model: the document being edited, with its history.
         file: where it is saved.
@@ -64,7 +64,8 @@ class Project:
     ) -> None:
         self.workspace, self.keeper, self.engine, self.embodiment = workspace, keeper, engine, embodiment
         self._trust, self._changed = trust, changed
-        self.session, self.version = 0, 0
+        self.turns = Turns()
+        self.version = 0
         self.model: Model | None = None
         self.file: Path | None = None
         self.trouble: tuple[str, Sequence[Wrong]] = ("", ())
@@ -75,10 +76,15 @@ class Project:
         self._kept: Document | None = None
         self._digest = ""
         self._gesture: object = None
-        self._changes: deque[tuple[int, Changed]] = deque(maxlen=MOST_CHANGES)
-        self._starting: asyncio.Task[None] | None = None
+        self._recent = RecentChanges()
+        self._attempt = 0
 
     # -------------------------------------------------------------------------------- looking
+
+    @property
+    def session(self) -> int:
+        """Counts the documents that were opened."""
+        return self.turns.session
 
     def view(self) -> DocumentView | None:
         """The document for the page."""
@@ -90,10 +96,7 @@ class Project:
 
     def changes_since(self, session: int, version: int) -> list[Changed] | None:
         """Single changes that bring a page from that version to this one; None if it needs the whole document."""
-        if session != self.session:
-            return None
-        found = [change for at, change in self._changes if at > version]
-        return found if len(found) == self.version - version else None
+        return self._recent.between(version, self.version) if session == self.session else None
 
     @property
     def unsaved(self) -> bool:
@@ -164,20 +167,22 @@ class Project:
             self.keeper.opened(file)
         self.busy = "compiling"  # before a page is told of the document, so that none takes it for ready
         self._moved()
-        self._starting = asyncio.create_task(self._start(self.session))
+        self.turns.beside(self._start())
 
     async def _leave(self) -> None:
         if self._name:
             self.keeper.forget(self._name)
-        self.session += 1
+        self.turns.session += 1
+        self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.trouble, self.failure, self.busy = ("", ()), (), ""
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
-    async def _start(self, number: int) -> None:
-        """Compile the document and give it to the engine, unless another one was opened meanwhile."""
-        model = self.model
-        assert model is not None
+    async def _start(self) -> None:
+        """Compile the document and give it to the engine, unless a later attempt began meanwhile."""
+        model = self._require()
+        self._attempt += 1
+        attempt = self._attempt
         self.busy, self.failure = "compiling", ()
         self._changed()
         doc = model.document
@@ -190,22 +195,30 @@ class Project:
         try:
             session = await asyncio.to_thread(make)
         except DeodarError as error:
-            if number == self.session:
-                self.busy, self.failure = "", error.problems
-                self._changed()
-            return
+            self._fail(attempt, error.problems)
         except Exception as error:  # code from outside that runs while it is compiled
-            if number == self.session:
-                self.busy, self.failure = "", [Wrong("", f"{type(error).__name__}: {error}")]
-                self._changed()
+            self._fail(attempt, [Wrong("", f"{type(error).__name__}: {error}")])
+        else:
+            await self.turns.take(lambda: self._take(attempt, session, doc))
+
+    async def _take(self, attempt: int, session: Session, doc: Document) -> None:
+        """Let the engine run what was compiled, with the edits that were made since."""
+        if attempt != self._attempt:
             return
-        if number == self.session:
-            await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(session)))
-            if number != self.session:
-                return
-            self.busy = ""  # only now: who sees it may ask for what needs a session
-            if model.document is not doc:
-                await self._adopt(model.document)
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(session)))
+        try:
+            if self._require().document is not doc:
+                await self._adopt(self._require().document)
+        except DeodarError as error:
+            await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
+            self._fail(attempt, error.problems)
+            return
+        self.busy = ""  # only now: who sees it may ask for what needs a session
+        self._changed()
+
+    def _fail(self, attempt: int, problems: Sequence[Wrong]) -> None:
+        if attempt == self._attempt:
+            self.busy, self.failure = "", problems
             self._changed()
 
     def _ask_unsaved(self, discard: bool) -> None:
@@ -249,9 +262,7 @@ class Project:
                 raise DocumentError("there is no such document parameter", where=parameter)
             new = edit.knob(doc, parameter, value)
             return await self._commit(new, gesture)
-        entry = doc.by_id().get(element)
-        if entry is None:
-            raise DocumentError("the element is gone", where=element)
+        entry = find.entry(doc, element)
         new = edit.put(doc, element, parameter, view.read_value(doc, entry, parameter, value))
         shown = view.shown_value(new, element, parameter)
         return await self._commit(new, gesture, (element, parameter, shown))
@@ -274,7 +285,7 @@ class Project:
         model, session = self._require(), self.engine.session
         self.embodiment.world(model.document)
         if session is None:
-            self._starting = asyncio.create_task(self._restart())
+            self.turns.beside(self._restart())
         elif session.program.plan.sensors:
             await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
         self._changed()
@@ -305,14 +316,14 @@ class Project:
 
     async def _travel(self, there: Callable[[edit.History], bool], back: Callable[[edit.History], bool]) -> None:
         history = self._require().history
-        if there(history):
-            try:
-                await self._adopt(history.document)
-            except DeodarError:
-                back(history)
-                raise
-            self._gesture = None
-            self._moved()
+        if not there(history):
+            return
+        doc = history.document
+        back(history)  # nobody sees the other document before the engine takes it
+        await self._adopt(doc)
+        there(history)
+        self._gesture = None
+        self._moved()
 
     async def _commit(self, doc: Document, gesture: object, leaf: tuple[str, str, Any] | None = None) -> Cost:
         model = self._require()
@@ -333,7 +344,7 @@ class Project:
                 version=self.version, element=element, parameter=parameter, value=value, cost=cost, unsaved=self.unsaved,
                 undo=model.history.depth, redo=model.history.ahead,
             )  # fmt: skip
-            self._changes.append((self.version, change))
+            self._recent.add(change)
             self._changed()
         return cost
 
@@ -343,7 +354,8 @@ class Project:
         session = self.engine.session
         if session is None:
             if not self.busy:
-                self._starting = asyncio.create_task(self._restart())
+                self.busy = "compiling"
+                self.turns.beside(self._restart())
             return "recompile"
         if session.cost(doc) == "recompile" and problems(doc):
             return "recompile"
@@ -352,9 +364,15 @@ class Project:
 
     async def _restart(self) -> None:
         """Try again to compile what did not, now that it was edited."""
-        await asyncio.sleep(0)  # the edit enters the history first
-        if self.model is not None and not problems(self.model.document):
-            await self._start(self.session)
+        session = self.session
+        async with self.turns.lock:  # the edit enters the history first
+            if session != self.session or self.model is None:
+                return
+            if problems(self.model.document):
+                self.busy = ""
+                self._changed()
+                return
+        await self._start()
 
     def _reported(self) -> str:
         """What became of the file that was just imported: the first line of the notes, where its report begins."""
@@ -368,15 +386,10 @@ class Project:
     def _moved(self) -> None:
         """Every page needs the whole document again."""
         self.version += 1
-        self._changes.clear()
+        self._recent.clear()
         self._changed()
 
 
 def _plain(doc: Document) -> Document:
     """The document without what of its layout is no edit."""
     return dc.replace(doc, layout={k: v for k, v in doc.layout.items() if k not in LOOKS})
-
-
-def leaf_value(doc: Document, element: str, parameter: str) -> float:
-    """A number in the document."""
-    return float(get(doc.by_id()[element].element, parameter))

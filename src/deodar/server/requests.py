@@ -8,17 +8,18 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 
 from deodar.errors import DocumentError, ParameterError
 from deodar.importers import opening, presets
 from deodar.importers.report import Line
-from deodar.model import edit
+from deodar.model import edit, find
 from deodar.numerics.axes import Axes
 from deodar.runtime.engine import Hand
 from deodar.runtime.session import Session
 from deodar.runtime.trace import Wish
-from deodar.server import content, gallery, project, to_server
+from deodar.server import content, gallery, to_server
 from deodar.server.scene import Follower
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
@@ -33,11 +34,23 @@ Answers = list[Answer | Folder]
 
 
 async def do(page: Connection, message: Any) -> Answers:
-    """Do what is asked; the last of the answers ends the request."""
+    """Do what is asked; the last of the answers ends the request. Requests that change the document are done one after the other."""
+    if isinstance(message, to_server.DocumentRequest):
+        return await page.hub.project.turns.take(lambda: _change(page, message), message.session)
+    return await _done(page, message)
+
+
+async def _done(page: Connection, message: Any) -> Answers:
     done = await _DO[type(message)](page, message)
     if isinstance(done, Folder):
         return [done, Answer(request=message.request)]
     return [done or Answer(request=message.request)]
+
+
+async def _change(page: Connection, message: to_server.DocumentRequest) -> Answers:
+    answers = await _done(page, message)
+    version = page.hub.project.version
+    return [msgspec.structs.replace(a, version=version) if isinstance(a, Answer) else a for a in answers]
 
 
 # ------------------------------------------------------------------------------------------------ files
@@ -83,7 +96,7 @@ async def _list_folder(page: Connection, m: to_server.ListFolder) -> Folder:
 
 
 async def _set(page: Connection, m: to_server.Set) -> Answer:
-    gesture = (id(page), m.gesture) if m.gesture else None
+    gesture = (page.number, m.gesture) if m.gesture else None
     cost = await page.hub.project.set(m.element, m.parameter, m.value, gesture)
     return Answer(request=m.request, cost=cost)
 
@@ -97,7 +110,7 @@ async def _add_knob(page: Connection, m: to_server.AddKnob) -> None:
     def change(doc: edit.Document) -> edit.Document:
         if m.name in [k.name for k in doc.knobs]:
             raise ParameterError("there is already a document parameter of that name", where=m.name)
-        return edit.link(edit.knob(doc, m.name, project.leaf_value(doc, m.element, m.parameter)), m.element, m.parameter, m.name)
+        return edit.link(edit.knob(doc, m.name, find.number(doc, m.element, m.parameter)), m.element, m.parameter, m.name)
 
     await page.hub.project.change(change)
 

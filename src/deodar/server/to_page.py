@@ -332,6 +332,7 @@ class Answer(Message, frozen=True, tag="answer"):
     """The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
     with discard) or `replace` (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it changed
     and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file of another tool that was opened.
+    `version` is the first version of the document that holds the change, where the request was one.
     """
 
     request: int
@@ -342,6 +343,7 @@ class Answer(Message, frozen=True, tag="answer"):
     carried: int = 0
     unmatched: list[str] = []
     imported: str = ""
+    version: int = 0
 
 
 ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Costs | Scene | Bodies | Announced | Lost | Folder | Answer

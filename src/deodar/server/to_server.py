@@ -19,21 +19,30 @@ class Request(Message, frozen=True):
     request: Count = 0
 
 
-class OpenFile(Request, frozen=True, kw_only=True, tag="open_file"):
+class DocumentRequest(Request, frozen=True):
+    """A request that changes which document is open or what it holds. The server does one after the other, whichever page they come from.
+    `session` is the document that the request is meant for, as counted by `opened`; where another one was opened since, the request is refused.
+    0: whichever is open.
+    """
+
+    session: Count = 0
+
+
+class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
     """Open a document below the root. `discard` allows to throw unsaved edits away."""
 
     path: Text
     discard: bool = False
 
 
-class OpenExample(Request, frozen=True, kw_only=True, tag="open_example"):
+class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"):
     """Open one of the examples, as a document without a file."""
 
     name: Text
     discard: bool = False
 
 
-class OpenText(Request, frozen=True, kw_only=True, tag="open_text"):
+class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
     """Open the content of a file that was dropped on the page, as a document without a file."""
 
     name: Text
@@ -41,7 +50,7 @@ class OpenText(Request, frozen=True, kw_only=True, tag="open_text"):
     discard: bool = False
 
 
-class Recover(Request, frozen=True, kw_only=True, tag="recover"):
+class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
     """Open unsaved edits that were kept."""
 
     name: Text
@@ -54,13 +63,13 @@ class Forget(Request, frozen=True, kw_only=True, tag="forget"):
     name: Text
 
 
-class Close(Request, frozen=True, kw_only=True, tag="close"):
+class Close(DocumentRequest, frozen=True, kw_only=True, tag="close"):
     """Close the document and go to the gallery."""
 
     discard: bool = False
 
 
-class Save(Request, frozen=True, kw_only=True, tag="save"):
+class Save(DocumentRequest, frozen=True, kw_only=True, tag="save"):
     """Write the document, to its own file where `path` is empty. `replace` allows to write over a file that is not the one it came from,
     or that changed on disk since.
     """
@@ -75,7 +84,7 @@ class ListFolder(Request, frozen=True, kw_only=True, tag="list_folder"):
     path: Text = ""
 
 
-class Set(Request, frozen=True, kw_only=True, tag="set"):
+class Set(DocumentRequest, frozen=True, kw_only=True, tag="set"):
     """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of that name.
 
     `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that share a `gesture` (not 0) are
@@ -88,7 +97,7 @@ class Set(Request, frozen=True, kw_only=True, tag="set"):
     gesture: Count = 0
 
 
-class Describe(Request, frozen=True, kw_only=True, tag="describe"):
+class Describe(DocumentRequest, frozen=True, kw_only=True, tag="describe"):
     """Change general properties of the document; what is None stays."""
 
     name: Text | None = None
@@ -96,7 +105,7 @@ class Describe(Request, frozen=True, kw_only=True, tag="describe"):
     dt: float | None = None
 
 
-class AddKnob(Request, frozen=True, kw_only=True, tag="add_knob"):
+class AddKnob(DocumentRequest, frozen=True, kw_only=True, tag="add_knob"):
     """A new document parameter, at the value of the first parameter that it drives."""
 
     name: Text
@@ -104,7 +113,7 @@ class AddKnob(Request, frozen=True, kw_only=True, tag="add_knob"):
     parameter: Text
 
 
-class Link(Request, frozen=True, kw_only=True, tag="link"):
+class Link(DocumentRequest, frozen=True, kw_only=True, tag="link"):
     """Let a document parameter drive a parameter of an element."""
 
     name: Text
@@ -112,27 +121,27 @@ class Link(Request, frozen=True, kw_only=True, tag="link"):
     parameter: Text
 
 
-class Unlink(Request, frozen=True, kw_only=True, tag="unlink"):
+class Unlink(DocumentRequest, frozen=True, kw_only=True, tag="unlink"):
     """Let a parameter stand for itself again."""
 
     element: Id
     parameter: Text
 
 
-class RemoveKnob(Request, frozen=True, kw_only=True, tag="remove_knob"):
+class RemoveKnob(DocumentRequest, frozen=True, kw_only=True, tag="remove_knob"):
     """Take a document parameter away; what it drove keeps its value."""
 
     name: Text
 
 
-class Arrange(Request, frozen=True, kw_only=True, tag="arrange"):
+class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
     """Change parts of the layout: each key given replaces that key of the document's layout, None takes it away."""
 
     layout: dict[str, Any]
     undoable: bool = True
 
 
-class ApplyPreset(Request, frozen=True, kw_only=True, tag="apply_preset"):
+class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"):
     """Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
     not match.
     """
@@ -140,18 +149,18 @@ class ApplyPreset(Request, frozen=True, kw_only=True, tag="apply_preset"):
     path: Text
 
 
-class ApplyPresetText(Request, frozen=True, kw_only=True, tag="apply_preset_text"):
+class ApplyPresetText(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset_text"):
     """The same with the content of a file of the person's own."""
 
     name: Text
     text: str
 
 
-class Undo(Request, frozen=True, kw_only=True, tag="undo"):
+class Undo(DocumentRequest, frozen=True, kw_only=True, tag="undo"):
     """Take the last change back."""
 
 
-class Redo(Request, frozen=True, kw_only=True, tag="redo"):
+class Redo(DocumentRequest, frozen=True, kw_only=True, tag="redo"):
     """Make the change again that was taken back."""
 
 
@@ -204,14 +213,14 @@ class Release(Request, frozen=True, kw_only=True, tag="release"):
     """End of `push`."""
 
 
-class UseWorld(Request, frozen=True, kw_only=True, tag="use_world"):
+class UseWorld(DocumentRequest, frozen=True, kw_only=True, tag="use_world"):
     """Let the sensors read a world of that kind, opened with a file below the root."""
 
     kind: Text
     path: Text
 
 
-class UseWorldContent(Request, frozen=True, kw_only=True, tag="use_world_content"):
+class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world_content"):
     """Let the sensors read a world made of the content (base64) of a file that was dropped on the page."""
 
     kind: Text

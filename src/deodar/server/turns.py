@@ -1,0 +1,63 @@
+"""Changes of the document, one after the other, whichever pages they come from."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Coroutine
+from typing import Any, TypeVar
+
+from deodar.errors import DocumentError
+
+T = TypeVar("T")
+
+
+class Turns:
+    """A lock around every change, in the order of arrival.
+
+    An edit awaits the engine between reading the document and committing it; a second edit that read the same document would overwrite the
+    first.
+
+    Attributes:
+        session: counts the documents that were opened.
+    """
+
+    def __init__(self) -> None:
+        self.session = 0
+        self.lock = asyncio.Lock()
+        self._tasks: set[asyncio.Task[Any]] = set()
+
+    async def take(self, change: Callable[[], Awaitable[T]], session: int = 0) -> T:
+        """Run a change once all changes before it are done.
+
+        A change whose page disconnects runs to its end, so that engine and history never hold different documents.
+
+        Args:
+            change: what to do.
+            session: the document that the change is meant for; 0: whichever is open.
+
+        Raises:
+            DocumentError: if another document was opened since.
+        """
+
+        async def turn() -> T:
+            async with self.lock:
+                if session not in (0, self.session):
+                    raise DocumentError("another document was opened since; nothing was changed")
+                return await change()
+
+        task = self.beside(turn())
+        task.add_done_callback(_read_error)
+        return await asyncio.shield(task)
+
+    def beside(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
+        """Run work in a task that is referenced until its end."""
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+
+def _read_error(task: asyncio.Task[Any]) -> None:
+    """Read the error of a change whose page is gone, so that asyncio does not report it as lost."""
+    if not task.cancelled():
+        task.exception()

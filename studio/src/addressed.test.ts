@@ -1,0 +1,14 @@
+import { expect, test } from "vitest";
+
+import { addressed } from "./addressed";
+
+test("edits name the document that they are meant for", () => {
+  expect(addressed({ type: "undo" }, 7)).toEqual({ type: "undo", session: 7 });
+  expect(addressed({ type: "set", element: "a", parameter: "tau", value: 3 }, 7)).toMatchObject({ session: 7, value: 3 });
+  expect(addressed({ type: "save" }, 7)).toMatchObject({ session: 7 });
+});
+
+test("what opens another document, or changes none, names none", () => {
+  for (const type of ["play", "measure_costs"] as const) expect(addressed({ type }, 7)).toEqual({ type });
+  expect(addressed({ type: "open_file", path: "a.json" }, 7)).toEqual({ type: "open_file", path: "a.json" });
+});

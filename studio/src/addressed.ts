@@ -1,0 +1,24 @@
+// Requests that change the open document name the document that they are meant for: where another page opened another one since, the
+// server refuses them.
+
+import type { ToServer } from "./protocol";
+
+const MEANT = new Set<ToServer["type"]>([
+  "add_knob",
+  "apply_preset",
+  "apply_preset_text",
+  "arrange",
+  "close",
+  "describe",
+  "link",
+  "redo",
+  "remove_knob",
+  "save",
+  "set",
+  "undo",
+  "unlink",
+]);
+
+export function addressed(message: ToServer, session: number): ToServer {
+  return MEANT.has(message.type) ? ({ ...message, session } as ToServer) : message;
+}

@@ -1,0 +1,7 @@
+"""Every studio in these tests keeps its state in a folder of the test."""
+
+from __future__ import annotations
+
+from tests.server.conftest import own_state, root
+
+__all__ = ["own_state", "root"]

@@ -1,0 +1,263 @@
+"""Pages that edit one document at once: what the studio made of it must equal the accepted edits, one after the other.
+
+Each page draws random edits and sends several of them without waiting. Every answer names the version of the document that holds the edit; the
+accepted edits in the order of their versions are made again on a `History` of this process, which knows neither the server nor its lock.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import dataclasses as dc
+import json
+import random
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.errors import DeodarError
+from deodar.importers import presets
+from deodar.leaves import get
+from deodar.model import edit, files
+from deodar.model.document import Document
+from deodar.server import view
+from tests.server.page import Page, page, studio
+
+KNOBS = ("gain", "tempo", "level")
+LEAVES = (("u", "tau"), ("u", "resting_level"), ("v", "tau"), ("v", "resting_level"), ("g", "factor"), ("s", "amplitude"))
+WEIGHTS = {
+    "set": 40, "knob": 10, "add_knob": 5, "link": 5, "unlink": 4, "remove_knob": 3, "describe": 4, "arrange": 8, "preset": 2, "shape": 2,
+    "undo": 12, "redo": 7,
+}  # fmt: skip
+AT_ONCE = 4
+"""Requests that a page sends before it reads the first answer."""
+
+
+@dc.dataclass
+class Outcome:
+    """What became of the edits of all pages."""
+
+    accepted: int
+    refused: int
+    versions: int
+    errors: list[str]
+    differ: list[str]
+
+
+class Editor(Page):
+    """A page that keeps its document up to date from single changes, as the page in the browser does."""
+
+    version = -1
+
+    async def _take(self, m: dict[str, Any]) -> None:
+        await super()._take(m)
+        if m["type"] == "opened":
+            self.version = m["version"]
+        elif m["type"] == "changed":
+            self.version = m["version"]
+            element = next(e for e in self.document["elements"] if e["id"] == m["element"])
+            element["values"] = replaced(element["values"], m["parameter"].split("."), m["value"])
+            self.document.update({key: m[key] for key in ("unsaved", "undo", "redo")})
+
+
+def replaced(values: Any, path: list[str], value: Any) -> Any:
+    """Nested values with another one at a path."""
+    if not path:
+        return value
+    if isinstance(values, list):
+        return [replaced(v, path[1:], value) if i == int(path[0]) else v for i, v in enumerate(values)]
+    return {**values, path[0]: replaced(values[path[0]], path[1:], value)}
+
+
+def small() -> dd.Model:
+    """A model whose programs compile fast."""
+    model = dd.Model("edits")
+    u = model.add(dd.Field("u", [], tau=20, resting_level=-5))
+    v = model.add(dd.Field("v", [], tau=20, resting_level=-5))
+    u >> model.add(dd.Gain(1, name="g")) >> v
+    model.add(Boost("s", amplitude=1)) >> u
+    return model
+
+
+def drawn(random: random.Random, ids: dict[str, str], preset: str) -> dict[str, Any]:
+    """One random edit."""
+    path, leaf = random.choice(LEAVES)
+    place = {"element": ids[path], "parameter": leaf}
+    number = round(random.uniform(5, 90), 3)
+    match random.choices(tuple(WEIGHTS), tuple(WEIGHTS.values()))[0]:
+        case "set":
+            return {"type": "set", **place, "value": number, "gesture": random.choice((0, 0, 1, 2))}
+        case "knob":
+            return {"type": "set", "element": "", "parameter": random.choice(KNOBS), "value": number}
+        case "add_knob":
+            return {"type": "add_knob", "name": random.choice(KNOBS), **place}
+        case "link":
+            return {"type": "link", "name": random.choice(KNOBS), **place}
+        case "unlink":
+            return {"type": "unlink", **place}
+        case "remove_knob":
+            return {"type": "remove_knob", "name": random.choice(KNOBS)}
+        case "describe":
+            return {"type": "describe", random.choice(("name", "notes")): f"text {number}"}
+        case "arrange":
+            return {"type": "arrange", "layout": {random.choice("abc"): random.choice((number, None))}, "undoable": random.random() < 0.5}
+        case "shape":  # another structure: compiled beside the run
+            kind = random.choice(("Logistic", "Absolute", "Linear"))
+            return {"type": "set", "element": ids["u"], "parameter": "sigmoid", "value": {"kind": kind}}
+        case "preset":
+            return {"type": "apply_preset_text", "name": "preset.json", "text": preset}
+        case other:
+            return {"type": other}
+
+
+@dc.dataclass(frozen=True)
+class State:
+    """A document with its history, as plain data: chains of documents before it and after it."""
+
+    document: Document
+    past: Any = None
+    future: Any = None
+    gesture: object = None
+
+    def commit(self, new: Document, gesture: object = None) -> State:
+        """Take a new document."""
+        return State(new, (self.document, self.past), None, gesture)
+
+    def amend(self, new: Document, gesture: object = None) -> State:
+        """Take a new document in the place of the present one."""
+        return State(new, self.past, None, gesture)
+
+
+def again(state: State, page: int, m: dict[str, Any]) -> State:
+    """Make an accepted edit; the same object where it changes nothing."""
+    doc = state.document
+    match m["type"]:
+        case "undo":
+            return state if state.past is None else State(state.past[0], state.past[1], (doc, state.future))
+        case "redo":
+            return state if state.future is None else State(state.future[0], (doc, state.past), state.future[1])
+        case "arrange":
+            new = edit.arrange(doc, {k: v for k, v in {**doc.layout, **m["layout"]}.items() if v is not None})
+            return state.commit(new) if m["undoable"] else state.amend(new)
+        case _:
+            new = _other(doc, m)
+            mine = (page, m["gesture"]) if m.get("gesture") else None
+            if new == doc:
+                return state
+            return state.amend(new, mine) if mine is not None and mine == state.gesture else state.commit(new, mine)
+
+
+def _other(doc: Document, m: dict[str, Any]) -> Document:
+    match m["type"]:
+        case "set" if m["element"]:
+            value = view.read_value(doc, doc.by_id()[m["element"]], m["parameter"], m["value"])
+            return edit.put(doc, m["element"], m["parameter"], value)
+        case "set":
+            return edit.knob(doc, m["parameter"], m["value"])
+        case "add_knob":
+            value = float(get(doc.by_id()[m["element"]].element, m["parameter"]))
+            return edit.link(edit.knob(doc, m["name"], value), m["element"], m["parameter"], m["name"])
+        case "link":
+            return edit.link(doc, m["element"], m["parameter"], m["name"])
+        case "unlink":
+            return edit.unlink(doc, m["element"], m["parameter"])
+        case "remove_knob":
+            return edit.remove_knob(doc, m["name"])
+        case "describe":
+            return edit.describe(doc, **{key: m[key] for key in ("name", "notes") if key in m})
+        case _:
+            return presets.applied(doc, files.from_data(json.loads(m["text"]), {}))[0]
+
+
+async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
+    """Let pages edit the document of a studio at once, and compare the end with the edits one after the other."""
+    async with contextlib.AsyncExitStack() as stack:
+        editors = [await stack.enter_async_context(page(address, kind=Editor)) for _ in range(pages)]
+        for one in editors:  # the first edits are made while the document is compiled
+            await one.until(lambda one=one: one.said.get("opened", {}).get("document"))
+        ids = {e["path"]: e["id"] for e in editors[0].document["elements"]}
+        preset = small()
+        preset.change({"u.tau": 33.0, "g.factor": 7.0})
+        text = preset.to_json()
+        logs = await asyncio.gather(*(_edit(one, random.Random(f"{seed} {k}"), edits // pages, ids, text) for k, one in enumerate(editors)))
+        done = [(k, m, answer) for k, log in enumerate(logs) for m, answer in log]
+        last = max(answer["version"] for _, _, answer in done)
+        for one in editors:
+            await one.until(lambda one=one: one.version >= last)
+        shown = await _running(editors[0], ids["s"])
+        outcome = _outcome(done, [one.document for one in editors], last)
+        wanted = next(e for e in editors[0].document["elements"] if e["path"] == "s")["values"]["amplitude"]
+        return (
+            outcome
+            if shown == pytest.approx(wanted, rel=1e-6)
+            else dc.replace(outcome, differ=[*outcome.differ, f"s runs at {shown}, not at {wanted}"])
+        )
+
+
+async def _running(one: Page, stimulus: str) -> float:
+    """The output of a stimulus in the program that runs."""
+    await one.runs()
+    await one.do("watch", stream=1, element=stimulus, port="output")
+    await one.do("step", n=1)
+    await one.until(lambda: 1 in one.frames and one.frames[1][0] == one.clock["time"] > 0)
+    return float(one.frames[1][1])
+
+
+async def _edit(one: Page, random: random.Random, n: int, ids: dict[str, str], preset: str) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+    """Send edits, a few at once, in the order in which they are drawn."""
+    log: list[tuple[dict[str, Any], dict[str, Any]]] = []
+    while len(log) < n:
+        wanted = [drawn(random, ids, preset) for _ in range(min(AT_ONCE, n - len(log)))]
+        log += zip(wanted, await asyncio.gather(*(one.ask(**m) for m in wanted)), strict=True)
+    return log
+
+
+def _outcome(done: list[tuple[int, dict[str, Any], dict[str, Any]]], documents: list[dict[str, Any]], last: int) -> Outcome:
+    problems = [p["what"] for _, _, answer in done for p in answer["problems"]]
+    versions: dict[int, list[tuple[int, dict[str, Any]]]] = {}
+    for k, m, answer in done:
+        if not answer["problems"]:
+            versions.setdefault(answer["version"], []).append((k, m))
+    state, differ = State(small().document), []
+    for version in sorted(versions):
+        after = _one_version(state, versions[version])
+        if after is None:
+            differ.append(f"no order of {versions[version]} gives one version ({version})")
+            break
+        state = after
+    differ += [f"page {k} differs from page 0" for k, seen in enumerate(documents) if seen != documents[0]]
+    undo, redo = _length(state.past), _length(state.future)
+    wanted = json.loads(msgspec.json.encode(view.document(state.document, "edits.json", documents[0]["unsaved"], undo, redo)))
+    differ += [f"{key} is {documents[0][key]!r}, and one after the other {wanted[key]!r}" for key in wanted if documents[0][key] != wanted[key]]
+    accepted = sum(map(len, versions.values()))
+    return Outcome(accepted, len(done) - accepted, last, [what for what in problems if "error of deodar itself" in what], differ)
+
+
+def _one_version(state: State, edits: list[tuple[int, dict[str, Any]]]) -> State | None:
+    """The state after the edits that ended at one version: the first changes something, and the others then change nothing. None: impossible."""
+    for k, m in edits:
+        try:
+            after = again(state, k, m)
+            if all(again(after, *other) is after for other in edits if other[1] is not m):
+                return after
+        except DeodarError:
+            continue
+    return None
+
+
+def _length(chain: Any) -> int:
+    n = 0
+    while chain is not None:
+        n, chain = n + 1, chain[1]
+    return n
+
+
+def run(folder: Path, pages: int = 8, edits: int = 10_000, seed: int = 0) -> Outcome:
+    """Start a studio with a small document in a folder, and attack it."""
+    dd.save(small(), folder / "edits.json", force=True)
+    with studio(folder, folder / "edits.json") as address:
+        return asyncio.run(attack(address, pages, edits, seed))
