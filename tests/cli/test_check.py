@@ -40,7 +40,7 @@ def test_a_document_with_problems_lists_them_all(tmp_path: Path, capsys: pytest.
     lines = out.splitlines()
     assert len(lines) == 2 and not err
     assert lines[0].startswith("v: u.output [x 0..10, 11 samples] does not fit v.input [y 0..1, 3 samples]")
-    assert "Write: u >> Project([y]) >> v" in lines[0]
+    assert "Write: u >> Weights(w, [y]) >> v" in lines[0] and "u >> Project([y]) >> v loses the signal" in lines[0]
     assert lines[1].startswith("loose: nothing is connected to loose.input")
 
 

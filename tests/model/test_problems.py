@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import re
 import sys
 
+import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.couplings.diagonal_expansion import DiagonalExpansion
+from deodar.couplings.diagonal_sum import DiagonalSum
 from deodar.couplings.product import Product
 from deodar.couplings.resample import Resample
 from deodar.couplings.sum import Sum
 from deodar.couplings.weights import Weights
 from deodar.elements.boost import Boost
 from deodar.errors import ModelError
+from deodar.model.check import problems
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels.box import Box
+from deodar.numerics.kernels.shifted import Shifted
 
 X = dd.Axis("x", 0, 10, samples=11)
 Y = dd.Axis("y", 0, 10, samples=11)
@@ -59,6 +67,55 @@ def test_axes_that_miss_on_both_sides_print_both_and_the_project_to_write() -> N
     (problem,) = model.check()
     assert "u.output [x 0..10, 11 samples] does not fit v.input [y 0..10, 11 samples]" in problem.what
     assert problem.fix == "Write: u >> Project([y], rename={'x': 'y'}) >> v"
+
+
+LONG = dd.Axis("sum", 0, 20, samples=21)
+UNIT = dd.Axis("y", 0, 1, samples=3)
+
+
+@pytest.mark.parametrize(
+    ("source", "target", "coupling"),
+    [
+        ([X], [Y], "Project([y], rename={'x': 'y'})"),
+        ([X], [UNIT], "Weights(w, [y])"),
+        ([X, Y], [LONG], "DiagonalSum([sum])"),
+        ([LONG], [X, Y], "DiagonalExpansion([x, y])"),
+        ([X], [WIDE], "Resample([x])"),
+        ([X], [dd.Axis("x", 0, 10, samples=11, periodic=True)], "Resample([x])"),
+    ],
+)
+def test_what_to_write_for_unlike_axes_keeps_the_places_of_the_source(source: list[dd.Axis], target: list[dd.Axis], coupling: str) -> None:
+    """Two places of the source give two different inputs of the target."""
+    seen: list[np.ndarray] = []
+    for center in (3, 7):
+        model = dd.Model("m")
+        u = model.add(dd.GaussianStimulus("u", source, center=center, sigma=1, amplitude=6))
+        v = model.add(dd.Field("v", target))
+        u >> v
+        (problem,) = model.check()
+        assert f"u >> {coupling} >> v" in problem.fix
+        model.disconnect(u, v)
+        w = np.random.default_rng(0).random((*(a.samples for a in target), *(a.samples for a in source)))
+        names = {a.name: a for a in target} | {"w": w, "Project": dd.Project, "Weights": Weights, "Resample": Resample}
+        u >> eval(coupling, names | {"DiagonalSum": DiagonalSum, "DiagonalExpansion": DiagonalExpansion}) >> v
+        assert not any(p.severity == "problem" for p in model.check())
+        seen.append(dd.simulate(model, duration=1, dt=1, record="v.input")["v.input"].isel(time=-1).values)
+    assert np.abs(seen[0] - seen[1]).max() > 0.1 * np.abs(seen[0]).max()
+
+
+def test_what_a_project_loses_is_said_where_it_is_suggested() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [UNIT]))
+    (problem,) = model.check()
+    assert problem.fix.index("Weights") < problem.fix.index("Project([y]) >> v loses the signal")
+    assert "v is uniform along y" in problem.fix
+
+
+def test_units_that_differ_are_named() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [dd.Axis("x", 0, 10, samples=11, unit="deg")]))
+    (problem,) = model.check()
+    assert problem.fix.startswith("Give both the same axis 'x'") and "only the units '' and 'deg' differ" in problem.fix
 
 
 def test_axes_of_other_bounds_print_both_and_the_resample_to_write() -> None:
@@ -212,10 +269,10 @@ def test_problems_of_what_stands_before_are_not_repeated() -> None:
 
 
 def test_the_line_to_type_is_one_that_works() -> None:
-    """Whatever does not fit: the suggested Project, taken at its word, compiles."""
+    """Whatever does not fit: every coupling that is named, taken at its word, compiles."""
     x, y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 10, samples=6, unit="deg")
     hue, far = dd.Axis("hue", 0, 360, samples=12, periodic=True), dd.Axis("x", 0, 20, samples=11)
-    names = {"dd": dd, "Project": dd.Project, "Resample": Resample}
+    names = {"dd": dd, "Project": dd.Project, "Resample": Resample, "Weights": Weights}
     for source, target in (([x], [y]), ([hue], [x]), ([x, hue], [y]), ([x], [far]), ([x, y], [far])):
         model = dd.Model("remedy")
         u, v = model.add(dd.Field("u", source)), model.add(dd.Field("an odd name", target))
@@ -223,6 +280,21 @@ def test_the_line_to_type_is_one_that_works() -> None:
         (problem,) = model.check()
         assert "u >> Project(" in problem.fix
         model.disconnect(u, v)
-        text = problem.fix.removeprefix("Write: ").split(" for ")[0]
-        eval(text, names | {a.name: a for a in target} | {"u": u, "model": model})
-        assert not model.check(), text
+        w = np.zeros([a.samples for a in (*target, *source)])
+        lines = re.findall(r"u >> .*? >> model\['an odd name'\]", problem.fix)
+        assert lines
+        for text in lines:
+            before = model.document
+            eval(text, names | {a.name: a for a in target} | {"u": u, "model": model, "w": w})
+            assert problems(model.document) == [], text
+            model.history.commit(before)
+
+
+@pytest.mark.parametrize("kernel", [dd.Gaussian(1, 1e30), dd.Gaussian(1, [1e30]), Box(1, 1e30), Shifted(dd.Gaussian(1, 1), 1e30)])
+def test_a_kernel_beyond_any_axis_is_a_problem(kernel: Kernel) -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X], kernel=[kernel]))
+    (problem,) = model.check()
+    assert "kernel.0: " in problem.what and "is 1e+30, more than 1e+06 times the axis 'x' (10)" in problem.what and "at most 1e+07" in problem.what
+    with pytest.raises(ModelError):
+        dd.simulate(model, duration=1, dt=1)

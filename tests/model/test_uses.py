@@ -10,6 +10,7 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError, ModelError, UnknownName
 from deodar.model import files
+from deodar.model.check import problems
 
 
 def template() -> dd.Model:
@@ -44,7 +45,7 @@ def test_a_change_reaches_every_use_and_no_copy() -> None:
     changed.set("a.resting_level", -3)
     model.refresh(changed)
     assert [model.get(f"{name}.a.resting_level") for name in ("left", "right", "copy")] == [-3, -3, -2]
-    assert not model.check()
+    assert not problems(model.document)
 
 
 def test_refreshing_without_a_change_changes_nothing() -> None:

@@ -49,6 +49,23 @@ def test_plain_amplitudes_stand_at_the_centre(width):
     assert integral(Gaussian(3.0, width / 2), (LINE,)) == pytest.approx(3.0 * math.sqrt(2 * math.pi) * width / 2, rel=1e-8)
 
 
+@pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
+@pytest.mark.parametrize("steps", [1e-5, 0.01, 0.1, 0.3, 0.5, 0.7, 0.99, 1.0, 1.2, 2.0])
+def test_a_gaussian_narrower_than_the_grid_has_its_true_integral(axis, steps):
+    sigma = steps * axis.step
+    assert integral(Gaussian(3.0, sigma), (axis,)) == pytest.approx(3.0 * math.sqrt(2 * math.pi) * sigma, rel=1e-8)
+    hat = MexicanHat(5.0, sigma, 2.0, 2 * sigma)
+    assert integral(hat, (axis,)) == pytest.approx((5.0 - 2 * 2.0) * math.sqrt(2 * math.pi) * sigma, rel=1e-7)
+
+
+def test_a_gaussian_that_the_grid_resolves_is_its_samples_to_the_last_digit():
+    y = np.zeros(161)
+    y[80] = 1.0
+    for sigma in (LINE.step, 1.3 * LINE.step, 2.0):
+        sampled = 3.0 * np.exp(-0.5 * ((LINE.points - LINE.points[80]) / sigma) ** 2) * LINE.step
+        assert np.abs(convolved(Gaussian(3.0, sigma), (LINE,), y) - sampled).max() < 1e-13
+
+
 @pytest.mark.parametrize("width", [0.01, 0.1, 0.25, 0.3, 0.37, 1.0, 1.1, 7.77])
 def test_the_integral_of_a_box_is_exact_at_any_width(width):
     assert integral(Box(2.0, width), (LINE,)) == pytest.approx(2.0 * width, rel=1e-12)

@@ -10,6 +10,7 @@ from deodar.elements.attractor import Attractor
 from deodar.elements.boost import Boost
 from deodar.elements.function import Function
 from deodar.elements.sensor import Sensor
+from deodar.model.check import problems
 
 x = dd.Axis("x", 0, 20, samples=21)
 
@@ -202,4 +203,4 @@ def test_a_chain_of_any_length_in_any_order(order: int) -> None:
     for k in list(range(1499))[::order]:
         model.document  # noqa: B018
         gains[k] >> gains[k + 1]
-    assert not model.check()
+    assert not problems(model.document)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 from deodar.couplings.delay import Delay
@@ -256,7 +256,7 @@ class _Resolver:
             self.problem(
                 node.id,
                 f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}: {reason}",
-                f"Write: {_remedy(source.path, node.path, axes, want, bool(bad))}",
+                _written(_remedy(source.path, node.path, axes, want, bool(bad))),
             )
             return None
         key = ",".join(f"{a.name}:{a.samples}" for a in want)
@@ -290,7 +290,10 @@ class _Resolver:
                 source, own = self.entries[c.source].path, describe(getattr(node.element, "axes", node.ins[port]))
                 names = ", ".join(a.name for a in getattr(node.element, "axes", node.ins[port]))
                 ends = f"{source}.{c.source_port} {describe(node.ins[port])} does not fit {node.path}.{port} {own}: {what}"
-                return ends, f"Give both the same axes, or write: {source} >> Project([{names}]) or Resample([{names}]) >> {node.path}"
+                return ends, (
+                    f"Give both the same axes. {source} >> Resample([{names}]) >> {node.path} keeps the part they share and loses the rest;"
+                    f" {source} >> Project([{names}]) >> {node.path} loses the places along every axis that is missing in it: it integrates over them"
+                )
         return what, ""
 
     def per_axis(self, entry: Entry, node: Node) -> bool:
@@ -325,18 +328,49 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
 
 
 def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:
-    """The coupling to write between two ports that do not fit."""
+    """What to write between two ports that do not fit: first what keeps the places of the source, then what a `Project` or a `Resample` loses."""
 
     def chain(coupling: str) -> str:
         ends = [path if path.replace(".", "_").isidentifier() else f"model[{path!r}]" for path in (source, target)]
         return f"{ends[0]} >> {coupling} >> {ends[1]}"
 
-    names = ", ".join(a.name for a in want)
+    names, there = ", ".join(a.name for a in want), ", ".join(a.name for a in axes)
     if other_grid:
-        part = f"{chain(f'Resample([{names}])')} for the part they share, or " if [a.name for a in axes] == [a.name for a in want] else ""
-        return f"{part}{chain('Project([])')} for its integral; or give both the same axis"
+        return _regrid(chain, axes, want, names)
     missing = [a for a in want if a.name not in [b.name for b in axes]]
     extra = [a for a in axes if a.name not in [b.name for b in want]]
     if len(missing) == len(extra) == 1 and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
         return chain(f"Project([{names}], rename={{{extra[0].name!r}: {missing[0].name!r}}})")
-    return chain(f"Project([{names}])")
+    ways: list[str] = []
+    if len(axes) == 2 and [a.samples for a in want] == [sum(shape(axes)) - 1]:
+        ways.append(f"{chain(f'DiagonalSum([{names}])')} where the target is the sum of the two")
+    if len(want) == 2 and [a.samples for a in axes] == [sum(shape(want)) - 1]:
+        ways.append(f"{chain(f'DiagonalExpansion([{names}])')} where the source is the sum of the two")
+    ways.append(f"{chain(f'Weights(w, [{names}])')} with an array w that says which place goes where")
+    if len(missing) == len(extra) == 1:
+        ways.append(f"give both the same axis, if {extra[0].name} and {missing[0].name} are one dimension")
+    lost, flat = (", ".join(a.name for a in found) for found in (extra, missing))
+    lose = f"{chain(f'Project([{names}])')} loses the places: it integrates over {lost}, and {target} gets the same value everywhere along {flat}"
+    if there == lost and names == flat:
+        lose = f"{chain(f'Project([{names}])')} loses the signal: it keeps one number, the integral over {lost}, and {target} is uniform along {flat}"
+    return f"{', or '.join(ways)}. {lose}"
+
+
+def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> str:
+    """What to write where an axis of the same name has other bounds, another unit or another end."""
+    here = {a.name: a for a in want}
+    pairs = [(a, here[a.name]) for a in axes if a.name in here and not a.fits(here[a.name])]
+    units = [(a, b) for a, b in pairs if a.unit != b.unit]
+    same = f"give both the same axis {pairs[0][0].name!r}"
+    if units and all(dc.replace(a, unit=b.unit).fits(b) for a, b in units):
+        same = f"{same}: the numbers agree, only the units {units[0][0].unit!r} and {units[0][1].unit!r} differ, and one of them is probably wrong"
+    elif units:
+        same = f"{same}, with all values in one unit ({units[0][0].unit!r} or {units[0][1].unit!r})"
+    lose = f"{chain('Project([])')} loses every place: it keeps one number, the integral"
+    if units or [a.name for a in axes] != [a.name for a in want] or any(a.periodic and not b.periodic for a, b in pairs):
+        return f"{same}; or {chain(f'Weights(w, [{names}])')} with an array w that says which place goes where. {lose}"
+    return f"{same}; or {chain(f'Resample([{names}])')}, which keeps the part they share and loses what lies outside it. {lose}"
+
+
+def _written(remedy: str) -> str:
+    return remedy[0].upper() + remedy[1:] if remedy.startswith("give") else f"Write: {remedy}"

@@ -12,6 +12,7 @@ from deodar.elements.placeholder import Placeholder
 from deodar.importers.cosivina.classes import CLASSES
 from deodar.importers.cosivina.classes.missing import MISSING
 from deodar.importers.opening import read
+from deodar.model.check import problems
 from tests.importers.cosivina.files import element, written
 from tests.importers.cosivina.oracle import Sim
 
@@ -157,7 +158,7 @@ def everything(seed):
 def test_every_class_in_every_place(seed, dt, t0, tmp_path):
     parts = everything(seed)
     done = read(written(tmp_path, [element(a, k, p, i) for a, k, p, i in parts], dt, t0))
-    assert done.model.check() == [] and not done.report.losses
+    assert problems(done.model.document) == [] and not done.report.losses
     plain = Sim([(a, k, p | ({"onTimes": _plain(p["onTimes"])} if "onTimes" in p else {}), i) for a, k, p, i in parts], dt, t0)
     labels = [a for a, k, _, _ in parts if k in ("NeuralField", "SingleNodeDynamics")]
     data = dd.simulate(done.model, STEPS * dt, record=[f"{dd.quote(a)}.activation" for a in labels], precision="float64")
@@ -221,7 +222,7 @@ def test_every_class_of_cosivina_is_translated_or_says_what_is_missing(tmp_path)
     assert len(ALL) == 58 and set(ALL) == set(CLASSES) | set(MISSING)
     parts = [element(f"a {kind}", kind, {"size": [1, 1]}, [("u", "output")]) for kind in ALL]
     done = read(written(tmp_path, [element("u", "NeuralField", {"size": [1, 1]}), *parts]))
-    assert done.model.check() == []
+    assert problems(done.model.document) == []
     verdicts = {line.what: (line.verdict, line.why) for line in done.report.lines if line.part == "element"}
     for kind in MISSING:
         assert verdicts[kind] == ("dropped", f"Placeholder: {MISSING[kind]}")

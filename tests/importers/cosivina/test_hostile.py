@@ -15,6 +15,7 @@ import pytest
 import deodar as dd
 from deodar.errors import DeodarError, DocumentError
 from deodar.importers.opening import Imported, read, tools
+from deodar.model.check import problems
 from tests.importers.cosivina.files import SAMPLES, element, text, written
 
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
@@ -102,7 +103,7 @@ def test_mutations_that_are_good_run():
     ran = 0
     for _ in range(8):
         done = tried(json.dumps(mutated(data, rng, 4)))
-        if done is not None and not done.model.check():
+        if done is not None and not problems(done.model.document):
             try:
                 dd.simulate(done.model, done.model.document.step * 2, every=done.model.document.step * 2)
                 ran += 1
@@ -178,7 +179,7 @@ def test_loops_without_a_state_run(count, tmp_path):
     ring = [element(f"s{k}", "ScaleInput", {"size": [1, 3], "amplitude": 0.5}, [(f"s{(k + 1) % count}", "output")]) for k in range(count)]
     field = element("u", "NeuralField", {**FIELD, "size": [1, 3]}, [("s0", "output")])
     done = read(written(tmp_path, [*ring, field]))
-    assert done.model.check() == [] and done.report.faithful
+    assert problems(done.model.document) == [] and done.report.faithful
     assert np.allclose(dd.simulate(done.model, 5, every=5)["u.activation"], -5)
 
 
@@ -190,7 +191,7 @@ def test_a_loop_through_a_sum_runs(tmp_path):
         element("b", "BoostStimulus", {"amplitude": 1}),
     ]
     done = read(written(tmp_path, parts))
-    assert done.model.check() == [] and done.report.faithful
+    assert problems(done.model.document) == [] and done.report.faithful
     found = dd.simulate(done.model, 3, every=3, record=["s.output"])["s.output"].values[-1]
     assert np.isfinite(found).all() and found.min() > 1
 

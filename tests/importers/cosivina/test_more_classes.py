@@ -7,6 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.importers.opening import read
+from deodar.model.check import problems
 from tests.importers.cosivina.files import element, written
 from tests.importers.cosivina.oracle import gauss, line
 
@@ -24,7 +25,7 @@ def shown(folder, kind, param, pattern, bugs=False, component="output"):
     flat = {"size": size, "pattern": {"_ArrayType_": "double", "_ArraySize_": size, "_ArrayData_": pattern.ravel(order="F").tolist()}}
     parts = [element("s", "CustomStimulus", flat), element("it", kind, param, [("s", "output")])]
     done = read(written(folder, parts), bugs)
-    assert done.model.check() == [] and not done.report.losses
+    assert problems(done.model.document) == [] and not done.report.losses
     return dd.simulate(done.model, 1, every=1, record=["it.output"], precision="float64")["it.output"].values[0], done.report
 
 

@@ -9,6 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.importers.opening import read
+from deodar.model.check import problems
 from tests.importers.cosivina.files import element, written
 from tests.importers.cosivina.oracle import Sim
 
@@ -87,7 +88,7 @@ def _given(kind: str, size: list[int], more: dict[str, list[int]]) -> dict[str, 
 def test_a_random_model(seed, tmp_path):
     parts = model(seed, 50)
     done = read(written(tmp_path, [element(*part) for part in parts]))
-    assert done.model.check() == [] and not done.report.losses
+    assert problems(done.model.document) == [] and not done.report.losses
     labels = [label for label, kind, *_ in parts if kind == "NeuralField"]
     assert len(labels) > 3
     data = dd.simulate(done.model, STEPS, record=[f"{label}.activation" for label in labels], precision="float64")

@@ -9,7 +9,10 @@ from typing import Annotated, Any
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
-from deodar.parameters import Part, Recompile
+from deodar.parameters import Part, Recompile, parameters
+
+WIDEST = 1e6
+"""Widths and shifts beyond this multiple of an axis are a problem: single precision cannot square much larger ones (a guess, far above any use)."""
 
 
 @dataclass(frozen=True)
@@ -54,3 +57,14 @@ class Kernel(Part):
         """What does not fit between this kernel and the axes of its field."""
         if self.boundary is not None and len(self.boundary) not in (1, len(axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"
+        for p in parameters(type(self)):
+            value = getattr(self, p.name)
+            if p.form != "per_axis" or value is None or (isinstance(value, tuple) and len(value) != len(axes)):
+                continue
+            for axis, v in zip(axes, value if isinstance(value, tuple) else (value,) * len(axes), strict=True):
+                if abs(v) > WIDEST * axis.range:
+                    yield (
+                        f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r} ({axis.range:g}): a kernel so wide is one number at"
+                        f" all places. Give at most {WIDEST * axis.range:g}; for an input that is the same everywhere take a Project([]) and a Gain"
+                    )
+                    break

@@ -23,7 +23,8 @@ class Gaussian(Kernel):
     """Local excitation (positive amplitude) or inhibition (negative amplitude).
 
     Equation:
-        k(d) = amplitude * prod_i exp(-d_i^2 / (2 sigma_i^2)); if normalized, divided by its integral.
+        k(d) = amplitude * prod_i exp(-d_i^2 / (2 sigma_i^2)); if normalized, divided by its integral. Where sigma is below the grid step the
+        samples are scaled to the integral amplitude * prod_i sqrt(2 pi) sigma_i, which they would miss (4 times too large at a tenth of a step).
 
     Parameters:
         amplitude: weight at the centre, per unit of the axes; if normalized, the integral over all distances. On a node
@@ -56,7 +57,7 @@ def gaussian_term(amplitude: Any, sigma: Any, normalized: bool) -> Term:
     def along(d: int, lag: Any, period: float | None, step: float) -> Any:
         s = sigma[d] if isinstance(sigma, tuple) else sigma
         weight = profile(lag, s, period)
-        return weight / integral(s, step) if normalized else weight
+        return weight / integral(s, step) if normalized else weight * unresolved(s, step)
 
     return Term(amplitude, along)
 
@@ -80,3 +81,8 @@ def integral(sigma: Any, step: float) -> Any:
     # below two steps the sum is taken as it stands (20 terms reach ten widths), above it equals the integral to 1e-34
     lattice = jnp.sum(jnp.exp(-0.5 * (jnp.arange(1, 21) * ratio) ** 2))
     return jnp.where(ratio > 0.5, step * (1 + 2 * lattice), math.sqrt(2 * math.pi) * sigma)
+
+
+def unresolved(sigma: Any, step: float) -> Any:
+    """What brings the samples of a Gaussian to its true integral: 1 where the grid resolves it, from one step per sigma (to 5e-9)."""
+    return jnp.where(sigma < step, math.sqrt(2 * math.pi) * sigma / integral(sigma, step), 1.0)
