@@ -164,7 +164,11 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "10,000 digits": (b'{"deodar": 1, "dt": ' + b"9" * 10_000 + b"}", ("holds a number of 10000 digits",)),
     "400 digits": (b'{"deodar": 1, "t0": ' + b"9" * 400 + b"}", ("holds a number of 400 digits",)),
     "a key twice": (b'{"deodar": 1, "name": "a", "name": "b"}', ("the key 'name' occurs twice",)),
-    "a key twice inside": (b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 1, "tau": 2}}}', ("the key 'tau' occurs twice",)),
+    "a key twice inside": (b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 1, "tau": 2}}}', ("elements.u: the key 'tau' occurs twice",)),
+    "several keys several times": (
+        b'{"deodar": 1, "layout": {"a": [{"b": 1, "b": 2, "b": 3}]}, "elements": {"u": {"kind": "Field"}, "u": {"kind": "Field"}}}',
+        ("elements: the key 'u' occurs twice", "layout.a.0: the key 'b' occurs 3 times"),
+    ),
     "half a character": (b'{"deodar": 1, "name": "\\ud800"}', ("half a character",)),
     "a list": (b"[]", ("is not a deodar document: it holds list",)),
     "a number": (b"5", ("is not a deodar document: it holds int",)),

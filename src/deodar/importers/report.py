@@ -17,8 +17,9 @@ class Line:
 
     Attributes:
         where: label of the element in the file; "" for the file itself.
-        part: `element`, `parameter`, `connection` or `file`.
-        what: the class, the parameter's name, or the source.
+        part: `element`, `parameter`, `connection`, `component` (of an element, where it is not read by the same name), `key` (of a JSON object,
+            where it occurs more than once) or `file`.
+        what: the class, the name of the parameter or component, the source, or the key.
         verdict: `carried` (the model does what the file says), `approximated`, or `dropped`.
         why: how it was approximated or why it was dropped; for what was carried, into what.
     """
@@ -71,7 +72,7 @@ class Report:
         return f"{counted}; " + ", ".join(f"{self.count(v)} {v}" for v in VERDICTS)
 
     def text(self) -> str:
-        """The report as a document's notes keep it: what was not carried, then what each element became."""
+        """The report as a document's notes keep it: what was not carried, what each element became, and where its components are read."""
         out = [f"Imported from {self.file} ({self.tool}): {self.summary()}."]
         if self.losses:
             out += ["", "Not carried as it stands:", *(f"- {line}" for line in self.losses)]
@@ -80,6 +81,9 @@ class Report:
         elements = [line for line in self.lines if line.part == "element"]
         if elements:
             out += ["", "Elements:", *(f"- {line.where}: {line.what}, {line.verdict}{f' ({line.why})' if line.why else ''}" for line in elements)]
+        components = [line for line in self.lines if line.part == "component" and line.verdict == "carried"]
+        if components:
+            out += ["", "Components:", *(f"- {line.where}: {line.what}: {line.why}" for line in components)]
         return "\n".join(out)
 
     def data(self) -> dict[str, Any]:

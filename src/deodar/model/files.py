@@ -21,6 +21,7 @@ import psutil
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.model import output
 from deodar.model.document import KEYS, VERSION, Document
+from deodar.model.keys import collect, repeated
 from deodar.model.parts import to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data
@@ -181,15 +182,8 @@ def parse(text: bytes | str) -> Any:
             raise DocumentError(f"holds the number {text[:40]}, which is not finite")
         return value
 
-    def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        out = dict(pairs)
-        if len(out) < len(pairs):
-            names = [k for k, _ in pairs]
-            raise DocumentError(f"the key {next(k for k in names if names.count(k) > 1)!r} occurs twice")
-        return out
-
     try:
-        data = json.loads(text, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=unique)
+        data = json.loads(text, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect)
     except json.JSONDecodeError as error:
         raise DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
     except UnicodeDecodeError:
@@ -197,11 +191,18 @@ def parse(text: bytes | str) -> Any:
     except RecursionError:
         raise DocumentError(f"is nested deeper than {DEEPEST} levels") from None
     _depth(data)
+    twice = repeated(data) if isinstance(data, (dict, list)) else []
+    if twice:
+        raise DocumentError([Problem(r.where, f"the key {r.key!r} occurs {_times(len(r.values))}", "Keep one of them") for r in twice])
     try:
         json.dumps(data, ensure_ascii=False).encode()
     except UnicodeEncodeError:
         raise DocumentError("holds half a character (a lone surrogate), which is not text") from None
     return data
+
+
+def _times(count: int) -> str:
+    return "twice" if count == 2 else f"{count} times"
 
 
 def _depth(data: Any) -> None:

@@ -230,6 +230,46 @@ def test_shapes_of_no_input(shape, tmp_path):
     assert done.report.faithful and not done.model.document.connections
 
 
+@pytest.mark.parametrize("elements", ["missing", None, [], {}, 27, "field u", True, {"label": "u"}])
+def test_a_file_whose_elements_are_lost_is_refused(elements, tmp_path):
+    body = json.loads(text([element("u", "NeuralField", FIELD)]))["simulator"] | {"nElements": 27, "elements": elements}
+    if elements == "missing":
+        del body["elements"]
+    (tmp_path / "lost.json").write_text(json.dumps({"simulator": body}))
+    with pytest.raises(DocumentError, match=r"lost\.json: holds no elements: .* nElements is 27"):
+        dd.load(tmp_path / "lost.json")
+
+
+@pytest.mark.parametrize("elements", [None, [], {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}])
+def test_a_simulator_that_says_it_is_empty_is_an_empty_model(elements, tmp_path):
+    (tmp_path / "empty.json").write_text(json.dumps({"simulator": {"deltaT": 1, "nElements": 0, "elements": elements}}))
+    done = read(tmp_path / "empty.json")
+    assert done.report.faithful and not done.model.document.entries
+
+
+def test_elements_that_are_counted_or_named_and_not_there_are_reported(tmp_path):
+    body = json.loads(text([element("u", "NeuralField", FIELD), element("v", "NeuralField", FIELD)]))
+    del body["simulator"]["elements"][1]
+    (tmp_path / "cut.json").write_text(json.dumps(body))
+    assert [str(line) for line in read(tmp_path / "cut.json").report.losses] == [
+        "file nElements: approximated, it is 2, and the list of elements holds 1",
+        "v: element unknown: dropped, elementLabels names it, the list of elements does not hold it",
+    ]
+
+
+def test_keys_that_occur_twice_are_reported_with_the_value_in_use(tmp_path):
+    source = text([element("u", "NeuralField", FIELD)])
+    source = source.replace('"tau": 10', '"tau": 30, "tau": 20').replace('"deltaT": 1', '"deltaT": 3, "deltaT": 2, "deltaT": 1')
+    (tmp_path / "twice.json").write_text(source)
+    done = read(tmp_path / "twice.json")
+    assert not done.report.faithful
+    assert [str(line) for line in done.report.losses] == [
+        "key simulator.deltaT: approximated, it occurs 3 times, with the values 3, 2, 1; the last one is taken",
+        "u: key param.tau: approximated, it occurs 2 times, with the values 30, 20; the last one is taken",
+    ]
+    assert done.model["u"].element.tau == 20 and done.model.document.dt == 1
+
+
 def test_one_element_may_stand_without_a_list(tmp_path):
     data = json.loads(text([element("u", "NeuralField", FIELD)]))
     data["simulator"]["elements"] = data["simulator"]["elements"][0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 import json
 import math
 from collections.abc import Mapping
@@ -12,6 +13,7 @@ import numpy as np
 
 from deodar.errors import DocumentError
 from deodar.importers.report import Line
+from deodar.model.keys import Repeated, collect, repeated
 from deodar.parameters import show
 
 DEEPEST = 64
@@ -52,6 +54,11 @@ class Simulator:
     elements: tuple[Foreign, ...]
     lines: tuple[Line, ...]
 
+    @functools.cached_property
+    def by_label(self) -> Mapping[str, Foreign]:
+        """The elements by their labels."""
+        return {e.label: e for e in self.elements}
+
 
 def parse(content: bytes) -> Simulator:
     """The simulator that a file holds.
@@ -65,9 +72,15 @@ def parse(content: bytes) -> Simulator:
     if not isinstance(inside, dict) or not {"elements", "elementLabels", "nElements"} & set(cast(Any, inside)):
         raise DocumentError("holds no simulator of cosivina", fix='It is an object {"simulator": {"deltaT": ..., "elements": [...]}}')
     body = cast("dict[str, Any]", inside)
-    lines: list[Line] = []
+    lines = [_repeated(data, found) for found in repeated(data)]
     step, start = _time(body, "deltaT", 1.0, lines), _time(body, "tZero", 0.0, lines)
     found = _entries(body.get("elements"))
+    count = _counted(body)
+    if not found and not (count == 0 and empty(body.get("elements"))):
+        there = f"its elements are {show(body['elements'])}" if "elements" in body else "it has no list of elements"
+        said = f", and nElements is {show(body['nElements'])}" if "nElements" in body else ""
+        raise DocumentError(f"holds no elements: {there}{said}", fix="Save the simulator again with saveSettings")
+    lines += _census(body, found, count)
     if len(found) > MOST_ELEMENTS:
         raise DocumentError(f"holds {len(found)} elements; at most {MOST_ELEMENTS} are read")
     elements = tuple(e for place, entry in enumerate(found) if (e := _element(place, entry, lines)) is not None)
@@ -99,9 +112,9 @@ def empty(value: Any) -> bool:
 def _json(content: bytes) -> Any:
     try:
         try:
-            data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False)
+            data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False, object_pairs_hook=collect)
         except UnicodeDecodeError:
-            data = json.loads(content.decode("latin-1"), strict=False)  # older MATLAB wrote the system's own characters
+            data = json.loads(content.decode("latin-1"), strict=False, object_pairs_hook=collect)  # older MATLAB wrote the system's own characters
     except json.JSONDecodeError as error:
         raise DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
     except RecursionError:
@@ -114,6 +127,19 @@ def _json(content: bytes) -> Any:
         if not level:
             return data
     raise DocumentError(f"is nested deeper than {DEEPEST} levels")
+
+
+def _repeated(data: Any, found: Repeated) -> Line:
+    """What became of a key that occurs more than once: where it is inside an element, the element's label says so."""
+    label, path = "", list[Any]()
+    for step in found.path:
+        data = data[step]
+        path.append(step)
+        if isinstance(data, dict) and "class" in data:
+            label, path = _text(cast("dict[str, Any]", data).get("label")), []
+    what = ".".join(str(step) for step in (*path, found.key))
+    values = ", ".join(show(value) for value in found.values)
+    return Line(label, "key", what, "approximated", f"it occurs {len(found.values)} times, with the values {values}; the last one is taken")
 
 
 def _inside(item: Any) -> list[Any]:
@@ -130,6 +156,27 @@ def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> 
         return default
     lines.append(Line("", "file", key, "carried"))
     return found
+
+
+def _counted(body: dict[str, Any]) -> int | None:
+    """How many elements there are by nElements; None where it does not say."""
+    numbers = array(body.get("nElements"))
+    return int(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 and 0 <= numbers.reshape(-1)[0] < 1e9 else None
+
+
+def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[Line]:
+    """Where the list of elements disagrees with nElements and elementLabels: the rest of it may be lost."""
+    lines: list[Line] = []
+    if "nElements" in body and count != len(found):
+        why = f"it is {show(body['nElements'])}, and the list of elements holds {len(found)}"
+        lines.append(Line("", "file", "nElements", "approximated", why))
+    listed = body.get("elementLabels")
+    labels = [listed] if isinstance(listed, str) else cast("list[Any]", listed) if isinstance(listed, list) else []
+    there = {_text(cast("dict[str, Any]", e).get("label")) for e in found if isinstance(e, dict)}
+    for label in dict.fromkeys(_text(v) for v in labels):
+        if label and label not in there:
+            lines.append(Line(label, "element", "unknown", "dropped", "elementLabels names it, the list of elements does not hold it"))
+    return lines
 
 
 def _entries(value: Any) -> list[Any]:
