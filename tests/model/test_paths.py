@@ -9,7 +9,7 @@ import pytest
 import deodar as dd
 from deodar.errors import UnknownName
 from deodar.model import files
-from deodar.model.paths import display, readings, split, stored_id
+from deodar.model.paths import Index, display, readings, split, stored_id
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -120,9 +120,9 @@ def test_broken_quotes_are_named(path: str) -> None:
 
 def test_every_reading_is_listed() -> None:
     known = [("a",), ("a", "b"), ("a.b",)]
-    assert [names for names, _ in readings("a.b", known)] == [("a", "b"), ("a",), ("a.b",)]
-    assert readings("a.tau", known) == [(("a",), "tau")]
-    assert readings("z", known) == []
+    assert [names for names, _ in readings("a.b", Index.of(known))] == [("a", "b"), ("a",), ("a.b",)]
+    assert readings("a.tau", Index.of(known)) == [(("a",), "tau")]
+    assert readings("z", Index.of(known)) == []
 
 
 def test_ids_come_from_the_path_and_never_collide() -> None:

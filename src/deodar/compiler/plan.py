@@ -250,7 +250,10 @@ def _reads(group: Group, port: str, groups: Sequence[Group], row: Mapping[str, t
     for r, n in enumerate(group.nodes):
         for ident, source_port, instant in sorted(n.reads[port]):
             g, source_row = row[ident]
-            found.setdefault((g, source_port, instant), [[] for _ in group.nodes])[r].append(source_row)
+            key = (g, source_port, instant)
+            if key not in found:
+                found[key] = [[] for _ in group.nodes]
+            found[key][r].append(source_row)
     out: list[Read] = []
     for key in sorted(found):
         rows, nothing = found[key], groups[key[0]].rows

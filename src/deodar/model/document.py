@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from deodar.element import Element
-from deodar.model.paths import Names, display
+from deodar.model.paths import Index, Names, display
 
 VERSION = 1
 READS = ("", "previous", "current", "delayed")
@@ -96,6 +96,35 @@ class Document:
     def by_names(self) -> Mapping[Names, Entry]:
         """Entries by path."""
         return self._by_names
+
+    def ends(self) -> Collection[tuple[str, str, str, str]]:
+        """The ends of all connections."""
+        return self._ends
+
+    def connected(self, new: Connection) -> Document:
+        """This document with one more connection.
+
+        What is known of the entries is shared with it, and the set of ends is passed on to it: n connections take n steps, not n^2.
+        """
+        ends = self.__dict__.pop("_ends", None)
+        out = dc.replace(self, connections=(*self.connections, new))
+        out.__dict__.update({key: self.__dict__[key] for key in ("_by_id", "_by_names", "_index") if key in self.__dict__})
+        if ends is not None:  # this document makes the set anew if it is asked again
+            ends.add(new.ends)
+            out.__dict__["_ends"] = ends
+        return out
+
+    def index(self) -> Index:
+        """Names of the entries, to be looked up by path."""
+        return self._index
+
+    @functools.cached_property
+    def _ends(self) -> set[tuple[str, str, str, str]]:
+        return {c.ends for c in self.connections}
+
+    @functools.cached_property
+    def _index(self) -> Index:
+        return Index.of(self.by_names())
 
     @functools.cached_property
     def _by_id(self) -> dict[str, Entry]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from deodar.element import Element
@@ -28,21 +28,32 @@ MOST_TICKS = 1_000_000
 
 def add(doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None) -> tuple[Document, Entry]:
     """A document with one more element. Without a name it is called after what it follows: `u>Gain`, `u>Gain2`."""
-    if not isinstance(element, Element):
-        raise ModelError(f"{element!r} is no element", fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))")
-    require_ticks(every, element.name)
-    taken = doc.by_names()
-    if element.name:
-        names = (*group, element.name)
-    else:
+    if isinstance(element, Element) and not element.name:
         base = f"{after.names[-1]}>{type(element).__name__}" if after else type(element).__name__
         group = after.group if after and not group else group
-        names = (*group, _free(base, {n[-1] for n in taken if n[:-1] == group}))
-    _vacant(doc, names)
-    _unambiguous(doc, names, element)
-    path = display(names)
-    entry = Entry(stored_id(path, (e.id for e in doc.entries)), names, dc.replace(element, name=names[-1]), every)
-    return dc.replace(doc, entries=(*doc.entries, entry), groups=_with_groups(doc.groups, [group])), entry
+        element = dc.replace(element, name=_free(base, {n[-1] for n in doc.by_names() if n[:-1] == group}))
+    doc, entries = add_all(doc, [(element, group, every)])
+    return doc, entries[0]
+
+
+def add_all(doc: Document, elements: Iterable[tuple[Element, Names, int]]) -> tuple[Document, list[Entry]]:
+    """A document with more elements, each with its group and its step in ticks; every element has a name."""
+    entries: list[Entry] = []
+    taken, ids, groups = dict(doc.by_names()), {e.id for e in doc.entries}, set(doc.groups)
+    for element, group, every in elements:
+        if not isinstance(element, Element):
+            raise ModelError(f"{element!r} is no element", fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))")
+        require_ticks(every, element.name)
+        names = (*group, element.name)
+        _vacant(doc, names, taken, groups)
+        _unambiguous(doc, names, element)
+        path = display(names)
+        entry = Entry(stored_id(path, ids), names, element, every)
+        entries.append(entry)
+        taken[names] = entry
+        ids.add(entry.id)
+        groups |= {group[:k] for k in range(1, len(group) + 1)}
+    return dc.replace(doc, entries=(*doc.entries, *entries), groups=_with_groups(doc.groups, [e.group for e in entries])), entries
 
 
 def remove(doc: Document, ids: Iterable[str]) -> Document:
@@ -116,15 +127,12 @@ def insert(doc: Document, template: Document, place: Callable[[Names], Names], i
 
     Where `linked`, the document remembers which element came from which (`uses.refresh`). What the template itself uses stays linked too.
     """
-    new: dict[str, str] = {}
-    for e in template.entries:
-        if ids is None or e.id in ids:
-            names = place(e.names)
-            doc, entry = add(doc, dc.replace(e.element, name=names[-1]), names[:-1], e.every)
-            new[e.id] = entry.id
-    for c in template.connections:
-        if c.source in new and c.target in new:
-            doc = dc.replace(doc, connections=(*doc.connections, dc.replace(c, source=new[c.source], target=new[c.target])))
+    chosen = [e for e in template.entries if ids is None or e.id in ids]
+    placed = [(e, place(e.names)) for e in chosen]
+    doc, entries = add_all(doc, [(dc.replace(e.element, name=names[-1]), names[:-1], e.every) for e, names in placed])
+    new = {e.id: entry.id for e, entry in zip(chosen, entries, strict=True)}
+    inside = [dc.replace(c, source=new[c.source], target=new[c.target]) for c in template.connections if c.source in new and c.target in new]
+    doc = dc.replace(doc, connections=(*doc.connections, *inside))
     for k in template.knobs:
         links = tuple((new[i], leaf) for i, leaf in k.links if i in new)
         if k.name not in [j.name for j in doc.knobs]:
@@ -151,12 +159,12 @@ def connect(doc: Document, source: Entry, source_port: str, target: Entry, targe
     if reads not in READS:
         raise ParameterError(f"reads is {reads!r}; it is one of previous, current, delayed", where=f"{source.path} -> {target.path}")
     new = Connection(source.id, source_port, target.id, target_port, reads)
-    if any(new.ends == c.ends for c in doc.connections):
+    if new.ends in doc.ends():
         raise ModelError(
             f"{source.path}.{source_port} is already connected to {target.path}.{target_port}",
             fix="To count it twice, put a Gain between them",
         )
-    return dc.replace(doc, connections=(*doc.connections, new))
+    return doc.connected(new)
 
 
 def disconnect(doc: Document, source: str, source_port: str, target: str, target_port: str) -> Document:
@@ -202,8 +210,9 @@ def knob(doc: Document, name: str, value: float) -> Document:
     if not isinstance(name, str) or not name or not is_text(name):
         raise ModelError(f"a document parameter needs a name, not {name!r}")
     for e in doc.entries:
-        if name == e.path or any(name == f"{e.path}.{p.name}" for p in parameters(type(e.element))):
-            what = "an element" if name == e.path else f"a parameter of {e.path}"
+        path = e.path
+        if name == path or (name.startswith(f"{path}.") and name[len(path) + 1 :] in [p.name for p in parameters(type(e.element))]):
+            what = "an element" if name == path else f"a parameter of {path}"
             raise ModelError(f"a document parameter cannot be called {name!r}: {what} is", fix="Give it another name")
     links = next((k.links for k in doc.knobs if k.name == name), ())
     for ident, leaf in links:
@@ -339,18 +348,20 @@ def _put(doc: Document, ident: str, path: str, value: Any) -> Document:
     return dc.replace(doc, entries=tuple(dc.replace(e, element=new) if e.id == ident else e for e in doc.entries))
 
 
-def _vacant(doc: Document, names: Names) -> None:
+def _vacant(doc: Document, names: Names, taken: Mapping[Names, Entry] | None = None, groups: Collection[Names] | None = None) -> None:
+    """Refuse a path that an element, a group or a document parameter has, or that leads into an element."""
+    taken, groups = doc.by_names() if taken is None else taken, doc.groups if groups is None else groups
     if any(not isinstance(n, str) or not n or not is_text(n) for n in names):
         raise ModelError(f"elements and groups need names, not {next(n for n in names if not isinstance(n, str) or not n or not is_text(n))!r}")
-    found = doc.by_names().get(names)
+    found = taken.get(names)
     if found is not None:
         raise ModelError(f"there is already an element {found.path!r}", fix="Give one of them another name")
-    if names in doc.groups:
+    if names in groups:
         raise ModelError(f"there is already a group {display(names)!r}", fix="Give one of them another name")
     for k in range(1, len(names)):
-        if names[:k] in doc.by_names():
+        if names[:k] in taken:
             raise ModelError(f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group")
-    if display(names) in [k.name for k in doc.knobs]:
+    if doc.knobs and display(names) in [k.name for k in doc.knobs]:
         raise ModelError(f"a document parameter is called {display(names)!r}", fix="Give one of them another name")
 
 
@@ -381,10 +392,10 @@ def _free(base: str, taken: set[str]) -> str:
 
 
 def _with_groups(groups: Iterable[Names], new: Iterable[Names]) -> tuple[Names, ...]:
-    out = list(groups)
+    out = dict.fromkeys(groups)
     for g in new:
-        out += [g[:k] for k in range(1, len(g) + 1) if g[:k] not in out]
-    return tuple(dict.fromkeys(out))
+        out |= dict.fromkeys(g[:k] for k in range(1, len(g) + 1))
+    return tuple(out)
 
 
 def names_of(element: Element) -> list[str]:

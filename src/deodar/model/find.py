@@ -31,7 +31,7 @@ def entry(doc: Document, ident: str) -> Entry:
 def element(doc: Document, path: str) -> Entry:
     """The element at a path; an unknown one is an error that suggests the nearest."""
     by = doc.by_names()
-    found = [names for names, rest in readings(path, by) if not rest]
+    found = [names for names, rest in readings(path, doc.index()) if not rest]
     if not found:
         raise UnknownName(f"there is no element {path!r}", fix=did_you_mean(path, [e.path for e in doc.entries]))
     return by[found[0]]
@@ -40,7 +40,7 @@ def element(doc: Document, path: str) -> Entry:
 def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]:
     """The element and the port that a path names; a path without a port means the default one."""
     by = doc.by_names()
-    found = readings(path, by)
+    found = readings(path, doc.index())
     for names, rest in found:
         entry = by[names]
         known = readable(entry)
@@ -71,7 +71,7 @@ def outputs(entry: Entry) -> list[str]:
 def target(doc: Document, path: str) -> Target:
     """The parameter that a path names: `u.tau`, `u.kernel.0.sigma`, or the name of a document parameter."""
     by = doc.by_names()
-    found = [(by[names], rest) for names, rest in readings(path, by) if rest]
+    found = [(by[names], rest) for names, rest in readings(path, doc.index()) if rest]
     for entry, rest in found:
         inner = rest.replace('"', "")
         if inner.split(".")[0] in [p.name for p in parameters(type(entry.element))]:

@@ -267,14 +267,14 @@ class Model:
 
     def __getitem__(self, path: str) -> Handle:
         by = self.document.by_names()
-        for names, rest in readings(path, by):
+        for names, rest in readings(path, self.document.index()):
             if not rest:
                 return Handle(self, by[names].id)
         entry, port = find.port(self.document, path)
         return Handle(self, entry.id, port)
 
     def __contains__(self, path: str) -> bool:
-        return any(not rest for _, rest in readings(path, self.document.by_names()))
+        return any(not rest for _, rest in readings(path, self.document.index()))
 
     def __iter__(self) -> Iterator[Handle]:
         return iter([Handle(self, e.id) for e in self.document.entries])

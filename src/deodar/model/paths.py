@@ -5,9 +5,10 @@ Names may be any text. In a path a name stands as it is where that is unambiguou
 
 from __future__ import annotations
 
+import dataclasses as dc
 import hashlib
 import json
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from deodar.errors import UnknownName
 
@@ -52,20 +53,42 @@ def split(path: str) -> Names:
     return tuple(names)
 
 
-def readings(path: str, known: Collection[Names]) -> list[tuple[Names, str]]:
+@dc.dataclass(frozen=True)
+class Index:
+    """Names that paths may begin with, made once for many look-ups.
+
+    Attributes:
+        names: all of them.
+        texts: each joined by dots without quotation marks, with its position among all of them.
+        depth: most parts of a name.
+        longest: most characters of a text.
+    """
+
+    names: Collection[Names]
+    texts: Mapping[str, Sequence[tuple[int, Names]]]
+    depth: int
+    longest: int
+
+    @classmethod
+    def of(cls, names: Collection[Names]) -> Index:
+        """The index of some names."""
+        texts: dict[str, list[tuple[int, Names]]] = {}
+        for k, parts in enumerate(names):
+            texts.setdefault(".".join(parts), []).append((k, parts))
+        return cls(names, texts, max(map(len, names), default=0), max(map(len, texts), default=0))
+
+
+def readings(path: str, known: Index) -> list[tuple[Names, str]]:
     """Every way to read `path` as a known name followed by a rest; the quoted reading first."""
     found: list[tuple[Names, str]] = []
     parts = split(path)
-    for k in range(len(parts), 0, -1):
-        if parts[:k] in known:
+    for k in range(min(len(parts), known.depth), 0, -1):
+        if parts[:k] in known.names:
             found.append((parts[:k], ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
-    first = path.partition(".")[0]
-    for names in known:
-        if not names[0].startswith(first):
-            continue
-        raw = ".".join(names)
-        if (path == raw or path.startswith(raw + ".")) and not any(names == f[0] for f in found):
-            found.append((names, path[len(raw) + 1 :]))
+    ends = [k for k, c in enumerate(path[: known.longest + 1]) if c == "."]
+    for _, names in sorted(hit for end in [*ends, len(path)] for hit in known.texts.get(path[:end], ())):
+        if not any(names == f[0] for f in found):
+            found.append((names, path[len(".".join(names)) + 1 :]))
     return found
 
 
@@ -74,7 +97,7 @@ def stored_id(path: str, taken: Iterable[str]) -> str:
 
     The same script gives the same ids in any order of declaration; noise is keyed by them.
     """
-    used = set(taken)
+    used = taken if isinstance(taken, (set, frozenset)) else set(taken)
     n = 0
     while True:
         text = path if n == 0 else f"{path}#{n}"

@@ -71,6 +71,9 @@ class _Resolver:
         self.delayed: set[str] = set()
         self.later: list[tuple[Node, str, Connection]] = []
         self.failed: set[str] = set()
+        self.feeds: dict[str, list[str]] = {}
+        self.found: set[Problem] = set()
+        self.after: tuple[str, set[str]] = ("", set())
 
     def run(self) -> list[Node]:
         for ident in self.upstream_first():
@@ -94,16 +97,17 @@ class _Resolver:
         """Every element after those whose axes it takes over (loops last): however long a chain is, no visit goes deep."""
         ports = {e.id: self._direct_ports(e.element) for e in self.doc.entries}
         waits = {i: {c.source for p in found for c in self.into.get((i, p), []) if ports[c.source]} for i, found in ports.items()}
-        feeds: dict[str, list[str]] = {i: [] for i in ports}
-        for i, sources in waits.items():
-            for source in sources:
+        feeds = self.feeds = {i: [] for i in ports}
+        for i, found in ports.items():
+            for source in {c.source for p in found for c in self.into.get((i, p), [])}:
                 feeds[source].append(i)
         ready = [i for i, sources in waits.items() if not sources]
         for i in ready:  # grows while it is read
             for follower in feeds[i]:
-                waits[follower].discard(i)
-                if not waits[follower]:
-                    ready.append(follower)
+                if i in waits[follower]:
+                    waits[follower].discard(i)
+                    if not waits[follower]:
+                        ready.append(follower)
         done = set(ready)
         return ready + [i for i in ports if i not in done]
 
@@ -144,17 +148,16 @@ class _Resolver:
 
     def follows(self, ident: str, other: str) -> bool:
         """Whether the axes of a coupling follow, through couplings, from those of another."""
-        seen: set[str] = set()
-        ahead = [ident]
-        while ahead:
-            i = ahead.pop()
-            if i == other:
-                return True
-            if i not in seen:
-                seen.add(i)
-                ports = self._direct_ports(self.entries[i].element)
-                ahead += [c.source for port in ports for c in self.into.get((i, port), [])]
-        return False
+        if self.after[0] != other:  # asked for all sources of one element, one after the other
+            seen: set[str] = set()
+            ahead = [other]
+            while ahead:
+                i = ahead.pop()
+                if i not in seen:
+                    seen.add(i)
+                    ahead += self.feeds[i]
+            self.after = (other, seen)
+        return ident in self.after[1]
 
     def _direct_ports(self, element: Element) -> set[str]:
         return {port for ports in type(element).direct.values() for port in ports}
@@ -315,7 +318,8 @@ class _Resolver:
     def problem(self, ident: str, what: str, fix: str = "") -> None:
         self.failed.add(ident)
         found = Problem(self.entries[ident].path if ident in self.entries else ident, what, fix)
-        if found not in self.problems:
+        if found not in self.found:
+            self.found.add(found)
             self.problems.append(found)
 
 

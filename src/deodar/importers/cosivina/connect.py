@@ -9,6 +9,7 @@ those after it made in the step before; all but stimuli, fields and filled borde
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 
 import numpy as np
@@ -20,6 +21,7 @@ from deodar.couplings.gain import Gain
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.importers.cosivina.file import Foreign, Simulator, Source
+from deodar.importers.cosivina.names import Names
 from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes, projection
 from deodar.importers.cosivina.sizes import Dims
 from deodar.importers.report import Line
@@ -32,11 +34,11 @@ Wire = tuple[str, str, str, str, str]
 class Wiring:
     """The connections of a file, and the elements that only they need."""
 
-    def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], taken: set[str]) -> None:
+    def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], names: Names) -> None:
         self.elements = simulator.elements
         self.place = {e.label: e.place for e in simulator.elements}
         self.pieces = pieces
-        self.taken = taken
+        self.names = names
         self.extra: list[Element] = []
         self.connections: list[Wire] = []
         self.lines: list[Line] = []
@@ -100,36 +102,38 @@ class Wiring:
     def join(self, e: Foreign, inlet: Inlet, found: list[tuple[Outlet, str, str]]) -> None:
         """What arrives at one inlet, each with the axes it needs; nothing at all is a zero."""
         if not found:
-            name = self.named(f"nothing to {inlet.name}")
+            name = self.names.new(f"nothing to {inlet.name}")
             self.extra.append(Boost(name, axes(inlet.dims), 0.0))
             self.connections.append((name, "output", inlet.name, inlet.port, ""))
             self.lines.append(Line(e.label, "connection", "input", "approximated", "nothing is connected to it; zero arrives"))
             return
         whole = any(outlet.dims == inlet.dims for outlet, *_ in found)
-        seen: set[tuple[str, str]] = set()
+        times = Counter((outlet.name, outlet.port, reads) for outlet, reads, _ in found)
         for k, (outlet, reads, source) in enumerate(found):
             name, port = outlet.name, outlet.port
+            count = times.pop((name, port, reads), 0)
+            if not count:
+                continue  # counted with the first of its kind
             if reads == "delayed" and (outlet.initial or self.rings.get(e.label, -1) == self.rings.get(source, -2)):
                 name, port, reads = self.delay(outlet), "output", "previous"
             renamed = _fits(outlet.dims, inlet.dims) != axes(outlet.dims)
             if renamed or (k == 0 and inlet.whole and not whole):
-                through = self.named(f"{outlet.name} to {inlet.name}")
+                through = self.names.new(f"{outlet.name} to {inlet.name}")
                 self.extra.append(projection(through, axes(outlet.dims), inlet.dims, _fits(outlet.dims, inlet.dims)))
                 self.connections.append((name, port, through, "input", reads))
                 name, port, reads = through, "output", ""
-            elif (name, port) in seen:  # counted twice
-                again = self.named(f"{outlet.name} again to {inlet.name}")
-                self.extra.append(Gain(1.0, name=again))
+            if count > 1:
+                again = self.names.new(f"{outlet.name} {count} times to {inlet.name}")
+                self.extra.append(Gain(float(count), name=again))
                 self.connections.append((name, port, again, "input", reads))
                 name, port, reads = again, "output", ""
-            seen.add((name, port))
             self.connections.append((name, port, inlet.name, inlet.port, reads))
 
     def delay(self, outlet: Outlet) -> str:
         """A register of its own: where a loop of couplings is closed, whose axes must be stated, and where it does not begin with zero."""
         key = (outlet.name, outlet.port)
         if key not in self.delays:
-            self.delays[key] = self.named(f"{outlet.name} before")
+            self.delays[key] = self.names.new(f"{outlet.name} before")
             self.extra.append(Delay(axes(outlet.dims), outlet.initial, name=self.delays[key]))
             self.connections.append((*key, self.delays[key], "input", ""))
         return self.delays[key]
@@ -143,15 +147,6 @@ class Wiring:
         graph = coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(followers), len(followers)))
         _, found = connected_components(graph, connection="strong")
         return {label: int(found[k]) for label, k in number.items()}
-
-    def named(self, base: str) -> str:
-        """A name that nothing has yet."""
-        name, n = base, 1
-        while name in self.taken:
-            n += 1
-            name = f"{base} {n}"
-        self.taken.add(name)
-        return name
 
     def drop(self, e: Foreign, what: str, why: str) -> None:
         """A line about a connection that is not made."""

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.importers.cosivina.file import Foreign, Simulator
+from deodar.importers.cosivina.names import Names
 from deodar.importers.cosivina.sizes import Dimensions, Dims, output_size
 from deodar.importers.cosivina.values import Values
 from deodar.importers.report import Verdict
@@ -60,6 +61,7 @@ class Piece:
         outlets: by component; the first is the default.
         inner: connections among `elements`, by name: (source, target) or (source, target, port).
         sums: whether any number of inputs is added up.
+        elsewhere: where components are found that no outlet gives, in words.
         needs: how many inputs it cannot do without.
         verdict, why: what the report says of the element itself.
     """
@@ -68,6 +70,7 @@ class Piece:
     inlets: list[list[Inlet]] = dc.field(default_factory=list[list[Inlet]])
     outlets: dict[str, Outlet] = dc.field(default_factory=dict[str, Outlet])
     inner: list[tuple[str, ...]] = dc.field(default_factory=list[tuple[str, ...]])
+    elsewhere: dict[str, str] = dc.field(default_factory=dict[str, str])
     sums: bool = False
     needs: int = 0
     verdict: Verdict = "carried"
@@ -77,7 +80,7 @@ class Piece:
 class Bench:
     """What translating one element needs to know: its parameters, the axes, the step, who reads it, and what was said on the way."""
 
-    def __init__(self, simulator: Simulator, dims: Dimensions, element: Foreign, asked: set[str], taken: set[str], bugs: bool) -> None:
+    def __init__(self, simulator: Simulator, dims: Dimensions, element: Foreign, asked: set[str], names: Names, bugs: bool) -> None:
         self.simulator = simulator
         self.step = simulator.step
         self.element = element
@@ -87,7 +90,7 @@ class Bench:
         self.reproduce = bugs
         self.met: list[str] = []
         self._dims = dims
-        self._taken = taken
+        self._names = names
 
     def dims(self, component: str = "") -> Dims:
         """Dimensions of an output."""
@@ -102,18 +105,12 @@ class Bench:
         if k >= len(self.element.sources):
             return None
         s = self.element.sources[k]
-        found = next((e for e in self.simulator.elements if e.label == s.label), None)
+        found = self.simulator.by_label.get(s.label)
         return None if found is None else self._dims.of(output_size(found, s.component))
 
     def named(self, what: str) -> str:
         """A name of its own for a further element of ours: the label and what it is."""
-        base, n = f"{self.label} {what}", 1
-        name = base
-        while name in self._taken:
-            n += 1
-            name = f"{base} {n}"
-        self._taken.add(name)
-        return name
+        return self._names.new(f"{self.label} {what}")
 
     def bug(self, what: str) -> bool:
         """Whether a known error of cosivina, which this element touches, is to be reproduced."""

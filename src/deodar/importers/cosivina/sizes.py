@@ -70,6 +70,7 @@ class Dimensions:
             for d, circular in _circular(e, own).items():
                 if d < len(own):
                     self.wraps[own[d]] += 1 if circular else -1
+        self.common = [max(used, key=lambda n: (used[n], n), default=0) for used in self.used]
 
     def of(self, counts: Sequence[int]) -> Dims:
         """The axes of a size. All of one length wrap, or none: what most kernels and stimuli over this length do.
@@ -86,7 +87,7 @@ class Dimensions:
 
     def axis(self, d: int, count: int) -> Axis:
         """The axis of one dimension."""
-        common = max(self.used[d], key=lambda n: (self.used[d][n], n), default=count)
+        common = self.common[d]
         name = NAMES[d] if count == common or not self.used[d][common] else f"{NAMES[d]}{count}"
         periodic = self.wraps[count] > 0
         return Axis(name, 1, count + 1 if periodic else count, count, periodic)

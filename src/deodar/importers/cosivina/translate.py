@@ -10,15 +10,18 @@ from deodar.errors import DeodarError
 from deodar.importers.cosivina import file
 from deodar.importers.cosivina.classes import CLASSES
 from deodar.importers.cosivina.classes.missing import placeholder
+from deodar.importers.cosivina.components import components
 from deodar.importers.cosivina.connect import Wiring
 from deodar.importers.cosivina.file import Foreign, Simulator
+from deodar.importers.cosivina.names import Names
 from deodar.importers.cosivina.piece import Bench, Piece, Unfit
 from deodar.importers.cosivina.sizes import Dimensions, TooLarge
 from deodar.importers.imported import Imported
 from deodar.importers.report import Line, Report
 from deodar.model import edit
-from deodar.model.document import Document
+from deodar.model.document import Document, Entry
 from deodar.model.model import Model
+from deodar.model.paths import display
 
 
 def read(content: bytes, name: str, bugs: bool = False) -> Imported:
@@ -34,10 +37,9 @@ def read(content: bytes, name: str, bugs: bool = False) -> Imported:
     report = Report("cosivina", name, translation.lines(), translation.met)
     title = PurePath(name).stem
     doc = edit.describe(Document(title or "cosivina"), time_unit="ms", dt=simulator.step, t0=simulator.start, notes=report.text())
-    doc, ids = _add(doc, [element for piece in translation.pieces.values() for element in piece.elements] + translation.wiring.extra)
-    by = doc.by_id()
+    doc, by = _add(doc, [element for piece in translation.pieces.values() for element in piece.elements] + translation.wiring.extra)
     for source, port, target, entrance, reads in translation.wiring.connections:
-        doc = edit.connect(doc, by[ids[source]], port, by[ids[target]], entrance, reads)
+        doc = edit.connect(doc, by[source], port, by[target], entrance, reads)
     return Imported(Model(document=doc), report)
 
 
@@ -50,18 +52,18 @@ class Translation:
         self.dimensions = Dimensions(simulator)
         self.met: list[str] = []
         self.said: list[Line] = []
-        self.taken = {e.label for e in simulator.elements}
+        self.names = Names(e.label for e in simulator.elements)
         self.asked: dict[str, set[str]] = {}
         for e in simulator.elements:
             for s in e.sources:
                 self.asked.setdefault(s.label, set()).add(s.component)
         self.pieces = {e.label: self.piece(e) for e in simulator.elements}
-        self.wiring = Wiring(simulator, self.pieces, self.taken)
+        self.wiring = Wiring(simulator, self.pieces, self.names)
         self.wiring.connect_all()
 
     def piece(self, e: Foreign) -> Piece:
         """The counterpart of one element; a placeholder where there is none, or where its parameters do not go together."""
-        bench = Bench(self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.taken, self.bugs)
+        bench = Bench(self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.names, self.bugs)
         try:
             found = CLASSES[e.kind](bench) if e.kind in CLASSES else placeholder(e, self.dimensions, list(CLASSES))
         except (Unfit, TooLarge) as error:
@@ -74,6 +76,7 @@ class Translation:
             self.said += [Line(e.label, "parameter", name, "dropped", "its element is a placeholder") for name in e.values]
         else:
             self.said += bench.values.rest()
+            self.said += _shown(e, found)
         return found
 
     def lines(self) -> list[Line]:
@@ -81,9 +84,21 @@ class Translation:
         return [*self.simulator.lines, *self.said, *self.wiring.lines]
 
 
-def _add(doc: Document, elements: list[Element]) -> tuple[Document, dict[str, str]]:
-    ids: dict[str, str] = {}
-    for element in elements:
-        doc, entry = edit.add(doc, element)
-        ids[element.name] = entry.id
-    return doc, ids
+def _shown(e: Foreign, piece: Piece) -> list[Line]:
+    """Where the components of an element are read, which scripts and plots of cosivina ask for by name; those of the same name are left out."""
+    lines: list[Line] = []
+    for component in components(e.kind):
+        outlet = piece.outlets.get(component)
+        if outlet is not None:
+            if (outlet.name, outlet.port) != (e.label, component):
+                lines.append(Line(e.label, "component", component, "carried", f"read {display((outlet.name, outlet.port))}"))
+        elif component in piece.elsewhere:
+            lines.append(Line(e.label, "component", component, "carried", piece.elsewhere[component]))
+        else:
+            lines.append(Line(e.label, "component", component, "dropped", "nothing here shows it"))
+    return lines
+
+
+def _add(doc: Document, elements: list[Element]) -> tuple[Document, dict[str, Entry]]:
+    doc, entries = edit.add_all(doc, [(element, (), 1) for element in elements])
+    return doc, {entry.element.name: entry for entry in entries}

@@ -8,8 +8,10 @@ from deodar.elements.field import Field
 from deodar.elements.history import History
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.rate_node import RateNode
+from deodar.importers.cosivina.components import PHASE_PLOT
 from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, axes
 from deodar.importers.cosivina.sizes import Dims
+from deodar.model.paths import display
 from deodar.numerics.axes import Axis
 from deodar.numerics.sigmoids.logistic import Logistic
 
@@ -28,7 +30,7 @@ def neural_field(b: Bench) -> Piece:
         level = Boost(b.named("h"), (), field.resting_level)
         elements.append(level)
         outlets["h"] = Outlet(level.name, (None, None), still=True)
-    return Piece(elements, [[Inlet(b.label, dims)]], outlets, sums=True, why="Field")
+    return Piece(elements, [[Inlet(b.label, dims)]], outlets, elsewhere={"h": _level(b)}, sums=True, why="Field")
 
 
 def single_node(b: Bench) -> Piece:
@@ -45,8 +47,14 @@ def single_node(b: Bench) -> Piece:
         noise=b.values.number("noiseLevel", 0, 0),
     )
     ports = {"output": "output", "activation": "activation", "rateOfChange": "rate"}
+    elsewhere = {"h": _level(b), "input": f"read {display((b.label, 'input'))}"}
+    elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: deodar.analysis.phase computes it")
     outlets = {c: Outlet(b.label, (None, None), port, state=True) for c, port in ports.items()}
-    return Piece([node], [[Inlet(b.label, (None, None))]], outlets, sums=True, why="RateNode")
+    return Piece([node], [[Inlet(b.label, (None, None))]], outlets, elsewhere=elsewhere, sums=True, why="RateNode")
+
+
+def _level(b: Bench) -> str:
+    return f"the parameter {display((b.label, 'resting_level'))}"
 
 
 def memory_trace(b: Bench) -> Piece:

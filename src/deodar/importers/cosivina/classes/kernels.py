@@ -10,8 +10,10 @@ from deodar.couplings.interaction import Interaction
 from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.importers.cosivina.classes.stimuli import LETTERS, boundary
+from deodar.importers.cosivina.components import components
 from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, axes, projection
 from deodar.importers.cosivina.sizes import Dims
+from deodar.model.paths import display
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.kernels.shifted import Shifted
@@ -129,19 +131,23 @@ def fourier(b: Bench) -> Piece:
 
 
 def sums(b: Bench) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
-    """The sums of its input that an element offers and somebody reads: `horizontalSum`, `verticalSum`, `fullSum`."""
+    """The sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`. Those that nobody reads cost nothing in a step."""
     own = b.values.size()
     dims = b.of(own) if b.element.kind == "SumAllDimensions" else b.dims()
     elements, inlets, outlets = list[Element](), list[Inlet](), dict[str, Outlet]()
     for component in ("horizontalSum", "verticalSum", "fullSum"):
-        if component in b.asked or (component == "fullSum" and b.element.kind == "SumAllDimensions"):
-            name = b.label if b.element.kind == "SumAllDimensions" and component == "fullSum" else b.named(component)
-            there = b.dims(component)
-            kept = {"horizontalSum": 0, "verticalSum": 1}.get(component)
-            places = [there[1] if d == kept else None for d, a in enumerate(dims) if a is not None]
-            elements.append(projection(name, axes(dims), there, places))
-            inlets.append(Inlet(name, dims, whole=True))
-            outlets[component] = Outlet(name, there)
+        if component not in components(b.element.kind):
+            continue
+        there = b.dims(component)
+        if component == "fullSum" and b.element.kind != "SumAllDimensions":
+            outlets[component] = Outlet(b.label, there, "total")
+            continue
+        name = b.label if component == "fullSum" else b.named(component)
+        kept = {"horizontalSum": 0, "verticalSum": 1}.get(component)
+        places = [there[1] if d == kept else None for d, a in enumerate(dims) if a is not None]
+        elements.append(projection(name, axes(dims), there, places))
+        inlets.append(Inlet(name, dims, whole=True))
+        outlets[component] = Outlet(name, there)
     return elements, inlets, outlets
 
 
@@ -170,13 +176,28 @@ def _widths(b: Bench, name: str, form: Form) -> list[float]:
 
 def _convolve(b: Bench, form: Form, kernels: Sequence[Kernel]) -> Piece:
     element = Convolve(kernels, name=b.label)
-    return Piece([element], [[Inlet(b.label, form.dims, whole=True)]], {"output": Outlet(b.label, form.dims)}, needs=1, why="Convolve")
+    inlets, outlets = [[Inlet(b.label, form.dims, whole=True)]], {"output": Outlet(b.label, form.dims)}
+    return Piece([element], inlets, outlets, elsewhere=_constants(b), needs=1, why="Convolve")
 
 
 def _interaction(b: Bench, dims: Dims, element: Interaction) -> Piece:
     extra, inlets, outlets = sums(b)
     first = {"output": Outlet(b.label, dims)}
-    return Piece([element, *extra], [[Inlet(b.label, dims, whole=True), *inlets]], first | outlets, needs=1, why="Interaction")
+    inlets = [[Inlet(b.label, dims, whole=True), *inlets]]
+    return Piece([element, *extra], inlets, first | outlets, elsewhere=_constants(b), needs=1, why="Interaction")
+
+
+def _constants(b: Bench) -> dict[str, str]:
+    """Components that show what cosivina computes from parameters alone."""
+    out: dict[str, str] = {}
+    for component in components(b.element.kind):
+        if component.startswith("kernel"):
+            out[component] = f"computed from the parameter {display((b.label, 'kernel'))}"
+        elif component == "amplitudeGlobal":
+            out[component] = f"the parameter {display((b.label, 'global_inhibition'))}, with the opposite sign"
+        elif component == "amplitudeExc":
+            out[component] = f"the parameter {display((b.label, 'kernel', '0', 'amplitude'))}"
+    return out
 
 
 CLASSES = {

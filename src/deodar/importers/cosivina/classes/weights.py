@@ -5,6 +5,7 @@ from __future__ import annotations
 from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.weights import Weights
 from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
+from deodar.model.paths import display
 from deodar.numerics.axes import shape
 
 
@@ -36,7 +37,8 @@ def adaptive_weight_matrix(b: Bench) -> Piece:
     pre = [Inlet(b.label, came, "pre", whole=True, component=components[1])] if apart else []
     inlets = [[Inlet(b.label, came, whole=True), *pre], [Inlet(b.label, dims, "post")], *([[Inlet(b.label, (None, None), "gate")]] if gated else [])]
     why = "AdaptiveWeights, from weights of 0"
-    return Piece([element], inlets, {"output": Outlet(b.label, dims)}, needs=1, why=why)
+    elsewhere = {"weights": f"Session.keep writes them to the parameter {display((b.label, 'start'))}"}
+    return Piece([element], inlets, {"output": Outlet(b.label, dims)}, elsewhere=elsewhere, needs=1, why=why)
 
 
 CLASSES = {"WeightMatrix": weight_matrix, "AdaptiveWeightMatrix": adaptive_weight_matrix}

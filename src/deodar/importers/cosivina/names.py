@@ -1,0 +1,23 @@
+"""Names of the elements that a file becomes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class Names:
+    """The names that are taken; each further one gets a number of its own."""
+
+    def __init__(self, taken: Iterable[str]) -> None:
+        self._taken = set(taken)
+        self._numbers: dict[str, int] = {}
+
+    def new(self, base: str) -> str:
+        """A name that nothing has yet: `base`, else `base 2`, `base 3`, ..."""
+        name, n = base, self._numbers.get(base, 1)
+        while name in self._taken:
+            n += 1
+            name = f"{base} {n}"
+        self._numbers[base] = n
+        self._taken.add(name)
+        return name
