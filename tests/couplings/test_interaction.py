@@ -28,3 +28,12 @@ def test_on_a_node_it_is_a_gain():
     n >> Interaction([dd.Gaussian(1.5), dd.Gaussian(-0.25)], 0.25, name="k")
     data = dd.simulate(model, 1, every=1, record=["n.output", "k.output"], precision="float64")
     assert np.allclose(data["k.output"], data["n.output"])
+
+
+def test_the_total_is_the_integral_of_the_input():
+    model = dd.Model("total")
+    u = model.add(dd.Field("u", [X, PHI], resting_level=0.5))
+    u >> Interaction(KERNELS, 0.0, name="k")
+    data = dd.simulate(model, 1, every=1, record=["u.output", "k.total"], precision="float64")
+    assert data["k.total"].dims == ("time",)
+    assert np.allclose(data["k.total"], data["u.output"].sum(("x", "phi")) * X.step * PHI.step, rtol=1e-12)

@@ -73,6 +73,12 @@ def _show(report: Report) -> None:
         for line in elements:
             table.add_row(*(escape(text) for text in (line.where, line.what, line.why, line.verdict)))
         console.print(table)
+    components = [line for line in report.lines if line.part == "component" and line.verdict == "carried"]
+    if components:
+        table = Table("element", "component", "here", box=box.SIMPLE_HEAD)
+        for line in components:
+            table.add_row(*(escape(text) for text in (line.where, line.what, line.why)))
+        console.print(table)
     losses = [line for line in report.losses if line.part != "element"]
     if losses:
         table = Table("where", "what", "verdict", "why", box=box.SIMPLE_HEAD)

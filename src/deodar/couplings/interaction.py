@@ -32,6 +32,7 @@ class Interaction(Coupling):
     Ports:
         input: any axes.
         output: the same axes.
+        total: the integral of the input, one number.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (its integrals).
@@ -40,7 +41,11 @@ class Interaction(Coupling):
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
     global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the input")] = 0.0
 
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "total": ("input",)}
     linear: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": ins["input"], "total": ()}
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         for i, kernel in enumerate(self.kernel):
@@ -54,4 +59,5 @@ class Interaction(Coupling):
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         x, axes = inputs["input"], at.ins["input"]
-        return {"output": interaction.apply(constants["kernel"], axes, x) - self.global_inhibition * cell(axes) * jnp.sum(x)}
+        total = cell(axes) * jnp.sum(x)
+        return {"output": interaction.apply(constants["kernel"], axes, x) - self.global_inhibition * total, "total": total}
