@@ -29,8 +29,8 @@ MOST_TICKS = 1_000_000
 def add(doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None) -> tuple[Document, Entry]:
     """A document with one more element. Without a name it is called after what it follows: `u>Gain`, `u>Gain2`."""
     if isinstance(element, Element) and not element.name:
-        base = f"{after.names[-1]}>{type(element).__name__}" if after else type(element).__name__
-        group = after.group if after and not group else group
+        group, base = (group or after.group, f"{after.names[-1]}>") if after else (group, "")
+        base += type(element).__name__
         element = dc.replace(element, name=_free(base, {n[-1] for n in doc.by_names() if n[:-1] == group}))
     doc, entries = add_all(doc, [(element, group, every)])
     return doc, entries[0]
@@ -127,10 +127,9 @@ def insert(doc: Document, template: Document, place: Callable[[Names], Names], i
 
     Where `linked`, the document remembers which element came from which (`uses.refresh`). What the template itself uses stays linked too.
     """
-    chosen = [e for e in template.entries if ids is None or e.id in ids]
-    placed = [(e, place(e.names)) for e in chosen]
+    placed = [(e, place(e.names)) for e in template.entries if ids is None or e.id in ids]
     doc, entries = add_all(doc, [(dc.replace(e.element, name=names[-1]), names[:-1], e.every) for e, names in placed])
-    new = {e.id: entry.id for e, entry in zip(chosen, entries, strict=True)}
+    new = {e.id: entry.id for (e, _), entry in zip(placed, entries, strict=True)}
     inside = [dc.replace(c, source=new[c.source], target=new[c.target]) for c in template.connections if c.source in new and c.target in new]
     doc = dc.replace(doc, connections=(*doc.connections, *inside))
     for k in template.knobs:
@@ -396,8 +395,3 @@ def _with_groups(groups: Iterable[Names], new: Iterable[Names]) -> tuple[Names, 
     for g in new:
         out |= dict.fromkeys(g[:k] for k in range(1, len(g) + 1))
     return tuple(out)
-
-
-def names_of(element: Element) -> list[str]:
-    """Names of the parameters of an element, for messages."""
-    return [p.name for p in parameters(type(element))]
