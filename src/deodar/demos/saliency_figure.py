@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Rectangle
+from matplotlib.patches import Circle, Polygon, Rectangle
 
 from deodar.architectures.saliency import CUE_AT
 from deodar.demos.saliency import Outcome, Result, spatial_pixels
@@ -16,7 +16,7 @@ from deodar.figures._style import figure as sheet
 
 ROW = 1.75
 WIDTH = 9.6
-EXPLAINED = "white line: threshold\narrow: cued hue\ncircle: peak\ndotted boxes: right places,\n  marked by a person\ndotted lines: spatial peak"
+EXPLAINED = "white line: threshold\narrow: cued hue\ncircle: peak\ndotted outlines: right\n  places, marked by a person\ndotted lines: spatial peak"
 LOWEST, HIGHEST = -6.0, 4.0
 """Activation at the ends of the colour scale, the same in all pictures, so that they can be compared."""
 
@@ -66,8 +66,8 @@ def _photograph(axes: Any, result: Result, outcome: Outcome | None) -> None:
     axes.set_yticks([])
     if outcome is None:
         return
-    for left, top, right, bottom in outcome.cue.boxes:
-        axes.add_patch(Rectangle((left, top), right - left, bottom - top, fill=False, edgecolor="white", linewidth=0.6, linestyle=":"))
+    for outline in outcome.cue.outlines:
+        axes.add_patch(Polygon(outline, closed=True, fill=False, edgecolor="white", linewidth=0.8, linestyle=":"))
     size = max(result.scene.picture.size)
     for place in outcome.places:
         axes.add_patch(Circle(place, 0.06 * size, fill=False, edgecolor="black", linewidth=2.6))
