@@ -15,6 +15,7 @@ pages = module(DOCS / "pages.py")
 TEXTS = [*sorted(ROOT.glob("*.md")), *sorted(DOCS.rglob("*.md"))]
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 DRAWN_ELSEWHERE = {
+    "saliency.md": {"saliency-untuned.png"},  # by `deodar demo saliency --untuned`, made smaller
     "README.md": {"saliency-coffee.png", "studio-selection.png"},
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from deodar.demos import saliency
 
 HELP = "run a demonstration: saliency on photographs, or spa, a robot that plans and drives"
-OF = {"saliency": ("image", "video", "camera", "cue"), "spa": ("maze", "start", "goal", "noise")}
+OF = {"saliency": ("image", "untuned", "video", "camera", "cue"), "spa": ("maze", "start", "goal", "noise")}
 """Options that belong to one demo."""
 
 
@@ -25,6 +25,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", choices=("saliency", "spa"), metavar="NAME", help=about)
     source = parser.add_mutually_exclusive_group()
     source.add_argument("--image", type=Path, metavar="FILE", help="a photograph of your own instead of the three that come with deodar")
+    source.add_argument("--untuned", action="store_true", default=None, help="twelve photographs on which no parameter was found")
     source.add_argument("--video", type=Path, metavar="FILE", help="a film of your own, from its beginning (extra vision)")
     source.add_argument("--camera", type=_options.whole, metavar="N", help="what a camera sees now, 0 for the first (extra vision)")
     parser.add_argument(
@@ -91,7 +92,7 @@ def _saliency(args: argparse.Namespace, out: Path) -> Told:
 
     from deodar.analysis.claims import results
     from deodar.demos import saliency
-    from deodar.demos.saliency_figure import figure
+    from deodar.demos.saliency_figure import figure, overview
     from deodar.figures._files import save as save_figure
     from deodar.recording import files, places
 
@@ -113,12 +114,14 @@ def _saliency(args: argparse.Namespace, out: Path) -> Told:
                 save_figure(picture, folder / f"{result.scene.name}.png")
                 files.save(result.record, folder / f"{result.scene.name}.zarr")
                 bar.advance(task)
+            if len(done) > 1:
+                save_figure(overview(done), folder / "overview.png")
             (folder / "results.json").write_text(results(claims, settings))
 
-        claims = [c for result in done for c in saliency.claims(result)]
+        claims = [*(c for result in done for c in saliency.claims(result)), *saliency.totals(done)]
         settings = {"demo": args.name, "seed": args.seed, "duration": saliency.DURATION, "cue_at": saliency.CUE_AT}
         places.write_folder(out, fill, replace=args.force)
-    names = ", ".join(f"{r.scene.name}.png" for r in done)
+    names = ", ".join([*(f"{r.scene.name}.png" for r in done), *(["overview.png"] if len(done) > 1 else [])])
     return claims, settings, f"{names}, the records (*.zarr)", saliency.sentence(done)
 
 
@@ -131,7 +134,7 @@ def _scenes(args: argparse.Namespace) -> list[saliency.Scene]:
         return [saliency.own(args.image, cues)]
     if args.video:
         return [saliency.filmed(args.video, cues)]
-    return saliency.photographs() if args.camera is None else [saliency.watched(Camera(args.camera, period=saliency.PERIOD), cues)]
+    return saliency.photographs(bool(args.untuned)) if args.camera is None else [saliency.watched(Camera(args.camera, period=saliency.PERIOD), cues)]
 
 
 def claim(out: Path, force: bool) -> None:

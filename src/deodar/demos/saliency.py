@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ import numpy as np
 
 from deodar.analysis.claims import Claim
 from deodar.analysis.peaks import Peaks, peaks
-from deodar.architectures.saliency import CUE_AT, retina, saliency, scene
+from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
 from deodar.elements.sensor import Sensor
 from deodar.errors import DocumentError
 from deodar.model.model import Model
@@ -36,6 +37,12 @@ DURATION = 3500.0
 EVERY = 50.0
 PERIOD = 50.0
 """ms between two pictures of a film or a camera."""
+
+NEAR = 2.0
+"""Distance from a peak within which the motor variable counts as converged, in scene units: one sample of the fields. Ours."""
+
+LEAST_RIGHT = 10
+"""Of the twelve cues for a colour that is present in an untuned photograph, how many have to be selected. Ours."""
 
 WHEEL = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0)
 """Cues for a picture in which nobody has marked anything."""
@@ -71,7 +78,7 @@ class Cue:
 class Scene:
     """A picture and the cues to be tried on it.
 
-    Of a film or a camera the picture is the last one, and `world` what is sensed.
+    Of a film or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether parameters were found on the picture.
     """
 
     name: str
@@ -79,11 +86,20 @@ class Scene:
     picture: Picture
     cues: tuple[Cue, ...]
     world: World | None = None
+    tuned: bool = True
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one cue brought: peaks at the end, and where the motor variable ended, in pixels."""
+    """What one cue brought: all peaks of both fields at the end, and where the motor variable ended.
+
+    Attributes:
+        cue: the cue.
+        peaks, spatial: peaks of the colour-space field and of the spatial field.
+        places, spatial_places, motor: the same and the motor variable, in pixels.
+        gap: distance of the motor variable from the nearest peak of the spatial field, in scene units; None without a peak.
+        moved: distance of the motor variable from where it began, in scene units.
+    """
 
     cue: Cue
     peaks: Peaks
@@ -91,14 +107,21 @@ class Outcome:
     places: tuple[tuple[float, float], ...]
     spatial_places: tuple[tuple[float, float], ...]
     motor: tuple[float, float]
+    gap: float | None
+    moved: float
 
     @property
     def right(self) -> bool:
-        """Whether it is what the marks ask for."""
+        """Whether the fields select what the marks ask for: one peak in each, in the region; no peak in either where the colour is absent."""
         if self.cue.expect == "absent":
             return not self.peaks and not self.spatial
         one = len(self.places) == 1 and len(self.spatial_places) == 1
-        return one and all(self.cue.holds(p) for p in (*self.places, *self.spatial_places, self.motor))
+        return one and all(self.cue.holds(p) for p in (*self.places, *self.spatial_places))
+
+    @property
+    def converged(self) -> bool:
+        """Whether the motor variable ended at the peak; without a peak, whether it stayed."""
+        return self.moved <= NEAR / 10 if self.gap is None else self.gap <= NEAR
 
 
 @dataclass(frozen=True)
@@ -136,7 +159,7 @@ def photographs(untuned: bool = False) -> list[Scene]:
         with resources.as_file(folder / entry["picture"]) as path:
             picture = Picture(path)
         cues = [Cue(c["hue"], c["name"], c["expect"], c.get("object", ""), _outlines(c.get("outlines", []))) for c in entry["cues"]]
-        scenes.append(Scene(name, entry["title"], picture, tuple(cues)))
+        scenes.append(Scene(name, entry["title"], picture, tuple(cues), tuned=not untuned))
     return scenes
 
 
@@ -199,8 +222,11 @@ def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int)
     found = peaks(end["perceptual.activation"].isel(point).values, [x, y, hues])
     spatial = peaks(end["spatial.activation"].isel(point).values, [x, y])
     last = record.isel({**point, "time": -1})
-    motor = scene_.picture.to_pixels((x, y), float(last["pan.output"]), float(last["tilt.output"]))
-    return Outcome(scene_.cues[k], found, spatial, _places(scene_, found, (x, y)), _places(scene_, spatial, (x, y)), motor)
+    motor = float(last["pan.output"]), float(last["tilt.output"])
+    gap = min((math.dist(motor, p.position) for p in spatial), default=None)
+    moved = math.dist(motor, (SIDE / 2, SIDE / 2))
+    places, spatial_places = (_places(scene_, p, (x, y)) for p in (found, spatial))
+    return Outcome(scene_.cues[k], found, spatial, places, spatial_places, scene_.picture.to_pixels((x, y), *motor), gap, moved)
 
 
 def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
@@ -208,9 +234,12 @@ def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float]
 
 
 def claims(result: Result) -> list[Claim]:
-    """One claim for the time without a cue, and one for each cue of a marked picture."""
-    name = result.scene.name
-    out = [Claim(f"{name}, no cue: the colour-space field stays below threshold", round(result.quiet, 3), "< 0", result.quiet < 0, source=SOURCE)]
+    """One claim for the time without a cue, and for each cue of a marked picture one for the fields and one for the motor variable.
+
+    They are required of the photographs on which the parameters were found. Of the others each is reported, and `totals` says what is required.
+    """
+    name, kind = result.scene.name, "required" if result.scene.tuned else "reported"
+    out = [Claim(f"{name}, no cue: the colour-space field stays below threshold", round(result.quiet, 3), "< 0", result.quiet < 0, kind, SOURCE)]
     for o in result.outcomes:
         value: dict[str, Any] = {
             "peaks": len(o.places),
@@ -218,17 +247,36 @@ def claims(result: Result) -> list[Claim]:
             "places": [[round(v) for v in p] for p in o.places],
             "motor variable": [round(v) for v in o.motor],
         }
-        if o.cue.expect == "present":
-            what = (
-                f"{name}, cue {o.cue.name} ({o.cue.hue:g} deg): exactly one peak, on {o.cue.object}; the spatial field and the motor variable follow"
-            )
-            out.append(Claim(what, value, "one peak in a marked region, spatial peak and motor variable there too", o.right, source=SOURCE))
-        elif o.cue.expect == "absent":
-            what = f"{name}, cue {o.cue.name} ({o.cue.hue:g} deg): no such colour in the picture, no peak"
-            out.append(Claim(what, value, "no peak in either field", o.right, source=SOURCE))
-        else:
+        if not o.cue.expect:
             out.append(Claim(f"{name}, cue {o.cue.hue:g} deg", value, "not marked", None, kind="reported"))
+            continue
+        cue = f"{name}, cue {o.cue.name} ({o.cue.hue:g} deg)"
+        present = o.cue.expect == "present"
+        what = f"exactly one peak, on {o.cue.object}; the spatial field follows" if present else "no such colour in the picture, no peak"
+        target = "one peak in the marked region, one spatial peak there too" if present else "no peak in either field"
+        out.append(Claim(f"{cue}: {what}", value, target, o.right, kind, SOURCE))
+        what = "the motor variable converges to the peak" if present else "the motor variable stays"
+        distance, target = (o.gap, f"at most {NEAR:g} from the spatial peak") if present else (o.moved, f"at most {NEAR / 10:g} from its start")
+        held = o.converged if (o.gap is not None) == present else False
+        out.append(Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, kind, SOURCE))
     return out
+
+
+def totals(results: Sequence[Result]) -> list[Claim]:
+    """What is required of the untuned photographs together, and in how many the motor variable arrives in time. The targets are ours."""
+    asked = [o for r in results if not r.scene.tuned for o in r.outcomes]
+    if not asked:
+        return []
+    present, absent = ([o for o in asked if o.cue.expect == e] for e in ("present", "absent"))
+    right, silent = sum(o.right for o in present), sum(o.right for o in absent)
+    arrived = sum(o.gap is not None and o.converged for o in present)
+    says = ("a present colour is selected", "an absent colour selects nothing", "the motor variable converges to the peak")
+    selected, nothing, motor = (f"untuned: {what}" for what in says)
+    return [
+        Claim(selected, right, f"at least {LEAST_RIGHT} of {len(present)}", right >= LEAST_RIGHT, n=len(present)),
+        Claim(nothing, silent, f"all of {len(absent)}", silent == len(absent), n=len(absent)),
+        Claim(motor, arrived, f"all of {len(present)}", arrived == len(present), "reported", n=len(present)),
+    ]
 
 
 def sentence(results: Sequence[Result]) -> str:
@@ -241,8 +289,15 @@ def sentence(results: Sequence[Result]) -> str:
             f"{len(results)} photographs: silent without a cue in {quiet}; {sum(present)} of {len(present)} cued colours selected on the right"
             f" object; {sum(absent)} of {len(absent)} cues of absent colours selected nothing."
         )
-    found = [f"{o.cue.hue:g} deg at column {o.places[0][0]:.0f}, row {o.places[0][1]:.0f}" for r in results for o in r.outcomes if len(o.places) == 1]
-    return f"Selected: {'; '.join(found) or 'nothing'}. Other cues selected nothing."
+    found = [f"{o.cue.hue:g} deg: {_where(o)}" for r in results for o in r.outcomes if o.peaks or o.spatial]
+    return f"Selected: {'; '.join(found)}. Other cues selected nothing." if found else "No cue selected anything."
+
+
+def _where(outcome: Outcome) -> str:
+    """Where the peaks of the spatial field are; of the colour-space field, where the spatial field has none."""
+    places = outcome.spatial_places or outcome.places
+    text = " and ".join(f"column {x:.0f}, row {y:.0f}" for x, y in places)
+    return text if outcome.spatial else f"{text} (without a peak of the spatial field)"
 
 
 def spatial_pixels(result: Result) -> np.ndarray:

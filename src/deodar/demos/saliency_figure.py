@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import colorsys
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -49,6 +50,26 @@ def figure(result: Result) -> Figure:
         bar.ax.axhline(0, color="white", linewidth=1)
         told = grid[0, 3].text(0.34, 0.92, EXPLAINED, va="top", fontsize=6.5, linespacing=1.6, transform=grid[0, 3].transAxes)
         told.set_in_layout(False)
+    return out
+
+
+def overview(results: Sequence[Result], columns: int = 4) -> Figure:
+    """All photographs with what the cues of present colours selected: marked region, peaks, end of the motor variable."""
+    shown = [(r, o) for r in results for o in r.outcomes if o.cue.expect != "absent"]
+    rows = -(-len(shown) // columns)
+    with style():
+        out = sheet(WIDTH, 2.1 * rows)
+        grid = out.subplots(rows, columns, squeeze=False)
+        for axes in grid.flat:
+            axes.axis("off")
+        for axes, (result, outcome) in zip(grid.flat, shown, strict=False):
+            _photograph(axes, result, outcome)
+            axes.plot(*outcome.motor, marker="+", markersize=11, markeredgewidth=2.6, color="black")
+            axes.plot(*outcome.motor, marker="+", markersize=10, markeredgewidth=1.2, color="white")
+            width, height = result.scene.picture.size
+            axes.set_xlim(0, width)
+            axes.set_ylim(height, 0)
+            axes.set_title(f"{result.scene.name}, {outcome.cue.name or 'hue'} ({outcome.cue.hue:g}°)")
     return out
 
 
