@@ -4,14 +4,16 @@
 
 Two equal inputs come at 100 ms, and a trial ends when a peak has formed. Look at the figure: near targets add up and are answered soonest, at a
 place between them; far ones inhibit each other and take longest. A pre-shape, which is there from the start and too weak for a peak, makes the
-answer to the expected target come sooner, and nearly always it is this target that is chosen. Bands are 95 % intervals: of medians by the binomial
-law, of shares by Wilson's.
+answer to the expected target come sooner, and this target is chosen. Without a pre-shape the model is symmetric: the share of peaks left of the
+middle is one half. A peak exactly at the middle would count half. Bands are 95 % intervals: of medians by the binomial law, of shares by Wilson's.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 import deodar as dd
 from deodar.analysis.statistics import median_interval, wilson
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-ONSET, MIDDLE = 100.0, 50.0
+ONSET, MIDDLE, RESTING = 100.0, 50.0, -5.0
 DISTANCES = (4, 8, 12, 16, 20, 28, 36)
 
 
@@ -32,7 +34,7 @@ def experiment(trials: int = 100) -> dd.Experiment:
     x = dd.Axis("x", 0, 100, samples=101, unit="deg")
     model = dd.Model("reaction time")
     kernel = [dd.Gaussian(amplitude=1.2, sigma=5)]
-    u = model.add(dd.Field("u", [x], tau=20, resting_level=-5, kernel=kernel, global_inhibition=0.6, noise=1.0))
+    u = model.add(dd.Field("u", [x], tau=20, resting_level=RESTING, kernel=kernel, global_inhibition=0.6, noise=1.0))
     for name in ("left", "right"):
         model.add(dd.GaussianStimulus(name, [x], center=MIDDLE, sigma=5, amplitude=5, windows=[(ONSET, 1e9)])) >> u
     model.add(dd.GaussianStimulus("preshape", [x], center=MIDDLE, sigma=5, amplitude=1)) >> u
@@ -44,8 +46,14 @@ def experiment(trials: int = 100) -> dd.Experiment:
         trials=trials,
         conditions=[Appears("detected", "u")],
         factors=[Factor("distance", {f"{d} deg": p for d, p in places.items()}), Factor("preshape", [0.0, 1.0], "preshape.amplitude")],
-        measures=[Measure("place", "u.activation", "place")],
+        measures=[Measure("place", "u.activation", "place", threshold=RESTING / 2)],  # at detection only one sample is above 0
     )
+
+
+def left_of_middle(places: np.ndarray) -> tuple[float, int]:
+    """How many peaks are left of the middle, those exactly at the middle counted half, and how many peaks there are."""
+    found = places[~np.isnan(places)]
+    return float((found < MIDDLE).sum() + 0.5 * (found == MIDDLE).sum()), len(found)
 
 
 def reactions(data: xarray.Dataset, preshape: float) -> dict[str, list[tuple[float, tuple[float, float]]]]:
@@ -54,7 +62,7 @@ def reactions(data: xarray.Dataset, preshape: float) -> dict[str, list[tuple[flo
     for d in DISTANCES:
         cell = data.isel(trial=((data["distance"] == f"{d} deg") & (data["preshape"] == preshape)).values)
         times = cell["detected"].values - ONSET
-        left, n = int((cell["place"] < MIDDLE).sum()), cell.sizes["trial"]
+        left, n = left_of_middle(cell["place"].values)
         middle = float(cell["detected"].median()) - ONSET
         out["time"].append((middle, median_interval(times) or (middle, middle)))
         out["left"].append((left / n, wilson(left, n) or (0.0, 1.0)))
@@ -73,6 +81,7 @@ def figure(data: xarray.Dataset) -> Figure:
             lows, highs = zip(*(interval for _, interval in found[name]), strict=True)
             axes.fill_between(DISTANCES, lows, highs, color=line.get_color(), alpha=0.25)
             axes.set_xlabel("distance of the targets (deg)")
+    choices.axhline(0.5, color="0.6", linewidth=0.8, linestyle=":", zorder=0)
     times.set(ylabel="time to detection (ms)", ylim=(0, None), title="median, 95 % interval")
     choices.set(ylabel="share of peaks left of the middle", ylim=(0, 1.03), title="share, 95 % interval")
     times.legend(loc="lower right", frameon=False)

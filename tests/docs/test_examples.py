@@ -171,7 +171,19 @@ def test_reaction_time() -> None:
     assert alone["time"][-1][1][0] > expected["time"][-1][1][1], "the bands are apart"
     assert alone["left"][-1][1][1] < expected["left"][-1][0]
     made = example.figure(data)
-    assert [len(axes.lines) for axes in made.axes] == [2, 2]
+    assert [len(axes.lines) for axes in made.axes] == [2, 3], "one line a condition, and that of chance"
+
+
+def test_the_symmetric_model_of_reaction_times_chooses_either_side_equally_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    example = module(EXAMPLES / "reaction_time.py")
+    monkeypatch.setattr(example, "DISTANCES", (4, 8))
+    data = example.experiment(400).run()
+    alone = data.isel(trial=(data["preshape"] == 0.0).values)
+    left, n = example.left_of_middle(alone["place"].values)
+    low, high = example.wilson(left, n)
+    assert n == 800 and low < 0.5 < high, f"{left:g} of {n}"
+    assert len(set(alone["place"].values.tolist())) > 790, "places are interpolated: hardly two are the same"
+    assert example.left_of_middle(np.array([40.0, 50.0, 50.0, 60.0, np.nan])) == (2.0, 4)
 
 
 def test_live_session() -> None:

@@ -148,8 +148,8 @@ def _reach(above: np.ndarray, labels: np.ndarray, d: int, axis: Axis) -> np.ndar
     total = np.zeros(above.shape)
     for side in (1, -1):
         neighbour = np.roll(above, -side, axis=d)
-        fall = np.maximum(above - neighbour, 1e-300)
-        part = np.where(neighbour > 0, 0.5, above / fall)
+        crossing = (above > 0) & (neighbour <= 0)
+        part = np.where(neighbour > 0, 0.5, np.where(crossing, above, 0.0) / np.where(crossing, above - neighbour, 1.0))
         if not axis.periodic:
             part[(slice(None),) * d + (-1 if side == 1 else 0,)] = 0.0
         total += part

@@ -19,14 +19,18 @@ ENOUGH = 20
 """Runs from which on the value alone decides; with fewer a target is missed only where the interval excludes it."""
 
 
-def wilson(hits: int, n: int) -> Interval | None:
+def wilson(hits: float, n: int) -> Interval | None:
     """95 % interval of a share of n runs; None without runs.
+
+    Args:
+        hits: how many runs count; a run that is undecided may count half.
+        n: how many runs there are.
 
     Reference:
         Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
     """
     if not 0 <= hits <= n:
-        raise AnalysisError(f"{hits} of {n} is no share")
+        raise AnalysisError(f"{hits:g} of {n} is no share")
     if n == 0:
         return None
     z = float(stats.norm.ppf(0.5 + LEVEL / 2))

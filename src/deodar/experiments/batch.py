@@ -109,7 +109,7 @@ def run_batch(
         new = [doc.t0 + tick * float(step) for tick in ticks]
         times.extend(new)
         by = dict(zip(order, arrays, strict=True))
-        seen = {v: by[p] if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
+        seen = {v: v.given(by[p]) if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
         counts = tally.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps)
         looks[flock.rows] += counts
         for k, n in enumerate(counts):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.experiments.actions import Record, arena, targets
 from deodar.experiments.events import Reached
@@ -13,6 +15,7 @@ from deodar.experiments.view import PLACE, View, mask
 from deodar.model import edit, find
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
+from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.runtime.exchange import used
 from deodar.runtime.run import require_step, whole
 from deodar.worlds._base import World
@@ -121,6 +124,11 @@ def _view(view: View, model: Model, world: World | None) -> None:
     mask(axes, view.near, view.radius)
     if view.reduce == PLACE and not axes:
         raise ParameterError(f"{view.of} is one number, which stands nowhere", fix="Take reduce='max'")
+    sigmoid = getattr(entry.element, "sigmoid", None)
+    if view.reduce == PLACE and port == "output" and isinstance(sigmoid, Sigmoid) and float(sigmoid(np.array(-1.0))) > view.threshold:
+        # the smooth foot of a sigmoid would make the whole field one peak, whose centroid is drawn to the middle of the axis
+        what = f"{entry.path}.output is above {view.threshold:g} everywhere, so the whole field would count as one peak"
+        raise ParameterError(what, fix=f"Measure {entry.path}.activation, or give threshold=0.5")
 
 
 def _no_event(name: str, known: list[str]) -> None:

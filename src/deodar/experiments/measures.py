@@ -17,10 +17,12 @@ class Measure(Part):
     Attributes:
         name: what rows call it.
         of: path of a port, or name of a sensor of the world.
-        reduce: max, min, mean or sum of an array, or `place` of its largest sample in axis units (to a sample).
+        reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units, interpolated between samples
+            as `analysis.peaks` does. A trial without a peak has no place (NaN in the table).
         when: the event at whose time it is taken; empty: when the trial ends.
         near: only samples around this place, in axis units, one number or one for each axis; none: all.
         radius: how far around that place, along every axis.
+        threshold: samples above it belong to the peak, for `place`; 0 fits an activation, 0.5 an output.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -29,13 +31,16 @@ class Measure(Part):
     when: Annotated[str, Recompile(meaning="the event at whose time it is taken; empty: at the end")] = ""
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: all samples")] = None
     radius: Annotated[float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")] = 0.0
+    threshold: Annotated[float, Recompile("activation", meaning="samples above it belong to the peak, for place")] = 0.0
 
     @property
     def view(self) -> View:
         """What has to be looked at."""
         near = () if self.near is None else tuple(map(float, self.near)) if isinstance(self.near, Sequence) else (float(self.near),)
-        return View(self.of, self.reduce, near, self.radius)
+        return View(self.of, self.reduce, near, self.radius, threshold=self.threshold)
 
     def faults(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
             yield "radius", "is 0, and a place alone holds no sample; say how far around it"
+        if self.reduce != PLACE and self.threshold:
+            yield "threshold", f"is {self.threshold:g}, and only reduce='place' has a threshold"

@@ -11,11 +11,12 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.experiments.view import PLACE, REDUCES, View, mask, places
+from deodar.experiments.view import PLACE, REDUCES, View, mask
 from deodar.model import edit
 from deodar.model.document import Document
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.peak import position
 from deodar.parameters import Recompile
 
 Place = tuple[str, str]
@@ -26,35 +27,33 @@ _REDUCES = {"max": jnp.max, "min": jnp.min, "sum": jnp.sum}
 
 @dataclass(frozen=True)
 class Reader(Coupling):
-    """y = max, min, mean or sum of the samples around a place, or where the largest of them stands.
+    """y = max, min, mean or sum of the samples around a place, or the position of their highest peak.
 
+    A position is one number for each axis, then 1 where there is a peak and 0 where there is none: values that are not finite would end the run.
     It is never part of a document that is written: `with_readers` adds it to the copy that a batch runs.
     """
 
     reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of the samples")] = "max"
     near: Annotated[str, Recompile(meaning="the place and the radius around it, as JSON; empty: all samples")] = ""
+    threshold: Annotated[float, Recompile("input", meaning="samples above it belong to a peak")] = 0.0
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         count = len(ins["input"])
-        return {"output": (Axis("of", 0.0, float(count - 1), count),) if self.reduce == PLACE and count > 1 else ()}
+        return {"output": (Axis("of", 0.0, float(count), count + 1),) if self.reduce == PLACE else ()}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        axes, y = at.ins["input"], inputs["input"].ravel()
-        near, radius = json.loads(self.near) if self.near else ((), 0.0)
-        inside, points = mask(axes, near, radius), places(axes)
-        inside = None if inside is None else inside.ravel()
-        if self.reduce in ("max", "min", PLACE):
+        axes, y = at.ins["input"], inputs["input"]
+        inside = mask(axes, *json.loads(self.near)) if self.near else None
+        if self.reduce == PLACE:
+            found, there = position(y, axes, self.threshold, inside)
+            return {"output": jnp.append(found, there.astype(found.dtype))}
+        if self.reduce in ("max", "min"):
             y = y if inside is None else jnp.where(inside, y, jnp.inf if self.reduce == "min" else -jnp.inf)
         else:
             y = y if inside is None else jnp.where(inside, y, 0.0)
         if self.reduce == "mean":
             return {"output": jnp.sum(y) / (y.size if inside is None else int(inside.sum()))}
-        if self.reduce != PLACE:
-            return {"output": _REDUCES[self.reduce](y)}
-        # the first of the largest by two reductions, which vector instructions do; argmax takes four times as long as a step of the field
-        first = jnp.min(jnp.where(y == jnp.max(y), jnp.arange(y.size, dtype=jnp.int32), y.size - 1))
-        found = jnp.asarray(points, at.dtype)[first]
-        return {"output": found[0] if len(axes) == 1 else found}
+        return {"output": _REDUCES[self.reduce](y)}
 
 
 def with_readers(doc: Document, views: Sequence[View]) -> tuple[Document, dict[View, Place]]:
@@ -72,7 +71,7 @@ def with_readers(doc: Document, views: Sequence[View]) -> tuple[Document, dict[V
         mask(axes, view.near, view.radius)  # refused here, not inside the step
         near = json.dumps([list(view.near), view.radius]) if view.near else ""
         digest = hashlib.blake2b(repr(view).encode(), digest_size=6).hexdigest()
-        doc, entry = edit.add(doc, Reader(view.reduce, near, name=f"look {digest}"))
+        doc, entry = edit.add(doc, Reader(view.reduce, near, view.threshold, name=f"look {digest}"))
         doc = edit.connect(doc, source, port, entry, "input")
         at[view] = (entry.id, "output")
     return doc, at

@@ -9,7 +9,7 @@ import numpy as np
 from deodar.errors import ParameterError, UnknownName, did_you_mean
 from deodar.experiments.events import Event, Looks
 from deodar.experiments.measures import Measure
-from deodar.experiments.view import View
+from deodar.experiments.view import PLACE, View
 
 TIME = "time"
 """Outcome of a trial that was ended by nothing but its limit."""
@@ -97,9 +97,10 @@ class Tally:
         return {e.name: None if np.isnan(t) else float(t) for e, t in zip(self.events, self.found[:, row], strict=True)}
 
     def measures_of(self, row: int) -> dict[str, float | list[float] | None]:
-        """Each measure of a trial; None: it was not taken."""
+        """Each measure of a trial; None: it was not taken, or there was no peak whose position could be measured."""
         found = [values[row] for values in self.measured]
-        return {m.name: None if v is None else v.astype(float).tolist() for m, v in zip(self.measures, found, strict=True)}
+        absent = [v is None or (m.reduce == PLACE and bool(np.isnan(v).any())) for m, v in zip(self.measures, found, strict=True)]
+        return {m.name: None if no or v is None else v.astype(float).tolist() for m, v, no in zip(self.measures, found, absent, strict=True)}
 
     def _end(self, rows: Sequence[int], which: np.ndarray, name: str) -> None:
         for i in np.flatnonzero(which).tolist():

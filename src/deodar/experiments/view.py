@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar.analysis.peaks import peaks
 from deodar.errors import AxesError, UnknownName
 from deodar.model import find
 from deodar.model.document import Document, Entry
@@ -15,7 +16,7 @@ from deodar.numerics.axes import Axes
 
 REDUCES: Mapping[str, Callable[..., Any]] = {"max": np.max, "min": np.min, "mean": np.mean, "sum": np.sum}
 PLACE = "place"
-"""Reduction to where the largest sample stands, in axis units: one number, or one for each axis."""
+"""Reduction to the position of the highest peak, in axis units: one number, or one for each axis."""
 
 
 @dataclass(frozen=True)
@@ -24,10 +25,11 @@ class View:
 
     Attributes:
         of: path of a port, or name of a sensor of the world.
-        reduce: max, min, mean or sum of all samples, or `place` of the largest; empty: the values as they are.
+        reduce: max, min, mean or sum of all samples, or `place` of the highest peak; empty: the values as they are.
         near: only samples around this place, in axis units, one number for each axis; empty: all.
         radius: how far around it, along every axis.
         port: which port a path without one means.
+        threshold: samples above it belong to a peak, for `place`.
     """
 
     of: str
@@ -35,6 +37,7 @@ class View:
     near: tuple[float, ...] = ()
     radius: float = 0.0
     port: str = "output"
+    threshold: float = 0.0
 
     def place(self, doc: Document) -> tuple[Entry, str]:
         """The element and the port that it means in a document; an unknown one is an error that suggests the nearest."""
@@ -48,16 +51,27 @@ class View:
         """What it makes of values, whose first `lead` axes count copies and looks and are kept."""
         if not self.reduce:
             return values
-        flat = values.reshape(*values.shape[:lead], -1)
         inside = None if axes is None else mask(axes, self.near, self.radius)
-        points = None if axes is None else places(axes)
-        if inside is not None:
-            flat, points = flat[..., inside.ravel()], points if points is None else points[inside.ravel()]
         if self.reduce == PLACE:
-            assert points is not None
-            found = points[flat.argmax(axis=-1)]
-            return found[..., 0] if found.shape[-1] == 1 else found
+            assert axes is not None
+            found = np.array([self._position(u, axes, inside) for u in values.reshape(-1, *values.shape[lead:])])
+            return found.reshape(values.shape[:lead] if len(axes) == 1 else (*values.shape[:lead], len(axes)))
+        flat = values.reshape(*values.shape[:lead], -1)
+        if inside is not None:
+            flat = flat[..., inside.ravel()]
         return REDUCES[self.reduce](flat, axis=-1)
+
+    def given(self, values: np.ndarray) -> np.ndarray:
+        """What it makes of the output of its reader (`reader.py`): a position is NaN where there is no peak."""
+        if self.reduce != PLACE:
+            return values
+        found = np.where(values[..., -1:] > 0.5, values[..., :-1], np.nan)
+        return found[..., 0] if found.shape[-1] == 1 else found
+
+    def _position(self, values: np.ndarray, axes: Axes, inside: np.ndarray | None) -> Sequence[float]:
+        u = values if inside is None else np.where(inside, values, np.minimum(values, self.threshold))
+        found = peaks(u, axes, self.threshold)
+        return found[0].position if found else (np.nan,) * len(axes)
 
 
 def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
@@ -79,8 +93,3 @@ def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
     if not inside.any():
         raise AxesError(f"no sample lies within {radius:g} of {list(near)}", fix=f"The axes are {', '.join(map(str, axes))}")
     return inside
-
-
-def places(axes: Axes) -> np.ndarray | None:
-    """Where each sample stands, (samples, axes); None without axes."""
-    return np.stack([a.ravel() for a in np.meshgrid(*(axis.points for axis in axes), indexing="ij")], axis=-1) if axes else None
