@@ -19,9 +19,12 @@ def gaussian(lags, steps, amplitude, sigma, normalized):
     for d, (lag, step) in enumerate(zip(lags, steps, strict=True)):
         s = each(sigma, d)
         weight = weight * np.exp(-(lag**2) / (2 * s**2))
+        reach = math.ceil(12 * s / step) + 1
+        summed = step * sum(math.exp(-((k * step) ** 2) / (2 * s**2)) for k in range(-reach, reach + 1))
         if normalized:  # the integral, as the grid sees it: the sum over an endless grid times its step
-            reach = math.ceil(12 * s / step) + 1
-            weight = weight / (step * sum(math.exp(-((k * step) ** 2) / (2 * s**2)) for k in range(-reach, reach + 1)))
+            weight = weight / summed
+        elif s < step:  # the grid does not resolve it: the integral is kept, not the value at the centre
+            weight = weight * math.sqrt(2 * math.pi) * s / summed
     return weight
 
 

@@ -1,0 +1,35 @@
+"""A hundred silent mistakes: small documents that load, each with one thing that a person gets wrong."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from deodar.model.document import Document
+from deodar.model.reader import from_data
+from deodar.parameters import FrozenArray
+
+KINDS = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted((Path(__file__).parent / "mistakes").glob("*.json"))}
+CASES = [pytest.param(case, id=f"{kind}: {case['document']['name']}") for kind, group in KINDS.items() for case in group["cases"]]
+
+
+def document(case: dict[str, Any]) -> Document:
+    """The document of a case; its arrays stand beside it as lists."""
+    arrays = {name: FrozenArray(values) for name, values in case.get("arrays", {}).items()}
+    return from_data(case["document"], arrays)
+
+
+def test_a_hundred_documents_of_at_least_forty_kinds_of_mistake() -> None:
+    assert len(CASES) == 100 and len(KINDS) >= 40
+    assert all(1 <= len(group["cases"]) <= 5 and group["mistake"] for group in KINDS.values())
+    assert len({case.values[0]["document"]["name"] for case in CASES}) == 100, "every document says in its name what is wrong with it"
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_document_loads_and_says_what_is_expected(case: dict[str, Any]) -> None:
+    doc = document(case)
+    assert case["where"] in [*(e.path for e in doc.entries), *(k.name for k in doc.knobs)]
+    assert case["severity"] in ("problem", "warning") and case["words"]
