@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 import xarray
 
 import deodar as dd
 from deodar.recording import files
+from deodar.recording.provenance import KEY
+from deodar.recording.record import about
 from tests.recording.models import record
 
 
@@ -41,7 +45,7 @@ def test_other_programs_open_it_without_a_warning(data: xarray.Dataset, tmp_path
 
 def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) -> None:
     path = files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
-    rows = [r for r in csv.reader(line for line in path.read_text().splitlines() if not line.startswith("#"))]
+    rows = list(csv.reader(path.read_text().splitlines()))
     head = rows[0]
     assert {"time", "trial", "s.amplitude"} <= set(head)
     text = path.read_text()
@@ -49,6 +53,39 @@ def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) ->
     assert any(cell and abs(float(cell) - value) < 1e-6 for row in rows[1:] for cell in row[-2:] if _number(cell)), text[:400]
     with pytest.raises(dd.errors.RecordError):
         files.load(path)
+
+
+def test_pandas_reads_the_table_as_it_is(data: xarray.Dataset, tmp_path: Path) -> None:
+    path = files.save(data[["n.activation"]], tmp_path / "record.csv")
+    table = pandas.read_csv(path)
+    assert list(table.columns) == ["s.amplitude", "trial", "time", "n.activation"] and len(table) == data["n.activation"].size
+    kept = table.set_index(["s.amplitude", "trial", "time"])["n.activation"].to_xarray().astype(np.float32)
+    assert np.array_equal(kept.transpose(*data["n.activation"].dims).values, data["n.activation"].values)
+
+
+def test_variables_over_other_dimensions_leave_cells_empty_for_pandas(data: xarray.Dataset, tmp_path: Path) -> None:
+    table = pandas.read_csv(files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv"))
+    nodes, fields = table["n.activation"].notna(), table["u.activation"].notna()
+    assert nodes.sum() == data["n.activation"].size and fields.sum() == data["u.activation"].size and not (nodes & fields).any()
+
+
+def test_the_metadata_of_a_table_stand_beside_it(data: xarray.Dataset, tmp_path: Path) -> None:
+    """As the W3C's metadata for tabular data: where its readers look, with a column for each of the table."""
+    path = files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["record.csv", "record.csv-metadata.json"]
+    told = json.loads((tmp_path / "record.csv-metadata.json").read_text())
+    assert told["@context"] == "http://www.w3.org/ns/csvw" and told["url"] == "record.csv" and told["dc:title"] == data.attrs["title"]
+    columns = {c["titles"]: c for c in told["tableSchema"]["columns"]}
+    assert list(columns) == list(pandas.read_csv(path).columns)
+    assert columns["time"]["schema:unitText"] == "ms" and columns["u.activation"]["datatype"] == "float"
+    assert json.loads(told["notes"][0][KEY])["seed"] == about(data)["seed"]
+
+
+def test_metadata_of_another_table_are_never_replaced(data: xarray.Dataset, tmp_path: Path) -> None:
+    (tmp_path / "record.csv-metadata.json").write_text("mine")
+    with pytest.raises(dd.errors.OutputExists, match=r"record\.csv-metadata\.json"):
+        files.save(data[["n.activation"]], tmp_path / "record.csv")
+    assert [p.name for p in tmp_path.iterdir()] == ["record.csv-metadata.json"]
 
 
 def _number(cell: str) -> bool:
@@ -66,7 +103,7 @@ def test_nothing_is_replaced_without_force(data: xarray.Dataset, suffix: str, tm
     with pytest.raises(dd.errors.OutputExists, match="--force"):
         files.save(small, path)
     files.save(small + 0 if suffix == ".csv" else small, path, force=True)
-    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+    assert {p.name for p in tmp_path.iterdir()} - {"record.csv-metadata.json"} == {path.name}
 
 
 def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Path) -> None:

@@ -7,7 +7,9 @@ from PIL import Image
 
 import deodar as dd
 from deodar.errors import UnknownName
-from deodar.server.gallery import LONGEST, example_file, examples, picture_file, sentence
+from deodar.importers.examples import LONGEST
+from deodar.importers.examples import first_sentence as sentence
+from deodar.server.gallery import example_file, examples, picture_file
 from tests.docs.source import EXAMPLES
 
 NAMES = [e.name for e in examples()]

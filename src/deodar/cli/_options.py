@@ -60,6 +60,22 @@ def wrong(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(wrong=parser.error)
 
 
+def document(text: str) -> Path:
+    """Return the path of a document, or that of the example which `example:NAME` names."""
+    from deodar.errors import UnknownName
+    from deodar.importers import examples
+
+    try:
+        return examples.named(text)
+    except UnknownName as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def add_document(parser: argparse.ArgumentParser, meaning: str = "a document (.json, .deodar), or example:NAME", **how: Any) -> None:
+    """`FILE`: a document, or an example by its name."""
+    parser.add_argument("file", type=document, metavar="FILE", help=meaning, **how)
+
+
 def whole(text: str) -> int:
     """A whole number, 0 or above."""
     value = int(text)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
+
+from deodar.cli import _options
 
 if TYPE_CHECKING:
     from deodar.errors import Problem
@@ -18,7 +19,7 @@ EPILOG = """A problem stops a run; a warning never does. Status 1 if there is a 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("file", type=Path, metavar="FILE", help="a document (.json)")
+    _options.add_document(parser)
     parser.add_argument("--strict", action="store_true", help="count warnings as problems: status 1")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
 

@@ -20,7 +20,7 @@ Status 1 with --strict if anything was not carried."""
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("file", type=Path, metavar="FILE", help="the file of the other tool")
+    _options.add_document(parser, "the file of the other tool")
     parser.add_argument("--out", "-o", type=Path, metavar="OUT", help="the document to write (.json); without it only the report is shown")
     parser.add_argument("--bugs", action="store_true", help="reproduce known errors of the other tool")
     parser.add_argument("--strict", action="store_true", help="fail, and write nothing, if anything is not carried as it stands")

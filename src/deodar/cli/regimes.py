@@ -19,7 +19,7 @@ HELP = "measure the instabilities of one field or node: detection, reverse detec
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    parser.add_argument("file", type=Path, metavar="FILE", help="a document (.json)")
+    _options.add_document(parser)
     parser.add_argument("element", metavar="ELEMENT", help="path of the field or node; it is measured alone and without noise")
     parser.add_argument("-o", "--out", type=Path, metavar="FIGURE", help="the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)")
     parser.add_argument("--force", action="store_true", help="replace the figure if it exists")

@@ -27,8 +27,12 @@ OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("file", type=Path, metavar="FILE|RECORD", help="a document (.json) to run, or a record to run again")
-    parser.add_argument("--duration", type=float, metavar="D", help="how long, in the document's time unit (needed for a document)")
+    parser.add_argument(
+        "file", type=_options.document, metavar="FILE|RECORD", help="a document (.json, .deodar) or example:NAME to run, or a record to run again"
+    )
+    parser.add_argument(
+        "--duration", type=float, metavar="D", help="how long, in the document's time unit (needed for a document; of an example as its notes say)"
+    )
     parser.add_argument("--dt", type=float, help="Euler step (default: the document's own, else 1)")
     parser.add_argument(
         "--record", nargs="+", action="extend", metavar="PATH", help="ports to record, for example u.activation (default: every field, at the end)"
@@ -50,6 +54,13 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if the run was stopped, or if a repetition differs without a reason."""
+    from deodar.importers import examples
+    from deodar.importers.opening import require
+
+    if args.file.suffix.lower() not in (".zarr", ".nc"):
+        require(args.file)
+    if args.duration is None and examples.holds(args.file):
+        args.duration = examples.duration(args.file.stem)
     if not _is_record(args.file):
         _options.use_cores(args.cores)
     if args.live or args.cost:

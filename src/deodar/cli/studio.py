@@ -15,7 +15,7 @@ folder), and listens on this machine only. With --host it can be reached from ot
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("file", type=Path, nargs="?", metavar="FILE", help="a document (.json)")
+    _options.add_document(parser, nargs="?")
     parser.add_argument("--port", type=_options.whole, metavar="N", help="port to listen on (default: the first free one from 8430 on; 0: any)")
     parser.add_argument("--host", default="127.0.0.1", metavar="H", help="address to listen on (default 127.0.0.1: this machine only)")
     parser.add_argument("--no-browser", action="store_true", help="do not open the browser, only print the address")
@@ -26,18 +26,23 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Until Ctrl-C."""
-    from deodar.server.serve import serve
+    from deodar.importers import examples, opening
 
     if args.port is not None and args.port > 65535:
         args.wrong("a port is a number from 0 to 65535")
-    root = Path.cwd() if args.file is None else args.file.resolve().parent
+    file: Path | None = args.file
+    # an example is opened as a copy that has no file yet
+    root = Path.cwd() if file is None or examples.holds(file) else file.resolve().parent
     if not root.is_dir():
         args.wrong(f"there is no folder {root}")
+    if file is not None:
+        opening.require(file)
+    from deodar.server.serve import serve
 
     _options.use_cores(args.cores)
 
     def say(address: str) -> None:
         print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
 
-    serve(args.file, root, args.host, args.port, not args.no_browser, args.trust, _options.world(args.world), say)
+    serve(file, root, args.host, args.port, not args.no_browser, args.trust, _options.world(args.world), say)
     return 0

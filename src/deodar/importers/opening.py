@@ -8,6 +8,7 @@ from types import ModuleType
 
 from deodar import registry
 from deodar.errors import DeodarError, DocumentError, Problem
+from deodar.importers import examples
 from deodar.importers.imported import Imported
 from deodar.model import model as models
 from deodar.model.files import MOST_BYTES
@@ -24,6 +25,23 @@ def tools() -> dict[str, ModuleType]:
     """The importers by name: every folder beside this file. Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs) -> Imported`."""
     found = [importlib.import_module(name) for name in registry.modules("importers")]
     return {module.NAME: module for module in found if hasattr(module, "sniff")}
+
+
+def require(path: str | Path) -> Path:
+    """Return the path of a file that is to be opened; `example:NAME` stands for an example.
+
+    Raises:
+        DocumentError: there is no such file; an example or a document in its folder with a similar name is suggested.
+        UnknownName: there is no example of that name.
+    """
+    path = examples.named(path)
+    try:
+        missing = not path.exists()
+    except (OSError, ValueError) as error:
+        raise DocumentError(f"cannot be read: {getattr(error, 'strerror', None) or error}", where=str(path)) from None
+    if missing:
+        raise DocumentError("there is no such file", where=str(path), fix=examples.near(path))
+    return path
 
 
 def tool_of(path: str | Path) -> ModuleType | None:
@@ -57,10 +75,10 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
     Raises:
         DocumentError: if no importer knows the file, or if it is broken; nothing is half-read.
     """
-    path = Path(path)
+    path = require(path)
     try:
         if not path.is_file():
-            raise DocumentError("there is no such file")
+            raise DocumentError("is not a file")
         tool = tool_of(path)
         if tool is None:
             raise DocumentError("is of no tool that can be imported", fix=f"There is: {', '.join(tools())}. Our own documents need no import")
@@ -78,11 +96,13 @@ def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:
     """Read a document, or a file of another tool (cosivina); what could not be carried stands in the model's notes.
 
     Args:
-        path: the file.
+        path: the file, or `example:NAME` for an example that comes with deodar.
         trust: whether a document may import and run the functions it names.
         bugs: whether known errors of the other tool are reproduced instead of corrected.
 
     Raises:
         DocumentError: with every problem found, each with its path.
     """
+    if isinstance(path, (str, Path)):
+        path = require(path)
     return read(path, bugs).model if tool_of(path) is not None else models.load(path, trust)

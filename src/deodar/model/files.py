@@ -1,4 +1,4 @@
-"""The document as JSON, with its arrays in one hashed file beside it.
+"""The document as JSON, with its arrays in one hashed file beside it, or both in one file, `NAME.deodar`.
 
 Reading trusts nothing: sizes and nesting are bounded, numbers must be finite, arrays are plain numbers from a file of
 the document's own folder whose hash is written in the document, and user functions stay inert until they are trusted.
@@ -11,7 +11,7 @@ import io
 import json
 import math
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
@@ -19,7 +19,7 @@ import numpy as np
 import psutil
 
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
-from deodar.model import output
+from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
 from deodar.model.keys import collect, repeated
 from deodar.model.parts import to_json
@@ -97,9 +97,13 @@ def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
 
 
 def save(doc: Document, path: str | Path, force: bool = False) -> None:
-    """Write the document, its array file first; refuses to replace a file unless `force`."""
+    """Write the document, its array file first; refuses to replace a file unless `force`. A name that ends in .deodar holds both in one file."""
     path = output.claim(path, force)
     text, packed = dumps(doc, path.stem)
+    if path.suffix.lower() == package.SUFFIX:
+        beside = {json.loads(text)["arrays"]["file"]: packed} if packed is not None else {}
+        output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
+        return
     old = _old_arrays(path) if force else None
     new = None
     if packed is not None:
@@ -152,17 +156,36 @@ def load(path: str | Path) -> Document:
             raise DocumentError("there is no such file", fix=near)
         if not path.is_file():
             raise DocumentError("is not a file")
+        if package.is_package(path):
+            return _load_package(path)
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
         data = parse(path.read_bytes())
-        arrays = _arrays(data, path.parent) if isinstance(data, dict) else {}
-        return from_data(data, arrays)
+        return from_data(data, _arrays(data, lambda name: _beside(path.parent / name)))
     except DeodarError as error:
         problems = [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
         raise DocumentError(problems) from None
     except OSError as error:
         raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
+
+
+def _load_package(path: Path) -> Document:
+    with package.Package(path, MOST_BYTES, _require_room) as packed:
+        data = parse(packed.read(packed.document) or b"")
+        arrays = _arrays(data, packed.read)
+        packed.require_only(data["arrays"]["file"] if arrays else "")
+        return from_data(data, arrays)
+
+
+def _beside(path: Path) -> bytes | None:
+    """The content of an array file beside a document; None where there is none."""
+    if path.is_symlink():
+        raise DocumentError(f"the array file {path.name!r} lies outside the document's folder", where="arrays")
+    if not path.is_file():
+        return None
+    _require_room(path.stat().st_size, path.name)
+    return path.read_bytes()
 
 
 def parse(text: bytes | str) -> Any:
@@ -228,20 +251,19 @@ def _require_room(size: int, name: str) -> None:
         raise DocumentError(what, where="arrays")
 
 
-def _arrays(data: dict[str, Any], folder: Path) -> dict[str, FrozenArray]:
-    entry = data.get("arrays")
+def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenArray]:
+    """The arrays that a document names; `read` gives the content of a file of its folder, or None."""
+    entry = cast("dict[str, Any]", data).get("arrays") if isinstance(data, dict) else None
     if entry is None:
         return {}
     if not isinstance(entry, dict) or set(cast(Any, entry)) != {"file", "sha256"} or not all(isinstance(v, str) for v in cast(Any, entry).values()):
         raise DocumentError("needs a file and its sha256", where="arrays")
     name, digest = cast("dict[str, str]", entry)["file"], cast("dict[str, str]", entry)["sha256"]
-    path = folder / name
-    if Path(name).name != name or name in ("", ".", "..") or "\\" in name or path.is_symlink():
+    if Path(name).name != name or name in ("", ".", "..") or "\\" in name:
         raise DocumentError(f"the array file {name!r} lies outside the document's folder", where="arrays")
-    if not path.is_file():
+    content = read(name)
+    if content is None:
         raise DocumentError(f"the array file {show(name)} is missing; it belongs beside the document", where="arrays")
-    _require_room(path.stat().st_size, name)
-    content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != digest:
         raise DocumentError(f"the array file {name!r} is not the one this document was saved with: its hash differs", where="arrays")
     return unpack(content, name)

@@ -35,8 +35,8 @@ def save(data: xarray.Dataset, path: str | Path, format: str | None = None, forc
     Args:
         data: the record, as `simulate` returns it.
         path: where to; its folder must exist.
-        format: zarr (a folder, version 3), netcdf (NetCDF 3) or csv (one row for each time, trial, sweep point and sample; not
-            read back). None: what the name ends in: .zarr, .nc or .csv.
+        format: zarr (a folder, version 3), netcdf (NetCDF 3) or csv (one row for each time, trial, sweep point and sample, its metadata
+            in NAME.csv-metadata.json; not read back). None: what the name ends in: .zarr, .nc or .csv.
         force: replace a record that stands there.
 
     Raises:
@@ -50,6 +50,7 @@ def save(data: xarray.Dataset, path: str | Path, format: str | None = None, forc
     claim(path, kind, force)
     if kind == "csv":
         output.write(path, lambda beside: table.write(data, beside))
+        output.write(table.beside(path), table.metadata(data, path.name).encode())
     elif kind == "netcdf":
         output.write(path, lambda beside: _write_netcdf(data, beside))
     else:
@@ -75,6 +76,8 @@ def claim(path: Path, format: str, force: bool = False) -> None:
     """Refuse a place that may not be written to; with `force` a record that stands there may be replaced."""
     if format != "zarr":
         output.claim(path, force)
+        if format == "csv":
+            output.claim(table.beside(path), force)
         return
     if force and path.is_dir() and not path.is_symlink() and not is_zarr(path):
         raise OutputExists("exists and is no record", where=str(path), fix="Choose another name")

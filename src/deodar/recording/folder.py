@@ -11,7 +11,7 @@ import xarray
 from deodar.errors import OutputExists
 from deodar.model import files as documents
 from deodar.model.document import Document
-from deodar.recording import files, places
+from deodar.recording import files, places, table
 
 MODEL = "model.json"
 
@@ -65,3 +65,4 @@ def _drop_others(path: Path, format: str) -> None:
             shutil.rmtree(old)
         elif old.is_file():
             old.unlink()
+            table.beside(old).unlink(missing_ok=True)

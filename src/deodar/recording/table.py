@@ -1,8 +1,13 @@
-"""A record as one long table in CSV, for other programs: one row for each sweep point, trial, time and sample."""
+"""A record as one long table in CSV, for other programs: one row for each sweep point, trial, time and sample.
+
+The table is a line of names and the rows, and nothing else: `pandas.read_csv(path)` reads it. What belongs to it (title, units, what made the
+record) stands beside it in `NAME.csv-metadata.json`, in the form of the W3C's Metadata Vocabulary for Tabular Data (2015), section 5.
+"""
 
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 from typing import Any
 
@@ -16,18 +21,12 @@ ROWS = 100_000
 def write(data: xarray.Dataset, path: Path) -> None:
     """Write the table.
 
-    Lines that begin with `# ` come first: the title, units, and what made the record, as JSON. Then one line of names and the rows.
     Variables over the same dimensions share rows; a row leaves the columns empty that do not belong to it.
     """
-    blocks: dict[tuple[str, ...], list[str]] = {}
-    for name, variable in data.data_vars.items():
-        blocks.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
-    dims = list(dict.fromkeys(d for block in blocks for d in block))
-    columns = [*dims, *(name for names in blocks.values() for name in names)]
+    blocks = _blocks(data)
+    columns = _columns(blocks)
     place = {name: k for k, name in enumerate(columns)}
     with path.open("w", newline="", encoding="utf-8") as file:
-        for line in _head(data):
-            file.write(f"# {line}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         for block, names in blocks.items():
@@ -45,11 +44,45 @@ def write(data: xarray.Dataset, path: Path) -> None:
                 writer.writerows(zip(*cells, strict=True))
 
 
-def _head(data: xarray.Dataset) -> list[str]:
-    lines = [f"title: {data.attrs['title']}"] if data.attrs.get("title") else []
-    lines += [f"unit of {name}: {v.attrs['units']}" for name, v in data.variables.items() if v.attrs.get("units")]
-    lines += [f"{key}: {value}" for key, value in data.attrs.items() if key != "title"]
-    return [" ".join(line.splitlines()) for line in lines]
+def beside(path: Path) -> Path:
+    """Return the place of a table's metadata, where readers of such metadata look for it."""
+    return path.with_name(f"{path.name}-metadata.json")
+
+
+def metadata(data: xarray.Dataset, name: str) -> str:
+    """Return what belongs to the table of that file name, as JSON: its title, its columns with units, and in the notes what made the record."""
+    columns: list[dict[str, str]] = []
+    for column in _columns(_blocks(data)):
+        about: dict[str, Any] = dict(data[column].attrs) if column in data.variables else {}
+        kind = data[column].dtype if column in data.variables else np.dtype(np.int64)
+        said = {"titles": column, "datatype": _datatype(kind)}
+        said |= {"dc:description": str(about["long_name"])} if about.get("long_name") else {}
+        said |= {"schema:unitText": str(about["units"])} if about.get("units") else {}
+        columns.append(said)
+    title = {"dc:title": str(data.attrs["title"])} if data.attrs.get("title") else {}
+    rest = {str(key): value if isinstance(value, str) else str(value) for key, value in data.attrs.items() if key != "title"}
+    found = {"@context": "http://www.w3.org/ns/csvw", "url": name, **title, "tableSchema": {"columns": columns}, "notes": [rest]}
+    return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
+
+
+def _blocks(data: xarray.Dataset) -> dict[tuple[str, ...], list[str]]:
+    """The names of the variables, by their dimensions."""
+    blocks: dict[tuple[str, ...], list[str]] = {}
+    for name, variable in data.data_vars.items():
+        blocks.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
+    return blocks
+
+
+def _columns(blocks: dict[tuple[str, ...], list[str]]) -> list[str]:
+    dims = list(dict.fromkeys(d for block in blocks for d in block))
+    return [*dims, *(name for names in blocks.values() for name in names)]
+
+
+def _datatype(kind: np.dtype[Any]) -> str:
+    """The name that the vocabulary has for a type of numbers."""
+    if kind == np.float32:
+        return "float"
+    return {"f": "double", "i": "integer", "u": "integer", "b": "boolean"}.get(kind.kind, "string")
 
 
 def _text(array: np.ndarray) -> list[str]:

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
-from deodar.importers import opening
+from deodar.importers import examples, opening
 from deodar.model import edit, files, find
 from deodar.model.check import problems
 from deodar.model.document import Document
@@ -112,12 +112,14 @@ class Project:
     # -------------------------------------------------------------------------------- opening and closing
 
     async def open_file(self, path: Path, discard: bool) -> str:
-        """Open a document, or a file of another tool as a document without a file; what is wrong with it becomes the trouble that the page shows.
+        """Open a document; an example, or a file of another tool, as one without a file.
 
+        What is wrong with it becomes the trouble that the page shows.
         Of a file of another tool it answers in a sentence what became of it, otherwise nothing.
         """
         foreign = opening.tool_of(path) is not None
-        await self._open(lambda: opening.load(path).document, None if foreign else path, str(path), discard)
+        own = None if foreign or examples.holds(path) else path
+        await self._open(lambda: opening.load(path).document, own, str(path), discard)
         return self._reported() if foreign else ""
 
     async def open_copy(self, path: Path, title: str, discard: bool) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from deodar.errors import DocumentError, OutputError
 from deodar.server.to_page import Folder
 
+DOCUMENTS = (".json", ".deodar")
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
 MOST_NAMES = 2000
 """Names of one folder that are listed."""
@@ -56,15 +57,15 @@ class Workspace:
             request=request,
             path="" if place == self.root else self.shown(place),
             folders=[e.name for e in inside if e.is_dir()],
-            files=_ending(inside, (".json",)),
+            files=_ending(inside, DOCUMENTS),
             pictures=_ending(inside, PICTURES),
         )
 
     def target(self, path: str) -> Path:
-        """Where a document is to be written; the name ends in .json."""
+        """Where a document is to be written; the name ends in .json or .deodar."""
         if not path.strip() or path.endswith(("/", "\\")):
             raise OutputError("needs a name", where="save as")
-        place = self.inside(path if path.lower().endswith(".json") else f"{path}.json")
+        place = self.inside(path if path.lower().endswith(DOCUMENTS) else f"{path}.json")
         if place.is_dir():
             raise OutputError("is a folder", where=path)
         if not place.parent.is_dir():

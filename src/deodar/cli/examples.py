@@ -1,0 +1,94 @@
+"""`deodar examples`, `deodar examples copy NAME` and `deodar examples open NAME`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+from deodar.cli import _options
+
+HELP = "list the examples that come with deodar, copy one, or open one in the studio"
+EPILOG = """list prints every example with a sentence. copy writes its files into DIR, which is made if it is missing. open starts the studio with
+a copy that has no file yet. Wherever a command takes the FILE of a model, example:NAME stands for an example: deodar run example:selection"""
+
+WIDEST = 110
+"""Columns of the list where a pipe states no width."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("what", nargs="?", default="list", choices=("list", "copy", "open"), help="what to do (default list)")
+    parser.add_argument("name", nargs="?", metavar="NAME", help="copy, open: the example, for example selection")
+    parser.add_argument("folder", nargs="?", type=Path, metavar="DIR", help="copy: the folder to write into (default: the working folder)")
+    _options.add_force(parser)
+    _options.add_json(parser)
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """List, copy or open."""
+    if args.what == "list":
+        if args.name is not None:
+            args.wrong(f"list takes no name. To copy it: deodar examples copy {args.name}")
+        return _list(args)
+    if args.name is None:
+        args.wrong(f"{args.what} needs the NAME of an example. All examples: deodar examples")
+    return _copy(args) if args.what == "copy" else _open(args)
+
+
+def _list(args: argparse.Namespace) -> int:
+    from deodar.importers import examples
+
+    if args.json:
+        listed = [
+            {"name": n, "kind": kind, "file": str(examples.file(n)), "sentence": examples.sentence(n), "duration": examples.duration(n)}
+            for kind, names in (("document", examples.names()), ("script", examples.scripts()))
+            for n in names
+        ]
+        print(json.dumps({"examples": listed}, indent=2, ensure_ascii=False))
+        return 0
+    from rich import box
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    console = Console()
+    if not console.is_terminal:  # a pipe has no width to keep to
+        console = Console(width=WIDEST + 60)
+    for title, names in (("models", examples.names()), ("scripts", examples.scripts())):
+        table = Table(title, "", box=box.SIMPLE_HEAD)
+        for name in names:
+            table.add_row(name, escape(examples.sentence(name)))
+        console.print(table)
+    print("Run one with: deodar run example:NAME. Open one in the studio with: deodar examples open NAME. Copy one with: deodar examples copy NAME")
+    return 0
+
+
+def _copy(args: argparse.Namespace) -> int:
+    from deodar.importers import examples
+    from deodar.model import output
+
+    sources = examples.parts(args.name)
+    folder: Path = args.folder or Path()
+    if args.folder is not None and not folder.exists():
+        output.claim(folder)
+        folder.mkdir()
+    targets = [output.claim(folder / path.name, args.force) for path in sources]
+    for source, target in zip(sources, targets, strict=True):
+        output.write(target, source.read_bytes())
+    if args.json:
+        print(json.dumps({"files": [str(t) for t in targets]}, indent=2, ensure_ascii=False))
+    else:
+        next_step = f"deodar studio {_options.shown(targets[0])}" if targets[0].suffix == ".json" else f"python {_options.shown(targets[0])}"
+        print(f"Copied {', '.join(_options.shown(t) for t in targets)}. Next: {next_step}")
+    return 0
+
+
+def _open(args: argparse.Namespace) -> int:
+    from deodar.cli import main
+    from deodar.importers import examples
+
+    examples.named(f"{examples.PREFIX}{args.name}")
+    return main(["studio", f"{examples.PREFIX}{args.name}"])

@@ -1,0 +1,134 @@
+"""The examples that come with deodar, found by name: `example:selection` stands wherever a file of a model does.
+
+An example is a document in the folder `examples`, `NAME.json`, with its notes, or a script, `NAME.py`, with its docstring. `order.txt` there
+says which documents come first.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from deodar.errors import UnknownName, did_you_mean
+
+PREFIX = "example:"
+"""Begins a name that stands for the file of an example."""
+
+LONGEST = 140
+"""Most characters of a sentence."""
+
+MAKERS = ("make", "pictures")
+"""Scripts of the folder that write the examples and their pictures."""
+
+
+def folder() -> Path:
+    """Return the folder: beside the code in an installed deodar, beside `src` in a copy of its repository."""
+    package = Path(__file__).parents[1]
+    installed = package / "examples"
+    return installed if installed.is_dir() else package.parents[1] / "examples"
+
+
+def names() -> list[str]:
+    """List the documents, in the order in which a reader is best shown them."""
+    order = folder() / "order.txt"
+    first = order.read_text(encoding="utf-8").split() if order.is_file() else []
+    found = sorted(p.stem for p in folder().glob("*.json"))
+    return [n for n in first if n in found] + [n for n in found if n not in first]
+
+
+def scripts() -> list[str]:
+    """List the scripts."""
+    return sorted(p.stem for p in folder().glob("*.py") if p.stem not in MAKERS)
+
+
+def file(name: str) -> Path:
+    """Return the document or the script of an example.
+
+    Raises:
+        UnknownName: there is none of that name.
+    """
+    if name in names():
+        return folder() / f"{name}.json"
+    if name in scripts():
+        return folder() / f"{name}.py"
+    known = [*names(), *scripts()]
+    raise UnknownName(f"there is no example {name!r}", fix=f"{did_you_mean(name, known)}. All examples: deodar examples".removeprefix(". "))
+
+
+def parts(name: str) -> list[Path]:
+    """List the files that an example needs, its own first: the arrays of a document, the documents that a script reads."""
+    own = file(name)
+    text = own.read_text(encoding="utf-8")
+    if own.suffix == ".json":
+        arrays = json.loads(text).get("arrays")
+        return [own, own.with_name(arrays["file"])] if arrays else [own]
+    read = [n for n in names() if f'"{n}.json"' in text]
+    return [own, *(path for n in read for path in parts(n))]
+
+
+def named(path: str | Path) -> Path:
+    """Return the path of a document; `example:NAME` stands for that of an example.
+
+    Raises:
+        UnknownName: there is no example of that name, or it is a script.
+    """
+    text = str(path)
+    if not text.startswith(PREFIX):
+        return Path(path)
+    name = text.removeprefix(PREFIX)
+    if name in scripts():
+        raise UnknownName(f"the example {name!r} is a script", fix=f"Type: deodar examples copy {name}, then python {name}.py")
+    return file(name)
+
+
+def holds(path: Path) -> bool:
+    """Tell whether a path is the document of an example, where it stands."""
+    return path.suffix == ".json" and path.parent == folder() and path.stem in names()
+
+
+def near(path: Path) -> str:
+    """Suggest what a missing file may have meant: an example, or a document in the same folder with a similar name."""
+    if path.stem in names() and path.suffix in ("", ".json"):
+        return f"Did you mean '{PREFIX}{path.stem}'?"
+    there = [p.name for p in path.parent.glob("*.json")] if path.parent.is_dir() else []
+    found = difflib.get_close_matches(path.name, there, 1) or [f"{PREFIX}{n}" for n in difflib.get_close_matches(path.stem, names(), 1)]
+    return f"Did you mean {found[0]!r}?" if found else ""
+
+
+def about(name: str) -> dict[str, Any]:
+    """Return the title and the notes of an example; of a script its name and the first paragraph of its docstring."""
+    own = file(name)
+    text = own.read_text(encoding="utf-8")
+    if own.suffix == ".py":
+        said = ast.get_docstring(ast.parse(text)) or ""
+        return {"title": name.replace("_", " "), "notes": said.partition("\n\n")[0]}
+    data = json.loads(text)
+    return {"title": str(data.get("name") or name.replace("_", " ")), "notes": str(data.get("notes", ""))}
+
+
+def sentence(name: str) -> str:
+    """Return what an example shows, in one sentence."""
+    found = about(name)
+    return first_sentence(found["notes"], found["title"])
+
+
+def first_sentence(notes: str, title: str) -> str:
+    """Return the first sentence of notes, which may begin with the title; a long one is cut where it pauses."""
+    rest = " ".join(notes.split())
+    if rest.lower().startswith(f"{title.lower()}."):
+        rest = rest[len(title) + 1 :].strip()
+    first = re.split(r"(?<=[.!?])\s+(?=[^a-z])", rest, maxsplit=1)[0]
+    if len(first) <= LONGEST:
+        return first
+    pause = max(first.rfind(mark, 0, LONGEST) for mark in (", ", "; ", ": "))
+    return first[:pause] + "." if pause > 0 else first[: LONGEST - 1].rpartition(" ")[0] + "…"
+
+
+def duration(name: str) -> float | None:
+    """Return how long an example is to be run, in its time unit: its notes end with it. None for a script."""
+    found = re.search(r"for (\d+) (?:ms|steps)\.$", about(name)["notes"].strip())
+    return float(found[1]) if found and name in names() else None

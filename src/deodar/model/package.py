@@ -1,0 +1,104 @@
+"""A document and its arrays in one file, `NAME.deodar`: a zip file that holds `NAME.json` and the array file which that names.
+
+Reading trusts nothing: a package holds these two and nothing else, under plain names, and no more bytes than its table of contents says.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from deodar.errors import DocumentError
+
+SUFFIX = ".deodar"
+MAGIC = b"PK\x03\x04"
+"""Bytes that a package begins with."""
+
+EMPTY = b"PK\x05\x06"
+"""Bytes that a zip file without content begins with."""
+
+DATE = (1980, 1, 1, 0, 0, 0)
+"""Date of every entry, so that the same document gives the same bytes."""
+
+
+def pack(entries: Mapping[str, bytes]) -> bytes:
+    """Return the content of a package that holds these files."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as z:
+        for name, content in entries.items():
+            z.writestr(zipfile.ZipInfo(name, DATE), content, zipfile.ZIP_DEFLATED if name.endswith(".json") else zipfile.ZIP_STORED)
+    return buffer.getvalue()
+
+
+def is_package(path: Path) -> bool:
+    """Tell whether a file is a zip file, by what it begins with."""
+    with path.open("rb") as file:
+        return file.read(4) in (MAGIC, EMPTY)
+
+
+class Package:
+    """A package that is open for reading.
+
+    Args:
+        path: the file.
+        most: largest size of the document in bytes.
+        require_room: refuses an entry of so many bytes, by its size and name, that would not fit into memory.
+
+    Attributes:
+        document: name of the document in it.
+
+    Raises:
+        DocumentError: it is damaged, or holds something else than a document.
+    """
+
+    def __init__(self, path: Path, most: int, require_room: Callable[[int, str], None]) -> None:
+        try:
+            self._zip = zipfile.ZipFile(path)
+        except (zipfile.BadZipFile, ValueError, NotImplementedError) as error:
+            raise DocumentError(f"is damaged: it cannot be read as a package ({error})") from None
+        self._entries = {entry.filename: entry for entry in self._zip.infolist()}
+        self._require_room = require_room
+        if len(self._entries) < len(self._zip.infolist()):
+            raise DocumentError("holds a file twice")
+        for name, entry in self._entries.items():
+            if "/" in entry.orig_filename or "\\" in entry.orig_filename or ":" in name or name != Path(name).name:
+                raise DocumentError(f"holds {name!r}, which lies outside the folder of the document")
+            if entry.flag_bits & 1:
+                raise DocumentError(f"holds {name!r}, which is encrypted")
+        found = [name for name in self._entries if name.endswith(".json")]
+        if len(found) != 1:
+            raise DocumentError(f"holds {len(found)} documents" if found else "holds no document", fix="A package holds one: deodar pack FILE")
+        self.document = found[0]
+        size = self._entries[self.document].file_size
+        if size > most:
+            raise DocumentError(f"holds a document of {size / 2**20:.0f} MiB; a document has at most {most // 2**20}")
+
+    def __enter__(self) -> Package:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._zip.close()
+
+    def require_only(self, arrays: str) -> None:
+        """Refuse a package that holds another file than the document and its array file."""
+        strange = [name for name in self._entries if name not in (self.document, arrays)]
+        if strange:
+            raise DocumentError(f"holds {strange[0]!r}, which the document does not name")
+
+    def read(self, name: str) -> bytes | None:
+        """Return the content of a file in it; None where it holds none of that name."""
+        entry = self._entries.get(name)
+        if entry is None:
+            return None
+        self._require_room(entry.file_size, name)
+        try:
+            with self._zip.open(entry) as file:
+                content = file.read(entry.file_size + 1)
+        except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError) as error:
+            raise DocumentError(f"is damaged: {name!r} cannot be read ({error})") from None
+        if len(content) != entry.file_size:
+            raise DocumentError(f"is damaged: {name!r} is not as long as the package says")
+        return content
