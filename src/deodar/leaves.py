@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 import typing
 from collections.abc import Callable, Container, Iterator, Sequence
 from typing import Any, TypeVar
@@ -92,6 +93,17 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
         else:
             out.append((p.name, value))
     return tuple(out)
+
+
+def time_constants(part: Any) -> Iterator[tuple[str, float]]:
+    """(path, value) of every parameter that declares itself a time constant, nested parts included."""
+    only = _may_hold_time_constants(type(part))
+    return ((path, value) for path, value, p in leaves(part, only=only) if p.role == "time constant" and isinstance(value, float))
+
+
+@functools.cache
+def _may_hold_time_constants(cls: type[Part]) -> frozenset[str]:
+    return frozenset(p.name for p in parameters(cls) if p.role == "time constant" or p.form in ("part", "parts"))
 
 
 def resting(part: Any) -> frozenset[str]:

@@ -3,7 +3,7 @@
 A part (element, coupling, kernel, sigmoid) is a frozen dataclass. Its annotations say what a parameter is, what it
 costs to change, and in which range it makes sense::
 
-    tau: Annotated[float, Live("time", lower=1e-6)] = 20.0
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 20.0
 
 From this one line come the range check, the JSON form and its schema, the page of the manual, the form in the studio and
 the traced leaf of the compiled program.
@@ -27,13 +27,25 @@ import numpy as np
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 
 Cost = Literal["live", "rebuild", "recompile"]
+Role = Literal["", "time constant", "time scale", "moment", "duration"]
+TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "moment", "duration")
+"""What a parameter in units of time is: see `Declaration`."""
+
 PerAxis = float | Sequence[float]
 """One number for all axes, or one for each."""
 
 
 @dc.dataclass(frozen=True)
 class Declaration:
-    """What is declared beside a parameter's type; use `Live`, `Rebuild` or `Recompile`."""
+    """What is declared beside a parameter's type; use `Live`, `Rebuild` or `Recompile`.
+
+    A parameter whose unit begins with "time" states its `role`:
+
+    * `time constant`: of a linear relaxation; a run refuses an Euler step that is longer.
+    * `time scale`: a time multiplied by another quantity, such as the input; the step is not compared with it.
+    * `moment`: a point of document time.
+    * `duration`: a length of time, such as a delay, a period or an interval; it may be shorter than a step.
+    """
 
     unit: str = ""
     lower: float | None = None
@@ -42,6 +54,7 @@ class Declaration:
     choices: tuple[str, ...] = ()
     meaning: str = ""
     off: bool = False
+    role: Role = dc.field(default="", kw_only=True)
     cost: ClassVar[Cost] = "recompile"
 
 
@@ -117,6 +130,7 @@ class Parameter:
     of: type[Any] | None = None
     optional: bool = False
     off: bool = False
+    role: Role = ""
 
     @property
     def traced(self) -> bool:
@@ -177,7 +191,7 @@ class Part:
 def parameters(cls: type[Any]) -> tuple[Parameter, ...]:
     """The parameters of a part in the order of its fields."""
     hints = typing.get_type_hints(cls, include_extras=True)
-    return tuple(_read(field, hints[field.name]) for field in dc.fields(cls))
+    return tuple(_read(cls, field, hints[field.name]) for field in dc.fields(cls))
 
 
 @functools.cache
@@ -194,7 +208,7 @@ def parameter(cls: type[Any], name: str) -> Parameter:
     raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, [p.name for p in parameters(cls)]))
 
 
-def _read(field: dc.Field[Any], hint: Any) -> Parameter:
+def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
     d: Declaration = Recompile()
     if typing.get_origin(hint) is typing.Annotated:
         hint, *extra = typing.get_args(hint)
@@ -203,8 +217,10 @@ def _read(field: dc.Field[Any], hint: Any) -> Parameter:
     default = field.default
     if default is dc.MISSING and field.default_factory is not dc.MISSING:
         default = field.default_factory()
+    if d.unit.startswith("time") != (d.role != ""):
+        raise TypeError(f"{cls.__name__}.{field.name}: a parameter in units of time, and no other, declares a role: {', '.join(TIME_ROLES)}")
     return Parameter(
-        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off
+        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off, d.role
     )  # fmt: skip
 
 

@@ -48,7 +48,7 @@ class DelayLine(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    delay: Annotated[float, Live("time", lower=1e-6, meaning="how long")] = 100.0
+    delay: Annotated[float, Live("time", role="duration", lower=1e-6, meaning="how long")] = 100.0
     slots: Annotated[int, Recompile(lower=1, upper=100_000, meaning="how many moments it keeps")] = 100
     initial: Annotated[float, Live(meaning="what it shows before anything has arrived")] = 0.0
 

@@ -47,7 +47,7 @@ class GainAdaptation(Coupling):
         exponentially, at a speed that depends neither on the width of the peak nor on the sampling.
     """
 
-    tau: Annotated[float, Live("time x input", lower=1e-6, meaning="time scale")] = 100.0
+    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0
     initial: Annotated[float, Live(meaning="gains at the start")] = 0.0
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
     start: Annotated[ArrayLike | None, Rebuild(meaning="gains at the start")] = None

@@ -42,7 +42,7 @@ class RewardGate(Coupling):
     """
 
     threshold: Annotated[float, Live(lower=0, meaning="what the reward must exceed")] = 0.5
-    duration: Annotated[float, Live("time", lower=0, meaning="how long a window is open; 0: while reward lasts")] = 0.0
+    duration: Annotated[float, Live("time", role="duration", lower=0, meaning="how long a window is open; 0: while reward lasts")] = 0.0
     strength: Annotated[float, Live(meaning="output while open, or its factor")] = 1.0
     graded: Annotated[bool, Recompile(meaning="whether the output follows the reward")] = False
     gated: Annotated[bool, Recompile(meaning="whether reward waits for the gate")] = False

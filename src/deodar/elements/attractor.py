@@ -47,7 +47,7 @@ class Attractor(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axis: Annotated[Axis, Recompile(meaning="dimension of the input")] = Axis("x", 0, 100, 101)
-    tau: Annotated[float, Live("time x input", lower=1e-6, meaning="time scale")] = 100.0
+    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0
     initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
     gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
     offset: Annotated[float, Live("motor", meaning="motor value at axis value 0")] = 0.0

@@ -54,7 +54,7 @@ class Field(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
-    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant")] = 20.0
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 20.0
     resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
     sigmoid: Annotated[Sigmoid, Recompile(meaning="output function")] = Logistic()
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()

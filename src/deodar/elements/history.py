@@ -38,7 +38,7 @@ class History(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
     slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = Axis("slot", 0, 9, 10)
-    interval: Annotated[float, Live("time", lower=1e-6, meaning="time between two moments that are kept")] = 1.0
+    interval: Annotated[float, Live("time", role="duration", lower=1e-6, meaning="time between two moments that are kept")] = 1.0
 
     stateful: ClassVar[bool] = True
 

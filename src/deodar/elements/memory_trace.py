@@ -52,8 +52,8 @@ class MemoryTrace(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
-    tau_build: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the build-up")] = 100.0
-    tau_decay: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the decay")] = 1000.0
+    tau_build: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the build-up")] = 100.0
+    tau_decay: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the decay")] = 1000.0
     threshold: Annotated[float, Live(meaning="input above which a place is active")] = 0.5
 
     graded: Annotated[bool, Recompile(meaning="whether speeds are weighted by the input itself")] = False

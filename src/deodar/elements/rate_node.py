@@ -43,7 +43,7 @@ class RateNode(Element):
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant")] = 10.0
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 10.0
     resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
     sigmoid: Annotated[Sigmoid, Recompile(meaning="output function")] = Logistic()
     self_excitation: Annotated[float, Live("activation", meaning="coupling of the node to itself")] = 0.0

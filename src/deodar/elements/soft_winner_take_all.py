@@ -62,8 +62,8 @@ class SoftWinnerTakeAll(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where the units stand")] = ()
-    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the excitatory units")] = 20.0
-    tau_inhibition: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the inhibitory unit")] = 5.0
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the excitatory units")] = 20.0
+    tau_inhibition: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the inhibitory unit")] = 5.0
     self_excitation: Annotated[float, Live("activation", meaning="of each unit by itself")] = 1.2
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="excitation among neighbours, summed")] = ()
     inhibition: Annotated[float, Live("activation", meaning="of all units by the inhibitory one")] = 3.0

@@ -51,13 +51,13 @@ class TimeSeries(Stimulus):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the values")] = (Axis("x", 0, 20, 21),)
-    times: Annotated[ArrayLike, Rebuild("time", meaning="the moments")] = FrozenArray([0.0, 100.0])
+    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray([0.0, 100.0])
     values: Annotated[ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")] = FrozenArray(
         [[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]]
     )
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
     interpolation: Annotated[str, Recompile(choices=WAYS, meaning="what stands between two moments")] = "linear"
-    period: Annotated[float, Live("time", lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = 0.0
+    period: Annotated[float, Live("time", role="duration", lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = 0.0
 
     def faults(self) -> Iterator[tuple[str, str]]:
         times = self.times.data if isinstance(self.times, FrozenArray) else np.zeros(0)

@@ -42,7 +42,7 @@ class TransientDetector(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant of the slow copy")] = 100.0
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the slow copy")] = 100.0
     initial: Annotated[float, Live(meaning="slow copy at the start")] = 0.0
 
     stateful: ClassVar[bool] = True

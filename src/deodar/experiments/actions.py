@@ -14,7 +14,7 @@ from deodar.runtime.run import whole
 from deodar.worlds._base import World
 from deodar.worlds.arena import Arena
 
-AT = Recompile("time", lower=0.0, meaning="document time at which it is done; with `when` the time after that event")
+AT = Recompile("time", role="moment", lower=0.0, meaning="document time at which it is done; with `when` the time after that event")
 WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own")
 
 
@@ -166,7 +166,7 @@ class Ramp(Action):
     at: Annotated[float, AT]
     path: Annotated[str, Recompile(meaning="the parameter")]
     end: Annotated[float, Recompile(meaning="its value at the end")]
-    lasting: Annotated[float, Recompile("time", lower=0.0, meaning="how long it takes")]
+    lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="how long it takes")]
     start: Annotated[float | None, Recompile(meaning="its value at the beginning; none: the one it then has")] = None
     when: Annotated[str, WHEN] = ""
 
@@ -197,7 +197,7 @@ class Push(Action):
     at: Annotated[float, AT]
     element: Annotated[str, Recompile(meaning="path of the field or node")]
     amount: Annotated[float, Recompile("activation", meaning="what is added to its input")]
-    lasting: Annotated[float, Recompile("time", lower=0.0, meaning="for how long")]
+    lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="for how long")]
     when: Annotated[str, WHEN] = ""
 
     def apply(self, stage: Stage) -> None:

@@ -107,7 +107,7 @@ class Reached(Event):
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
-    at: Annotated[float, Recompile("time", lower=0.0, meaning="the document time")]
+    at: Annotated[float, Recompile("time", role="moment", lower=0.0, meaning="the document time")]
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     def holds(self, looks: Looks) -> np.ndarray:

@@ -70,7 +70,7 @@ class Experiment(Part):
 
     name: Annotated[str, Recompile(meaning="what it is called")]
     model: Annotated[object, Recompile(meaning="the model, or the path of its document")]
-    limit: Annotated[float, Recompile("time", lower=0.0, meaning="after which a trial ends at the latest")]
+    limit: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="after which a trial ends at the latest")]
     trials: Annotated[int, Recompile(lower=1, meaning="of each combination of levels")] = 1
     conditions: Annotated[Sequence[Event], Recompile(meaning="what may happen")] = ()
     actions: Annotated[Sequence[Action], Recompile(meaning="what is done to each trial, and when")] = ()
@@ -78,10 +78,10 @@ class Experiment(Part):
     measures: Annotated[Sequence[Measure], Recompile(meaning="what is measured of each trial")] = ()
     design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(default="crossed", kw_only=True)
     seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise, and of what is drawn")] = dc.field(default=0, kw_only=True)
-    every: Annotated[float | None, Recompile("time", meaning="between looks; none: each step")] = dc.field(default=None, kw_only=True)
+    every: Annotated[float | None, Recompile("time", role="duration", meaning="between looks; none: each step")] = dc.field(default=None, kw_only=True)
     record: Annotated[Sequence[str], Recompile(meaning="ports of which a record is kept")] = dc.field(default=(), kw_only=True)
     world: Annotated[object, Recompile(meaning="what sensors read and motors move")] = dc.field(default=None, kw_only=True)
-    dt: Annotated[float | None, Recompile("time", meaning="Euler step; none: the document's own")] = dc.field(default=None, kw_only=True)
+    dt: Annotated[float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")] = dc.field(default=None, kw_only=True)
     precision: Annotated[str, Recompile(choices=("float32", "float64"), meaning="of all numbers")] = dc.field(default="float32", kw_only=True)
 
     def __post_init__(self) -> None:

@@ -32,8 +32,8 @@ class Window(Part):
         no reference
     """
 
-    start: Annotated[float, Live("time", meaning="first moment")] = 0.0
-    stop: Annotated[float, Live("time", meaning="first moment at which it is off again")] = FOR_EVER
+    start: Annotated[float, Live("time", role="moment", meaning="first moment")] = 0.0
+    stop: Annotated[float, Live("time", role="moment", meaning="first moment at which it is off again")] = FOR_EVER
 
     short: ClassVar[str] = "a pair stands for it: windows=[(100, 400)]"
 

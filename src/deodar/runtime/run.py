@@ -16,8 +16,9 @@ from deodar.compiler.executable import Executable
 from deodar.compiler.moment import packed
 from deodar.compiler.program import Port
 from deodar.errors import NotFinite, TimeError
+from deodar.leaves import time_constants
 from deodar.model.document import Document
-from deodar.parameters import parameters, real, show
+from deodar.parameters import real, show
 from deodar.runtime.exchange import Exchange, Moment
 from deodar.runtime.unit import unit_seconds
 from deodar.worlds._base import World
@@ -316,16 +317,13 @@ def require_step(doc: Document, dt: float) -> None:
     if not 0 < (real(dt) or 0) < math.inf:
         raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
     for e in doc.entries:
-        tau = getattr(e.element, "tau", None)
-        if not isinstance(tau, float) or dt * e.every <= tau * (1 + 1e-9):
-            continue
-        declared = next((p for p in parameters(type(e.element)) if p.name == "tau"), None)
-        if declared is not None and declared.unit == "time":
-            raise TimeError(
-                f"the step of {dt * e.every:g} {doc.time_unit} is longer than the time constant tau = {tau:g}",
-                where=e.path,
-                fix=f"Take dt <= {tau / e.every:g}, better a tenth of it, or a larger tau",
-            )
+        for path, tau in time_constants(e.element):
+            if dt * e.every > tau * (1 + 1e-9):
+                raise TimeError(
+                    f"the step of {dt * e.every:g} {doc.time_unit} is longer than the time constant {path} = {tau:g}",
+                    where=e.path,
+                    fix=f"Take dt <= {tau / e.every:g}, better a tenth of it, or a larger {path}",
+                )
 
 
 def require_duration(duration: Any, what: str) -> float:

@@ -15,7 +15,7 @@ from deodar.compiler.plan import ways_of
 from deodar.compiler.program import Port, array_key
 from deodar.compiler.ways import widths
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
-from deodar.leaves import get
+from deodar.leaves import get, time_constants
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -356,7 +356,8 @@ class Session:
     def _adopt(self, doc: Document) -> str:
         run = self._run
         changed = changed_leaves(run.doc, doc)
-        if changed is None or any(path == "tau" for (_, path), *_ in changed):  # other leaves leave steps and sensors as they are
+        by = doc.by_id()
+        if changed is None or any(path in dict(time_constants(by[i].element)) for (i, path), *_ in changed):  # other leaves change no limit
             self.require(doc)
         if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
