@@ -18,10 +18,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import jax.numpy as jnp
+import numpy as np
+from jax import lax
 
 from deodar.errors import ModelError
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.choice import Choice
+from deodar.numerics.exact import Exact, exact, split, wide
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.waves import Waves
 from deodar.parameters import Part, Recompile
@@ -36,24 +39,56 @@ REST = "-"
 
 @dc.dataclass(frozen=True)
 class Time:
-    """Document time inside a step, kept in two parts so that long runs lose no digits.
+    """Document time inside a step, exact in both precisions.
 
-    `start` is the time of the chunk's first tick, rounded to the working precision; `rest` is what has passed since
-    and what the rounding left over; `dt` is the step of the element (of its own rate).
+    It is `origin + passed * step`, computed in float64 from the number of steps, so that it does not depend on how a run was cut into chunks.
+
+    Attributes:
+        origin: document time at some tick before, or at the present one.
+        passed: steps since then, a whole number.
+        step: step of the model.
+        every: step of the element as a multiple of it.
     """
 
-    start: Any
-    rest: Any
-    dt: Any
+    origin: Any
+    passed: Any
+    step: Exact
+    every: int = 1
+
+    @classmethod
+    def at(cls, now: float, dt: float, dtype: Any) -> Time:
+        """A time given by numbers of the host."""
+        return cls(Exact(*split(now, dtype)), np.uint32(0), Exact(*split(dt, dtype)))
+
+    @property
+    def dt(self) -> Any:
+        """Step of the element (of its own rate), in the working precision."""
+        return self.step.high * self.every
+
+    @property
+    def wide(self) -> Any:
+        """The time in float64, inside `exact()`."""
+        return wide(self.origin) + jnp.asarray(self.passed).astype(jnp.float64) * wide(self.step)
+
+    @property
+    def wide_dt(self) -> Any:
+        """Step of the element in float64, inside `exact()`."""
+        return wide(self.step) * self.every
 
     def since(self, moment: Any) -> Any:
-        """Time passed since `moment` (negative before it), exact near it."""
-        return (self.start - moment) + self.rest
+        """Time passed since `moment` (negative before it), in the working precision: exact to its last digit near the moment."""
+        dtype = self.step.high.dtype
+        with exact():
+            now, digits = self.wide, jnp.finfo(dtype)
+            high = lax.reduce_precision(now, digits.nexp, digits.nmant)  # a cast there and back would be left out as superfluous
+            parts = high.astype(dtype), (now - high).astype(dtype)
+        m = moment if isinstance(moment, Exact) else Exact(moment, 0.0)
+        return (parts[0] - m.high) + (parts[1] - m.low)
 
     @property
     def now(self) -> Any:
-        """The time itself, in the document's time unit."""
-        return self.start + self.rest
+        """The time itself, in the working precision: in float32 it has 24 bits, so compare with moments by `since`."""
+        return self.since(0.0)
 
 
 @dc.dataclass(frozen=True)
@@ -85,6 +120,10 @@ class Setting:
     def array(self, values: Any) -> Any:
         """The values as an array in the working precision."""
         return jnp.asarray(getattr(values, "data", values), self.dtype)
+
+    def exact(self, values: Any) -> Exact:
+        """The values, with the digits of float64."""
+        return values if isinstance(values, Exact) else Exact(*split(getattr(values, "data", values), self.dtype))
 
     def points(self, axis: Axis) -> Any:
         """Values at the samples of an axis, in the working precision."""

@@ -45,6 +45,9 @@ class Declaration:
     * `time scale`: a time multiplied by another quantity, such as the input; the step is not compared with it.
     * `moment`: a point of document time.
     * `duration`: a length of time, such as a delay, a period or an interval; it may be shorter than a step.
+
+    What is compared with document time, or multiplied by it, is `exact`: in a program of single precision it keeps the digits of float64
+    (`numerics/exact.py`). Moments always are.
     """
 
     unit: str = ""
@@ -55,6 +58,7 @@ class Declaration:
     meaning: str = ""
     off: bool = False
     role: Role = dc.field(default="", kw_only=True)
+    exact: bool = dc.field(default=False, kw_only=True)
     cost: ClassVar[Cost] = "recompile"
 
 
@@ -131,6 +135,7 @@ class Parameter:
     optional: bool = False
     off: bool = False
     role: Role = ""
+    exact: bool = False
 
     @property
     def traced(self) -> bool:
@@ -219,8 +224,9 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
         default = field.default_factory()
     if d.unit.startswith("time") != (d.role != ""):
         raise TypeError(f"{cls.__name__}.{field.name}: a parameter in units of time, and no other, declares a role: {', '.join(TIME_ROLES)}")
+    exact = d.exact or d.role == "moment"
     return Parameter(
-        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off, d.role
+        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off, d.role, exact
     )  # fmt: skip
 
 

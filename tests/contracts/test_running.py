@@ -60,7 +60,7 @@ def test_one_copy_gives_just_what_it_declares(kind, precision):
         zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
         zeros["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
         noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
-        time = Time(*(at.dtype.type(v) for v in (0, 0, 1)))
+        time = Time.at(0.0, 1.0, at.dtype)
         state = element.init(at)
         constants = element.settle(at, element.prepare(at))
         out = jax.eval_shape(lambda: element.output(at, state, zeros, constants, time, noise))

@@ -58,7 +58,7 @@ def test_a_memory_trace_is_guarded_in_both_directions() -> None:
     for given in ({"tau_build": 0.4}, {"tau_decay": 0.4}):
         model = dd.Model("m")
         model.add(MemoryTrace("p", **given))
-        with pytest.raises(TimeError, match=f"p: the step of 1 ms is longer than the time constant {next(iter(given))} = 0.4"):
+        with pytest.raises(TimeError, match=rf"p: the step of 1 ms is longer than the time constant {next(iter(given))} = 0\.4"):
             dd.simulate(model, 10, record="p.output")
 
 
@@ -66,7 +66,7 @@ def test_a_live_change_below_the_step_is_refused_for_every_time_constant() -> No
     model = dd.Model("m")
     model.add(MemoryTrace("p", tau_build=100))
     session = dd.Session(model)
-    with pytest.raises(TimeError, match="longer than the time constant tau_build = 0.5"):
+    with pytest.raises(TimeError, match=r"longer than the time constant tau_build = 0\.5"):
         session.set("p.tau_build", 0.5)
     assert session.get("p.tau_build") == 100
 
@@ -74,7 +74,7 @@ def test_a_live_change_below_the_step_is_refused_for_every_time_constant() -> No
 def test_a_sweep_below_the_step_is_refused_for_every_time_constant() -> None:
     model = dd.Model("m")
     model.add(MemoryTrace("p"))
-    with pytest.raises(TimeError, match="longer than the time constant tau_decay = 0.5"):
+    with pytest.raises(TimeError, match=r"longer than the time constant tau_decay = 0\.5"):
         dd.simulate(model, 10, record="p.output", sweep={"p.tau_decay": [100, 0.5]})
 
 

@@ -20,7 +20,7 @@ from deodar.compiler import cache
 from deodar.compiler import device as devices
 from deodar.compiler.body import Body, batched
 from deodar.compiler.moment import packed, unpacked
-from deodar.compiler.plan import Leaf, Plan, plan, ways_of
+from deodar.compiler.plan import Group, Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Port, Program, array_key, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
 from deodar.leaves import leaves, resting, structure
@@ -28,6 +28,7 @@ from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
+from deodar.numerics.exact import LOW, split
 from deodar.worlds._pure import PureWorld
 
 Tree = Any
@@ -96,7 +97,10 @@ class Executable:
         self.sweep = tuple(tuple(s) for s in sweep)
         lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
         self.plan: Plan = plan(doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None)
-        self.program = Program(self.plan, precision, [[self.place(leaf) for leaf in leafs] for leafs in self.sweep], body)
+        lows = [[(i, path + LOW) for i, path in leafs if path in self._group(i).exact] for leafs in self.sweep]
+        self._rounded = [k for k, low in enumerate(lows) if low]  # entries of the sweep of which the digits that rounding takes are swept too
+        places = [[self.place(leaf) for leaf in leafs] for leafs in [*self.sweep, *(lows[k] for k in self._rounded)]]
+        self.program = Program(self.plan, precision, places, body)
         self.body = body
         self.traced = 0
         self.compiled = 0
@@ -122,9 +126,27 @@ class Executable:
 
     def holds(self, leaf: Leaf) -> bool:
         """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
-        g, _ = self.plan.row[leaf[0]]
-        group = self.plan.groups[g]
+        group = self._group(leaf[0])
         return leaf[1] in group.offset or leaf[1] in group.arrays
+
+    def put(self, vector: np.ndarray, leaf: Leaf, value: float) -> None:
+        """Write the value of a scalar leaf into the parameter vector."""
+        high, low = split(value, self.program.dtype)
+        vector[self.place(leaf)] = high
+        if leaf[1] in self._group(leaf[0]).exact:
+            vector[self.place((leaf[0], leaf[1] + LOW))] = low
+
+    def put_array(self, arrays: dict[str, np.ndarray], leaf: Leaf, value: np.ndarray) -> None:
+        """Put an array leaf among the arrays, in copies of those that it changes."""
+        g, r = self.plan.row[leaf[0]]
+        names = (leaf[1], leaf[1] + LOW) if leaf[1] in self._group(leaf[0]).exact else (leaf[1],)
+        for name, part in zip(names, split(value, self.program.dtype), strict=False):
+            rows = arrays[array_key(g, name)].copy()
+            rows[r] = part
+            arrays[array_key(g, name)] = rows
+
+    def _group(self, ident: str) -> Group:
+        return self.plan.groups[self.plan.row[ident][0]]
 
     def values(self, doc: Document, swept: Sequence[Any] | None = None) -> Tree:
         """The parameters of a document of this structure, on the host."""
@@ -133,16 +155,23 @@ class Executable:
         by = doc.by_id()
         for g, group in enumerate(self.plan.groups):
             columns = [{path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)} for n in group.nodes]
-            for path, offset in group.offset.items():
+            for name, offset in group.offset.items():
+                path = name.removesuffix(LOW)
                 for n, c in zip(group.nodes, columns, strict=True):
                     require_range(doc, (n.id, path), c[path], self.precision)
-                vector[offset : offset + group.rows] = [c[path] for c in columns]
-            for path in group.arrays:
-                arrays[array_key(g, path)] = np.stack([np.asarray(c[path], self.program.dtype) for c in columns])
+                vector[offset : offset + group.rows] = self._part(name, [c[path] for c in columns])
+            for name in group.arrays:
+                arrays[array_key(g, name)] = np.stack([self._part(name, c[name.removesuffix(LOW)]) for c in columns])
         points = self.batch.points or 1
         if swept is None:
-            swept = [np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.program.sweep]
-        return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.program.dtype) for s in swept)}
+            given = [np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.program.sweep]
+        else:
+            given = [*swept, *(split(swept[k], self.program.dtype)[1] for k in self._rounded)]
+        return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.program.dtype) for s in given)}
+
+    def _part(self, name: str, value: Any) -> np.ndarray:
+        """A leaf in the working precision, or what rounding takes from it."""
+        return split(value, self.program.dtype)[name.endswith(LOW)]
 
     # -------------------------------------------------------------------------------- functions
 

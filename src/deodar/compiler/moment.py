@@ -7,16 +7,21 @@ from typing import Any
 
 import numpy as np
 
-WHOLE = ("tick", "period", "head", "every", "records")
-REAL = ("start", "rest", "dt")
+from deodar.numerics.exact import Exact, split
+
+WHOLE = ("tick", "origin", "period", "head", "every", "records")
+REAL = ("start", "dt")
 
 
 def packed(now: Mapping[str, Any], dtype: Any) -> tuple[np.ndarray, np.ndarray]:
-    """When it is, and how many steps and records there are to be, as two arrays: each argument of a program costs microseconds."""
+    """When it is, and how many steps and records there are to be, as two arrays: each argument of a program costs microseconds.
+
+    The time is `start` at the tick `origin`; `start` and `dt` keep the digits of float64.
+    """
     whole = np.array([now.get(name, 0) for name in WHOLE], np.uint32)
-    return whole, np.array([now.get(name, 0.0) for name in REAL], dtype)
+    return whole, np.stack(split([now.get(name, 0.0) for name in REAL], dtype))
 
 
 def unpacked(whole: Any, real: Any) -> dict[str, Any]:
     """The same by name."""
-    return {name: whole[k] for k, name in enumerate(WHOLE)} | {name: real[k] for k, name in enumerate(REAL)}
+    return {name: whole[k] for k, name in enumerate(WHOLE)} | {name: Exact(real[0, k], real[1, k]) for k, name in enumerate(REAL)}

@@ -20,6 +20,7 @@ from deodar.model.document import Document
 from deodar.model.order import Role, order
 from deodar.model.resolve import Instant, Node, resolve
 from deodar.numerics.axes import Axes
+from deodar.numerics.exact import LOW
 from deodar.parameters import Parameter
 
 Partition = Callable[[Node, bool, frozenset[str], Way], Hashable]
@@ -35,6 +36,7 @@ class Group:
         nodes: the rows, in the order of their ids.
         offset: for each scalar leaf, its place in the parameter vector (one entry a row).
         arrays: paths of the leaves that are arrays.
+        exact: paths of the leaves that keep the digits of float64; the path with `LOW` behind it holds what is lost by rounding.
         cost: for each leaf, `live` or `rebuild`.
         still: whether its outputs stay the same during a chunk.
         noise: axes over which a row draws noise, or None.
@@ -48,6 +50,7 @@ class Group:
     still: bool
     noise: Axes | None
     way: Way = EXACT
+    exact: frozenset[str] = frozenset()
 
     @property
     def like(self) -> Node:
@@ -230,12 +233,15 @@ def _place(groups: Sequence[Group], neutral: Mapping[str, frozenset[str]]) -> in
         for path, _, p in leaves(g.like.element):
             if path in neutral[g.like.id]:
                 continue
-            g.cost[path] = cost(p)
-            if p.form == "array":
-                arrays.append(path)
-            else:
-                g.offset[path] = size
-                size += g.rows
+            for name in (path, path + LOW) if p.exact else (path,):
+                g.cost[name] = cost(p)
+                if p.form == "array":
+                    arrays.append(name)
+                else:
+                    g.offset[name] = size
+                    size += g.rows
+            if p.exact:
+                g.exact |= {path}
         g.arrays = tuple(arrays)
     return size
 

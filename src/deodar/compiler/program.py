@@ -21,6 +21,7 @@ from deodar.compiler.plan import Call, Group, Plan, Read
 from deodar.element import Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
+from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.noise import element_keys, normal, pair
 
 Buffers = dict[tuple[int, str, int], Any]
@@ -63,7 +64,7 @@ class Program:
         state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible).
         keys: noise keys of the noisy groups; of a world inside the step its own arrays, under `world`.
         sensed: readings of the sensors; of a world inside the step they are in the state.
-        clock: `tick` (uint32), `start` and `rest` (document time at the tick, in two parts), `dt`, `period` (of a world inside, in ticks).
+        clock: `tick` and `origin` (uint32), `start` (document time at the tick `origin`), `dt`, `period` (of a world inside, in ticks).
     """
 
     def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = (), body: Body | None = None) -> None:
@@ -107,8 +108,7 @@ class Program:
     def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
         buffers: Buffers = {}
-        zero = jnp.zeros((), self.dtype)
-        time = Time(zero, zero, zero)
+        time = Time.at(0.0, 0.0, self.dtype)
         for call in self.still:
             self._output(call, buffers, values, constants, {}, {}, sensed, time, jnp.uint32(0))
         return buffers
@@ -225,8 +225,7 @@ class Program:
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
     def _time(self, clock: Tree, tick: Any, group: Group) -> Time:
-        passed = (tick - clock["tick"]).astype(self.dtype) * clock["dt"]
-        return Time(clock["start"], clock["rest"] + passed, clock["dt"] * group.like.every)
+        return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
 
     def _inputs(self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False) -> dict[str, Any]:
         ports = [p for p in self.plan.groups[g].like.reads if only is None or p in only]
@@ -257,7 +256,8 @@ class Program:
             def value(path: str) -> Any:
                 if only and path in group.cost and group.cost[path] != only:
                     return _NotHere()
-                return own.get(path)
+                found = own.get(path)
+                return Exact(found, own[path + LOW]) if path in group.exact else found
 
             return fn(bind(group.like.element, value), at, *args)
 

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.exact import exact, wide
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -38,7 +39,7 @@ class History(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
     slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = Axis("slot", 0, 9, 10)
-    interval: Annotated[float, Live("time", role="duration", lower=1e-6, meaning="time between two moments that are kept")] = 1.0
+    interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="time between two moments that are kept")] = 1.0
 
     stateful: ClassVar[bool] = True
 
@@ -58,8 +59,9 @@ class History(Element):
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         # a ring whose newest place moves: one row is written in a step, however many there are
         kept, newest = state["kept"], state["newest"]
-        coming = time.now + time.dt
-        due = jnp.abs(coming - self.interval * jnp.round(coming / self.interval)) < 0.5 * time.dt
+        with exact():
+            coming, interval = time.wide + time.wide_dt, wide(self.interval)
+            due = jnp.abs(coming - interval * jnp.round(coming / interval)) < 0.5 * time.wide_dt
         newest = jnp.where(due, jnp.mod(newest - 1, self.slots.samples), newest)
         place = newest.astype(int)
         return {"kept": kept.at[place].set(jnp.where(due, inputs["input"], kept[place])), "newest": newest}

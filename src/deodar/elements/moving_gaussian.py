@@ -12,7 +12,7 @@ import numpy as np
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
-from deodar.numerics.moments import on_grid
+from deodar.numerics.exact import exact, wide
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild
 from deodar.registry import register
@@ -52,8 +52,8 @@ class MovingGaussian(Stimulus):
     center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without a path")] = 0.0
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
-    velocity: Annotated[PerAxis, Live("axis/time", meaning="how fast it moves")] = 0.0
-    path: Annotated[ArrayLike | None, Rebuild("axis", meaning="moments and the places at them; none: it does not follow a path")] = None
+    velocity: Annotated[PerAxis, Live("axis/time", exact=True, meaning="how fast it moves")] = 0.0
+    path: Annotated[ArrayLike | None, Rebuild("axis", exact=True, meaning="moments and the places at them; none: it does not follow a path")] = None
 
     def faults(self) -> Iterator[tuple[str, str]]:
         if isinstance(self.path, FrozenArray):
@@ -67,18 +67,28 @@ class MovingGaussian(Stimulus):
         return False
 
     def prepare(self, at: Setting) -> Any:
-        return {} if self.path is None else {"path": at.array(self.path)}
+        return {} if self.path is None else {"path": at.exact(self.path)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
-        now = on_grid(time.now, time.dt)
-        every = zip(*(per_axis(v, self.axes) for v in (self.center, self.sigma, self.velocity)), strict=True)
-        for d, (axis, (center, sigma, velocity)) in enumerate(zip(self.axes, every, strict=True)):
-            place = center + velocity * now
-            if "path" in constants:
-                place = place + jnp.interp(now, constants["path"][:, 0], constants["path"][:, 1 + d])
+        places = self._places(at, constants, time)
+        for axis, place, sigma in zip(self.axes, places, per_axis(self.sigma, self.axes), strict=True):
             distance = at.points(axis) - place
             if axis.periodic:
                 distance = distance - axis.range * jnp.round(distance / axis.range)
             y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
         return {"output": y}
+
+    def _places(self, at: Setting, constants: Any, time: Time) -> list[Any]:
+        """The centre along each axis. A periodic axis is left by whole turns before it is rounded, so that a long way costs no digits."""
+        out: list[Any] = []
+        with exact():
+            for d, axis in enumerate(self.axes):
+                place = wide(per_axis(self.center, self.axes)[d]) + wide(per_axis(self.velocity, self.axes)[d]) * time.wide
+                if "path" in constants:
+                    path = wide(constants["path"])
+                    place = place + jnp.interp(time.wide, path[:, 0], path[:, 1 + d])
+                if axis.periodic:
+                    place = axis.lower + jnp.mod(place - axis.lower, axis.range)
+                out.append(place.astype(at.dtype))
+        return out

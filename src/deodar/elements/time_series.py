@@ -13,7 +13,7 @@ from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, shape
-from deodar.numerics.moments import on_grid
+from deodar.numerics.exact import exact, wide
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -57,7 +57,9 @@ class TimeSeries(Stimulus):
     )
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
     interpolation: Annotated[str, Recompile(choices=WAYS, meaning="what stands between two moments")] = "linear"
-    period: Annotated[float, Live("time", role="duration", lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = 0.0
+    period: Annotated[float, Live("time", role="duration", exact=True, lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = (
+        0.0
+    )
 
     def faults(self) -> Iterator[tuple[str, str]]:
         times = self.times.data if isinstance(self.times, FrozenArray) else np.zeros(0)
@@ -77,24 +79,22 @@ class TimeSeries(Stimulus):
         return False
 
     def prepare(self, at: Setting) -> Any:
-        return {"times": at.array(self.times), "values": at.array(self.values)}
+        return {"times": at.exact(self.times), "values": at.array(self.values)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        times, values = constants["times"], constants["values"]
-        half, now = 0.5 * time.dt, time.now
-        if not is_neutral(self.period):
-            # in two parts, so that long runs lose no digits; half a step aside, so that rounding moves no moment to the period's other end
-            now = jnp.mod(jnp.mod(time.start, self.period) + time.rest + half, self.period) - half
-        now, last = on_grid(now, time.dt), len(times) - 1
-        if self.interpolation == "hold":
-            k = jnp.clip(jnp.sum(times <= now + half) - 1, 0, last)
-            y = values[k]
-        else:
-            k = jnp.clip(jnp.sum(times <= now) - 1, 0, max(last - 1, 0))
-            after = jnp.minimum(k + 1, last)
-            span = jnp.where(after > k, times[after] - times[k], 1.0)
-            share = jnp.clip((now - times[k]) / span, 0.0, 1.0)
-            y = (1 - share) * values[k] + share * values[after]
+        values, last = constants["values"], len(constants["values"]) - 1
+        hold = self.interpolation == "hold"
+        with exact():
+            times, half, now = wide(constants["times"]), 0.5 * time.wide_dt, time.wide
+            if not is_neutral(self.period):
+                # half a step aside, so that rounding moves no moment to the period's other end
+                now = jnp.mod(now + half, wide(self.period)) - half
+            before = jnp.clip(jnp.sum(times <= now + (half if hold else 0.0)) - 1, 0, last if hold else max(last - 1, 0))
+            after = jnp.minimum(before + 1, last)
+            span = jnp.where(after > before, times[after] - times[before], 1.0)
+            share = jnp.clip((now - times[before]) / span, 0.0, 1.0).astype(at.dtype)
+            before, after = before.astype(jnp.int32), after.astype(jnp.int32)
+        y = values[before] if hold else (1 - share) * values[before] + share * values[after]
         return {"output": self.amplitude * gate(self.windows, time, at.dtype) * y}
 
     @classmethod

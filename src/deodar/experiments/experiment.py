@@ -78,10 +78,14 @@ class Experiment(Part):
     measures: Annotated[Sequence[Measure], Recompile(meaning="what is measured of each trial")] = ()
     design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(default="crossed", kw_only=True)
     seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise, and of what is drawn")] = dc.field(default=0, kw_only=True)
-    every: Annotated[float | None, Recompile("time", role="duration", meaning="between looks; none: each step")] = dc.field(default=None, kw_only=True)
+    every: Annotated[float | None, Recompile("time", role="duration", meaning="between looks; none: each step")] = dc.field(
+        default=None, kw_only=True
+    )
     record: Annotated[Sequence[str], Recompile(meaning="ports of which a record is kept")] = dc.field(default=(), kw_only=True)
     world: Annotated[object, Recompile(meaning="what sensors read and motors move")] = dc.field(default=None, kw_only=True)
-    dt: Annotated[float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")] = dc.field(default=None, kw_only=True)
+    dt: Annotated[float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")] = dc.field(
+        default=None, kw_only=True
+    )
     precision: Annotated[str, Recompile(choices=("float32", "float64"), meaning="of all numbers")] = dc.field(default="float32", kw_only=True)
 
     def __post_init__(self) -> None:

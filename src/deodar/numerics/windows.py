@@ -45,7 +45,7 @@ class Window(Part):
 def gate(windows: Sequence[Window], time: Any, dtype: Any) -> Any:
     """1 inside any of the windows, else 0; without windows always 1.
 
-    A step belongs to a window if its moment does, to half a step: rounding of the time never moves an edge.
+    A step belongs to a window if its moment does, to half a step: rounding never moves an edge.
     """
     if not windows:
         return 1.0

@@ -18,7 +18,7 @@ import numpy as np
 from jax import lax
 
 from deodar.compiler.executable import Executable
-from deodar.compiler.moment import packed
+from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Plan
 from deodar.compiler.program import Port, Program, array_key
 from deodar.errors import TimeError
@@ -113,10 +113,7 @@ class Moment:
 
 def moment(run: Run) -> Moment:
     """The present moment of a run."""
-    dtype = run.program.program.dtype
-    start = dtype.type(run.clock.time)
-    tick = np.uint32(run.clock.tick % 2**32)
-    clock = {"tick": tick, "start": start, "rest": dtype.type(0), "dt": dtype.type(run.clock.dt), "period": np.uint32(1)}
+    clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
     return Moment(run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock)
 
 
@@ -219,7 +216,7 @@ def _alone(at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, s
     state = {"groups": only(at.state["groups"][g]), "held": {k: v for k, v in at.state["held"].items() if k == str(g)}}
     keys = {k: v for k, v in at.keys.items() if k == str(g)}
     inputs, shown = [held_by[source] for source in sources], tuple(held_by[g, p.name] for p in ports)
-    args = (at.values, arrays, at.constants[g], state, keys, inputs, shown, at.sensed, at.clock)
+    args = (at.values, arrays, at.constants[g], state, keys, inputs, shown, at.sensed, unpacked(*packed(at.clock, at.program.program.dtype)))
     executable, _ = at.program.compile(run, *args, np.int32(0))
     return lambda n: at.program.call(executable, *args, np.int32(n))
 

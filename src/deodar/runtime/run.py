@@ -27,8 +27,8 @@ Tree = Any
 CHUNK_SECONDS = 0.2
 """Wall time between two looks at the outside: progress, Ctrl-C, values that are not finite."""
 
-MOST_STEPS = 2**50
-"""Steps that a time in float64 still tells apart; beyond any run."""
+MOST_STEPS = 2**44
+"""Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at a step of 1 ms."""
 
 
 @dc.dataclass(frozen=True)
@@ -44,6 +44,12 @@ class Clock:
     def time(self) -> float:
         """Document time of the tick."""
         return self.t0 + (self.tick - self.tick0) * self.dt
+
+    @property
+    def origin(self) -> dict[str, float]:
+        """A tick before this one, less than 2^31 of them, and the time at it: the same for all ticks between two of these."""
+        passed = (self.tick - self.tick0) // 2**31 * 2**31
+        return {"origin": (self.tick0 + passed) % 2**32, "start": self.t0 + passed * self.dt}
 
     def after(self, ticks: int) -> Clock:
         """The clock some ticks later."""
@@ -204,11 +210,9 @@ class Run:
         self.forget()
 
     def _now(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
-        dtype, time = self.program.program.dtype, self.clock.time
-        start = float(dtype.type(time))
         period = self._period() if self.exchange.inside else 1
-        about = {"tick": self.clock.tick % 2**32, "period": period, "start": start, "rest": time - start, "dt": self.clock.dt}
-        return packed(about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, dtype)
+        about = {**self.clock.origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
+        return packed(about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype)
 
     def _values(self) -> Tree:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
@@ -316,6 +320,12 @@ def require_step(doc: Document, dt: float) -> None:
     """Refuse a step longer than a time constant: the Euler method would not follow, or diverge."""
     if not 0 < (real(dt) or 0) < math.inf:
         raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
+    if abs(doc.t0) / dt > MOST_STEPS:
+        raise TimeError(
+            f"time {doc.t0:g} {doc.time_unit} is {abs(doc.t0) / dt:.3g} steps of dt = {dt:g} from time 0; times are exact up to {MOST_STEPS:.3g}",
+            where="t0",
+            fix="Start at a time nearer to 0, or take a larger dt",
+        )
     for e in doc.entries:
         for path, tau in time_constants(e.element):
             if dt * e.every > tau * (1 + 1e-9):
@@ -339,8 +349,8 @@ def whole(duration: Any, dt: float, what: str) -> int:
     duration = require_duration(duration, what)
     n = duration / dt
     if n > MOST_STEPS:
-        raise TimeError(f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS} can be counted")
-    if abs(n - round(n)) > 1e-6 * max(1.0, abs(n) * 1e-3):
+        raise TimeError(f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS:.3g} can be counted")
+    if abs(n - round(n)) > 1e-6 + 1e-14 * n:
         near = [k * dt for k in (int(n), int(n) + 1)]
         raise TimeError(f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}")
     return round(n)

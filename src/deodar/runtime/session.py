@@ -12,7 +12,7 @@ import numpy as np
 
 from deodar.compiler.executable import Executable, executable, require_range
 from deodar.compiler.plan import ways_of
-from deodar.compiler.program import Port, array_key
+from deodar.compiler.program import Port
 from deodar.compiler.ways import widths
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
 from deodar.leaves import get, time_constants
@@ -372,13 +372,10 @@ class Session:
         vector, arrays = run.values["vector"].copy(), dict(run.values["arrays"])
         for leaf, value, _, _ in changed:
             if isinstance(value, np.ndarray):
-                g, r = run.program.plan.row[leaf[0]]
-                rows = arrays[array_key(g, leaf[1])].copy()
-                rows[r] = value
-                arrays[array_key(g, leaf[1])] = rows
+                run.program.put_array(arrays, leaf, value)
             else:
                 require_range(run.doc, leaf, value, self._precision)
-                vector[run.program.place(leaf)] = value
+                run.program.put(vector, leaf, value)
         values = run.values | {"vector": vector, "arrays": arrays}
         costs = {cost for _, _, cost, _ in changed}
         if "rebuild" in costs:

@@ -1,0 +1,126 @@
+"""Document time after 30 days at a step of 1 ms: in single precision everything happens in the step that double precision says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.elements.history import History
+from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.elements.time_series import TimeSeries
+from deodar.errors import TimeError
+from deodar.leaves import leaves
+from deodar.model.model import Model
+from deodar.parameters import parameters
+from tests.contracts.build import KINDS, PARTS, any_example
+
+DAY = 86_400_000.0
+RING = dd.Axis("phi", 0, 360, 36, periodic=True)
+
+
+def begun(t0: float, dt: float = 1.0) -> Model:
+    model = dd.Model("late", dt=dt)
+    model.describe(t0=t0)
+    return model
+
+
+def both(model: Model, path: str, duration: float = 12.0, **others: object) -> tuple[np.ndarray, np.ndarray]:
+    single, double = (dd.simulate(model, duration, record=[path], precision=p, **others)[path].values for p in ("float32", "float64"))
+    assert single.dtype == np.float32
+    return single, double
+
+
+@pytest.mark.parametrize("t0", [2.0**24, 3 * DAY, 30 * DAY - 20, 30 * DAY + 0.25, 400 * DAY])
+def test_a_window_of_two_steps_is_two_steps_long(t0: float) -> None:
+    model = begun(t0)
+    model.add(Boost("s", amplitude=2.0, windows=[(t0 + 3, t0 + 5), (t0 + 8, t0 + 9)]))
+    single, double = both(model, "s.output")
+    assert single.tolist() == double.tolist() == [0, 0, 0, 2, 2, 0, 0, 0, 2, 0, 0, 0, 0]
+
+
+def test_a_window_that_is_changed_swept_or_linked_keeps_its_digits() -> None:
+    t0 = 30 * DAY
+    model = begun(t0)
+    model.add(Boost("s", windows=[(t0 + 3, t0 + 5)]))
+    sweep = {"s.windows.0.start": [t0 + 2, t0 + 3, t0 + 4]}
+    seen = dd.simulate(model, 6, record=["s.output"], sweep=sweep)["s.output"].values
+    assert seen.sum(1).tolist() == [3, 2, 1]
+    session = dd.Session(model)
+    session.step(4)
+    assert session.read("s.output") == 1
+    session.set("s.windows.0.start", t0 + 5)
+    assert session.read("s.output") == 0
+    session.set("s.windows.0.stop", t0 + 6)
+    session.step()
+    assert session.read("s.output") == 1
+    model.parameter("begin", t0 + 1)
+    model.link("s.windows.0.start", "begin")
+    assert both(model, "s.output", 6)[0].tolist() == [0, 1, 1, 1, 1, 0, 0]
+
+
+@pytest.mark.parametrize("velocity", [0.1, -1 / 3])
+def test_a_moving_stimulus_goes_on_moving(velocity: float) -> None:
+    t0 = 30 * DAY
+    model = begun(t0)
+    model.add(MovingGaussian("s", [RING], center=20.0, sigma=30.0, velocity=velocity, path=[[t0, 0.0], [t0 + 6, 60.0]]))
+    single, double = both(model, "s.output")
+    np.testing.assert_allclose(single, double, atol=2e-6)
+    time = t0 + np.arange(13)
+    distance = RING.points - (20 + velocity * time + np.interp(time, [t0, t0 + 6], [0, 60]))[:, None]
+    distance -= 360 * np.round(distance / 360)
+    np.testing.assert_allclose(single, np.exp(-0.5 * (distance / 30) ** 2), atol=1e-5)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "hold"])
+@pytest.mark.parametrize("period", [0.0, 7.1, DAY])
+def test_a_time_series_stays_in_time(interpolation: str, period: float) -> None:
+    t0 = 30 * DAY
+    times = (t0 if period == 0.0 else 0.0) + np.array([1.0, 3.0, 3.5, 6.0])
+    model = begun(t0, dt=0.5)
+    model.add(TimeSeries("s", [], times, [1.0, 2.0, -3.0, 5.0], interpolation=interpolation, period=period))
+    single, double = both(model, "s.output", 15)
+    np.testing.assert_allclose(single, double, atol=1e-5)
+    assert double.std() > 1
+
+
+def test_a_history_keeps_its_interval() -> None:
+    model = begun(30 * DAY)
+    source = model.add(TimeSeries("s", [], 30 * DAY + np.arange(40.0), np.arange(40.0)))
+    source >> model.add(History("h", interval=3.0))
+    single, double = both(model, "h.output", 31)
+    np.testing.assert_array_equal(single, double)
+    assert (np.diff(double[-1]) == -3).all()
+
+
+def test_a_step_that_is_no_binary_fraction_counts_right() -> None:
+    """A tenth of a millisecond: 2^26 steps after the start the window opens in its own step."""
+    t0 = 2.0**26 * 0.1
+    model = begun(t0, dt=0.1)
+    model.add(Boost("s", windows=[(t0 + 0.3, t0 + 0.5)]))
+    single, double = both(model, "s.output", 0.8)
+    assert single.tolist() == double.tolist() == [0, 0, 0, 1, 1, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_times_that_are_not_told_apart_are_refused(precision: str) -> None:
+    model = begun(2.0**45)
+    model.add(dd.Field("u", []))
+    with pytest.raises(TimeError, match=r"time 3.51844e\+13 ms is 3.52e\+13 steps of dt = 1 from time 0; times are exact up to 1.76e\+13"):
+        dd.simulate(model, 10, precision=precision)
+    with pytest.raises(TimeError, match="times are exact up to"):
+        dd.Session(model, precision=precision)
+    model.describe(t0=0)
+    session = dd.Session(model, precision=precision)
+    with pytest.raises(TimeError, match=r"at most 1\.76"):
+        session.run(2.0**45)
+
+
+def test_every_moment_is_exact() -> None:
+    for name, cls in {**KINDS, **PARTS}.items():
+        found = {p.name: p for p in parameters(cls)}
+        found |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}
+        for p in found.values():
+            assert p.exact or p.role != "moment", (name, p.name)
+            assert p.exact or "/time" not in p.unit or p.name == "fastest", (name, p.name)
