@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import concurrent.futures
-import multiprocessing
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from typing import Any
 
-from deodar.errors import WorkerError
 from deodar.experiments.rows import Row, Rows
 from deodar.runtime.interrupt import stoppable
-from deodar.runtime.workers import begin
+from deodar.runtime.pool import Pool
 
 
 @dataclass(frozen=True)
@@ -97,19 +93,19 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 
 
 def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequence[Row]]]:
-    context = multiprocessing.get_context("spawn")
-    with stoppable() as check, concurrent.futures.ProcessPoolExecutor(workers, context, begin) as pool:
-        waiting, running = list(reversed(jobs)), dict[concurrent.futures.Future[Sequence[Row]], Job]()
-        try:
-            while waiting or running:
-                while waiting and len(running) < workers:  # one for each worker: after Ctrl-C no more than those are waited for
-                    job = waiting.pop()
-                    running[pool.submit(job.run)] = job
-                done, _ = concurrent.futures.wait(running, 0.2, concurrent.futures.FIRST_COMPLETED)
-                for future in done:
-                    yield running.pop(future), future.result()
+    running, stopped = dict[tuple[str, ...], Job](), False
+    with stoppable() as check, Pool(min(workers, max(1, len(jobs))), main=True) as pool:
+        waiting = list(reversed(jobs))
+        while waiting or pool.busy:
+            while waiting and pool.idle:  # one for each worker: after Ctrl-C no more than those are waited for
+                pool.give(waiting[-1].keys, Job.run, waiting[-1])
+                running[waiting[-1].keys] = waiting.pop()
+            for keys, rows in pool.wait(0.2):
+                yield running.pop(keys), rows
+            try:
                 check()
-        except BrokenProcessPool:
-            raise WorkerError("a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers") from None
-        finally:
-            pool.shutdown(cancel_futures=True)
+            except KeyboardInterrupt:
+                stopped = True
+                waiting.clear()
+    if stopped:
+        raise KeyboardInterrupt

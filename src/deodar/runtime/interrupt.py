@@ -13,6 +13,10 @@ from collections.abc import Callable, Generator
 from types import FrameType
 
 
+class AtOnce(KeyboardInterrupt):
+    """A second Ctrl-C: nothing is waited for."""
+
+
 @contextlib.contextmanager
 def stoppable() -> Generator[Callable[[], None]]:
     """A function to call between chunks: it raises KeyboardInterrupt if Ctrl-C was pressed since.
@@ -27,7 +31,7 @@ def stoppable() -> Generator[Callable[[], None]]:
 
     def ask(number: int, frame: FrameType | None) -> None:
         if asked:
-            raise KeyboardInterrupt
+            raise AtOnce
         asked.append(number)
 
     if threading.current_thread() is not threading.main_thread():

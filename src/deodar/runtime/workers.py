@@ -7,30 +7,23 @@ small file that all processes map.
 
 from __future__ import annotations
 
-import concurrent.futures
 import contextlib
 import dataclasses as dc
 import mmap
-import multiprocessing
-import multiprocessing.connection
-import os
-import signal
-import sys
 import tempfile
-import threading
-import types
 from collections.abc import Callable, Generator, Mapping, Sequence
-from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from deodar.errors import Interrupted, ParameterError, WorkerError
+from deodar.errors import Interrupted, ParameterError
 from deodar.model.model import Model
 from deodar.parameters import show
+from deodar.runtime.interrupt import AtOnce
 from deodar.runtime.parcel import Parcel
 from deodar.runtime.pieces import Part
+from deodar.runtime.pool import Pool
 from deodar.worlds._base import World
 
 LOOK_EVERY = 0.1
@@ -72,35 +65,27 @@ def run(model: Model, world: World | None, pieces: Sequence[Mapping[str, Any]], 
         between: told now and then how many steps are done in all pieces together; a KeyboardInterrupt from it stops all.
 
     Raises:
+        KeyboardInterrupt: on a second Ctrl-C; the processes are ended at once.
         WorkerError: something cannot be handed to another process, or a process has died.
     """
     parcel = Parcel.of(model, world)
-    context = multiprocessing.get_context("spawn")
-    with _board(len(pieces) + 1) as (path, board):
-        jobs = [Job(parcel, settings, path, k) for k, settings in enumerate(pieces)]
-        started: Callable[[], list[Any]] = list
-        pool = concurrent.futures.ProcessPoolExecutor(min(workers, len(jobs)), context, begin)
-        try:
-            with _alone() as started:
-                futures = [pool.submit(work, job) for job in jobs]
-            with contextlib.suppress(KeyboardInterrupt):
-                _follow(futures, lambda: between(sum(board.tolist()[:-1])))
-            board[-1] = 1
-            pool.shutdown(cancel_futures=True)
-            return [future.result() if not future.cancelled() else None for future in futures]
-        except KeyboardInterrupt:  # the second one: at once
-            for process in started():
-                process.kill()
-            raise
-        except BrokenProcessPool:
-            for process in started():  # one that was just being started is not ended with the others, and would be waited for
-                process.kill()
-            raise WorkerError(
-                "a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers, or a smaller batch"
-            ) from None
-        finally:
-            board[-1] = 1  # whatever happened, nobody goes on
-            pool.shutdown(cancel_futures=True)
+    parts: list[Part | None] = [None] * len(pieces)
+    with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces))) as pool:
+        waiting = [Job(parcel, settings, path, k) for k, settings in enumerate(pieces)][::-1]
+        while waiting or pool.busy:
+            while waiting and pool.idle:
+                pool.give(waiting[-1].number, work, waiting.pop())
+            for number, part in pool.wait(LOOK_EVERY):
+                parts[number] = part
+            if not board[-1]:
+                try:
+                    between(sum(board.tolist()[:-1]))
+                except AtOnce:
+                    raise
+                except KeyboardInterrupt:  # those that run say how far they have come
+                    board[-1] = 1
+                    waiting.clear()
+    return parts
 
 
 @contextlib.contextmanager
@@ -119,47 +104,7 @@ def _mapped(path: str) -> Generator[memoryview]:
         yield numbers
 
 
-def _follow(futures: Sequence[concurrent.futures.Future[Part]], look: Callable[[], None]) -> None:
-    """Until all are done; what one of them raises is raised here at once."""
-    left = set(futures)
-    while left:
-        done, left = concurrent.futures.wait(left, LOOK_EVERY, concurrent.futures.FIRST_COMPLETED)
-        for future in done:
-            future.result()
-        look()
-
-
-@contextlib.contextmanager
-def _alone() -> Generator[Callable[[], list[Any]]]:
-    """Processes started meanwhile, which it gives, neither import the main script nor see Ctrl-C: that is told to them through the board."""
-    others = multiprocessing.active_children()
-    main = sys.modules["__main__"]
-    mine = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN) if mine else None
-    sys.modules["__main__"] = types.ModuleType("__main__")  # a process that starts looks here for what to import
-    try:
-        yield lambda: [process for process in multiprocessing.active_children() if process not in others]
-    finally:
-        sys.modules["__main__"] = main
-        if mine:
-            signal.signal(signal.SIGINT, before)
-
-
 # ------------------------------------------------------------------------------------------------ in the worker
-
-
-def begin() -> None:
-    """One core, no Ctrl-C, and an end when the parent ends."""
-    os.environ["NPROC"] = "1"
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        multiprocessing.connection.wait([parent.sentinel])
-        os._exit(1)
 
 
 def work(job: Job) -> Part:

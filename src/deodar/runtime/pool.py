@@ -1,0 +1,170 @@
+"""A pool of worker processes that one thread drives: no threads of its own, so nothing of it outlives the call that uses it.
+
+Each worker has a pipe. It receives a task, sends the result back, and ends when its pipe is closed. The parent waits for pipes and for the end of
+processes at once; what it has not received it never reads later.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import multiprocessing.connection
+import os
+import pickle
+import signal
+import sys
+import threading
+import traceback
+import types
+from collections.abc import Callable, Generator, Hashable
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+from typing import Any, Self
+
+from deodar.errors import DeodarError, WorkerError
+
+Task = tuple[Callable[..., Any], tuple[Any, ...]]
+"""A function of a module and its arguments."""
+
+
+class Pool:
+    """Worker processes of one core each, as a context: leaving it ends them, at once if an exception is raised.
+
+    Args:
+        count: number of processes.
+        main: whether they import the main script, as functions that stand in it need.
+    """
+
+    def __init__(self, count: int, main: bool = False) -> None:
+        self._count, self._main = count, main
+        self._idle: list[tuple[SpawnProcess, Connection]] = []
+        self._busy: dict[Connection, tuple[SpawnProcess, Hashable]] = {}
+
+    def __enter__(self) -> Self:
+        with _quiet(self._main):
+            for _ in range(self._count):
+                self._idle.append(_started())
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *others: object) -> None:
+        workers = [*self._idle, *((process, pipe) for pipe, (process, _) in self._busy.items())]
+        for process, pipe in workers:
+            if kind is not None:
+                process.kill()
+            pipe.close()
+        for process, _ in workers:
+            process.join()
+
+    @property
+    def idle(self) -> int:
+        """Number of workers without a task."""
+        return len(self._idle)
+
+    @property
+    def busy(self) -> int:
+        """Number of workers with a task."""
+        return len(self._busy)
+
+    def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any) -> None:
+        """Give a task to an idle worker; `wait` returns its result under the key."""
+        process, pipe = self._idle.pop()
+        self._busy[pipe] = process, key
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # a worker that has died is reported by `wait`
+            pipe.send((function, arguments))
+
+    def wait(self, seconds: float) -> list[tuple[Any, Any]]:
+        """Keys and results of the tasks that are done, after waiting for one of them at most so long.
+
+        Raises:
+            WorkerError: a process has died, or a result cannot be sent between processes.
+            Exception: what a task has raised.
+        """
+        ends = {process.sentinel: pipe for pipe, (process, _) in self._busy.items()}
+        ready = multiprocessing.connection.wait([*self._busy, *ends], seconds)
+        out: list[tuple[Any, Any]] = []
+        for pipe in dict.fromkeys(ends.get(one, one) for one in ready):  # type: ignore[call-overload]
+            process, key = self._busy[pipe]
+            try:
+                good, result = pickle.loads(pipe.recv_bytes())
+            except (EOFError, OSError):
+                raise WorkerError(
+                    "a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers, or a smaller batch"
+                ) from None
+            if not good:
+                raise result
+            del self._busy[pipe]
+            self._idle.append((process, pipe))
+            out.append((key, result))
+        return out
+
+
+def _started() -> tuple[SpawnProcess, Connection]:
+    context = multiprocessing.get_context("spawn")
+    here, there = context.Pipe()
+    process = context.Process(target=_serve, args=(there,))
+    process.start()
+    there.close()  # so that the worker's end is the only one, and its death is seen
+    return process, here
+
+
+@contextlib.contextmanager
+def _quiet(main: bool) -> Generator[None]:
+    """Processes started meanwhile do not see Ctrl-C: the parent says when to stop. Without `main` they do not import the main script either."""
+    script = sys.modules["__main__"]
+    mine = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN) if mine else None
+    if not main:
+        sys.modules["__main__"] = types.ModuleType("__main__")  # a process that starts looks here for what to import
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = script
+        if mine:
+            signal.signal(signal.SIGINT, before)
+
+
+# ------------------------------------------------------------------------------------------------ in the worker
+
+
+def _serve(pipe: Connection) -> None:
+    """Carry out tasks until the pipe is closed: on one core, without Ctrl-C, and not longer than the parent lives."""
+    os.environ["NPROC"] = "1"
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with contextlib.suppress(EOFError, BrokenPipeError, ConnectionResetError):
+        while True:
+            pipe.send_bytes(_done(*pipe.recv()))
+
+
+def _done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
+    """Whether the task succeeded, and its result or error, pickled."""
+    try:
+        result = function(*arguments)
+    except Exception as error:
+        if not isinstance(error, DeodarError):  # of ours the message says it all
+            error.add_note(f"In a worker process:\n{traceback.format_exc()}")
+        return _failed(error, f"the error {type(error).__name__} ({error})")
+    try:
+        return pickle.dumps((True, result))
+    except Exception as error:  # a class may refuse in any way
+        return _failed(_unsendable("the result", error), "the result")
+
+
+def _failed(error: Exception, what: str) -> bytes:
+    try:
+        packed = pickle.dumps((False, error))
+        pickle.loads(packed)  # an error may need more to be made again than it kept
+    except Exception as reason:
+        return pickle.dumps((False, _unsendable(what, reason)))
+    return packed
+
+
+def _unsendable(what: str, reason: Exception) -> WorkerError:
+    return WorkerError(f"{what} of a worker cannot be sent to another process ({type(reason).__name__}: {reason})", fix="Run without workers")
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        multiprocessing.connection.wait([parent.sentinel])
+        os._exit(1)
