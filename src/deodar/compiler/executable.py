@@ -19,16 +19,16 @@ from jax import lax
 from deodar.compiler import cache
 from deodar.compiler import device as devices
 from deodar.compiler.body import Body, batched
+from deodar.compiler.layout import Layout
 from deodar.compiler.moment import packed, unpacked
-from deodar.compiler.plan import Group, Leaf, Plan, plan, ways_of
-from deodar.compiler.program import Port, Program, array_key, precision_context
+from deodar.compiler.plan import Leaf, Plan, plan, ways_of
+from deodar.compiler.program import Port, Program, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
-from deodar.leaves import leaves, resting, structure
+from deodar.leaves import resting, structure
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
-from deodar.numerics.exact import LOW, split
 from deodar.worlds._pure import PureWorld
 
 Tree = Any
@@ -97,10 +97,8 @@ class Executable:
         self.sweep = tuple(tuple(s) for s in sweep)
         lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
         self.plan: Plan = plan(doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None)
-        lows = [[(i, path + LOW) for i, path in leafs if path in self._group(i).exact] for leafs in self.sweep]
-        self._rounded = [k for k, low in enumerate(lows) if low]  # entries of the sweep of which the digits that rounding takes are swept too
-        places = [[self.place(leaf) for leaf in leafs] for leafs in [*self.sweep, *(lows[k] for k in self._rounded)]]
-        self.program = Program(self.plan, precision, places, body)
+        self.layout = Layout(self.plan, precision, self.sweep)
+        self.program = Program(self.plan, precision, self.layout.swept, body)
         self.body = body
         self.traced = 0
         self.compiled = 0
@@ -118,60 +116,13 @@ class Executable:
 
     # -------------------------------------------------------------------------------- values
 
-    def place(self, leaf: Leaf) -> int:
-        """Place of a scalar leaf in the parameter vector."""
-        ident, path = leaf
-        g, r = self.plan.row[ident]
-        return self.plan.groups[g].offset[path] + r
-
     def holds(self, leaf: Leaf) -> bool:
         """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
-        group = self._group(leaf[0])
-        return leaf[1] in group.offset or leaf[1] in group.arrays
-
-    def put(self, vector: np.ndarray, leaf: Leaf, value: float) -> None:
-        """Write the value of a scalar leaf into the parameter vector."""
-        high, low = split(value, self.program.dtype)
-        vector[self.place(leaf)] = high
-        if leaf[1] in self._group(leaf[0]).exact:
-            vector[self.place((leaf[0], leaf[1] + LOW))] = low
-
-    def put_array(self, arrays: dict[str, np.ndarray], leaf: Leaf, value: np.ndarray) -> None:
-        """Put an array leaf among the arrays, in copies of those that it changes."""
-        g, r = self.plan.row[leaf[0]]
-        names = (leaf[1], leaf[1] + LOW) if leaf[1] in self._group(leaf[0]).exact else (leaf[1],)
-        for name, part in zip(names, split(value, self.program.dtype), strict=False):
-            rows = arrays[array_key(g, name)].copy()
-            rows[r] = part
-            arrays[array_key(g, name)] = rows
-
-    def _group(self, ident: str) -> Group:
-        return self.plan.groups[self.plan.row[ident][0]]
+        return self.layout.holds(leaf)
 
     def values(self, doc: Document, swept: Sequence[Any] | None = None) -> Tree:
         """The parameters of a document of this structure, on the host."""
-        vector = np.zeros(self.plan.size, self.program.dtype)
-        arrays: dict[str, np.ndarray] = {}
-        by = doc.by_id()
-        for g, group in enumerate(self.plan.groups):
-            columns = [{path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)} for n in group.nodes]
-            for name, offset in group.offset.items():
-                path = name.removesuffix(LOW)
-                for n, c in zip(group.nodes, columns, strict=True):
-                    require_range(doc, (n.id, path), c[path], self.precision)
-                vector[offset : offset + group.rows] = self._part(name, [c[path] for c in columns])
-            for name in group.arrays:
-                arrays[array_key(g, name)] = np.stack([self._part(name, c[name.removesuffix(LOW)]) for c in columns])
-        points = self.batch.points or 1
-        if swept is None:
-            given = [np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.program.sweep]
-        else:
-            given = [*swept, *(split(swept[k], self.program.dtype)[1] for k in self._rounded)]
-        return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.program.dtype) for s in given)}
-
-    def _part(self, name: str, value: Any) -> np.ndarray:
-        """A leaf in the working precision, or what rounding takes from it."""
-        return split(value, self.program.dtype)[name.endswith(LOW)]
+        return self.layout.values(doc, self.batch.points or 1, swept)
 
     # -------------------------------------------------------------------------------- functions
 
@@ -395,15 +346,6 @@ def executable(
             del model.programs[next(iter(model.programs))]
         model.programs[key] = made
     return model.programs[key]
-
-
-def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None:
-    """Refuse a number that the working precision cannot hold."""
-    if abs(value) > float(np.finfo(precision).max):
-        entry = doc.by_id().get(leaf[0])
-        raise ParameterError(
-            f"is {value:g}, beyond what {precision} can hold", where=f"{entry.path if entry else leaf[0]}.{leaf[1]}", fix="Take precision='float64'"
-        )
 
 
 def signature(doc: Document) -> Hashable:

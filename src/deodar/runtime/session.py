@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.compiler.executable import Executable, executable, require_range
+from deodar.compiler.executable import Executable, executable
+from deodar.compiler.layout import require_range
 from deodar.compiler.plan import ways_of
 from deodar.compiler.program import Port
 from deodar.compiler.ways import widths
@@ -372,10 +373,10 @@ class Session:
         vector, arrays = run.values["vector"].copy(), dict(run.values["arrays"])
         for leaf, value, _, _ in changed:
             if isinstance(value, np.ndarray):
-                run.program.put_array(arrays, leaf, value)
+                run.program.layout.put_array(arrays, leaf, value)
             else:
                 require_range(run.doc, leaf, value, self._precision)
-                run.program.put(vector, leaf, value)
+                run.program.layout.put(vector, leaf, value)
         values = run.values | {"vector": vector, "arrays": arrays}
         costs = {cost for _, _, cost, _ in changed}
         if "rebuild" in costs:

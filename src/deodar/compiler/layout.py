@@ -1,0 +1,94 @@
+"""The layout of parameters: where each number of a document lies among the arguments of its program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.compiler.plan import Group, Leaf, Plan
+from deodar.compiler.program import array_key
+from deodar.errors import ParameterError
+from deodar.leaves import leaves
+from deodar.model.document import Document
+from deodar.numerics.exact import LOW, split
+
+Tree = Any
+
+
+class Layout:
+    """Places of the leaves of a plan.
+
+    Attributes:
+        swept: for each swept leaf its places in the parameter vector; at the end those of the digits that rounding takes from exact leaves.
+    """
+
+    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[Leaf]]) -> None:
+        self.plan, self.precision, self.dtype = plan, precision, np.dtype(precision)
+        lows = [[(i, path + LOW) for i, path in leafs if path in self._group(i).exact] for leafs in sweep]
+        self._rounded = [k for k, low in enumerate(lows) if low]
+        self.swept = [[self.place(leaf) for leaf in leafs] for leafs in [*sweep, *(lows[k] for k in self._rounded)]]
+
+    def place(self, leaf: Leaf) -> int:
+        """Place of a scalar leaf in the parameter vector."""
+        ident, path = leaf
+        g, r = self.plan.row[ident]
+        return self.plan.groups[g].offset[path] + r
+
+    def holds(self, leaf: Leaf) -> bool:
+        """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
+        group = self._group(leaf[0])
+        return leaf[1] in group.offset or leaf[1] in group.arrays
+
+    def values(self, doc: Document, points: int = 1, swept: Sequence[Any] | None = None) -> Tree:
+        """The parameters of a document of this structure, on the host; `swept`: the values of each entry of the sweep at its points."""
+        vector = np.zeros(self.plan.size, self.dtype)
+        arrays: dict[str, np.ndarray] = {}
+        by = doc.by_id()
+        for g, group in enumerate(self.plan.groups):
+            columns = [{path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)} for n in group.nodes]
+            for name, offset in group.offset.items():
+                path = name.removesuffix(LOW)
+                for n, c in zip(group.nodes, columns, strict=True):
+                    require_range(doc, (n.id, path), c[path], self.precision)
+                vector[offset : offset + group.rows] = self._part(name, [c[path] for c in columns])
+            for name in group.arrays:
+                arrays[array_key(g, name)] = np.stack([self._part(name, c[name.removesuffix(LOW)]) for c in columns])
+        if swept is None:
+            given = [np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.swept]
+        else:
+            given = [*swept, *(split(swept[k], self.dtype)[1] for k in self._rounded)]
+        return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.dtype) for s in given)}
+
+    def put(self, vector: np.ndarray, leaf: Leaf, value: float) -> None:
+        """Write the value of a scalar leaf into the parameter vector."""
+        high, low = split(value, self.dtype)
+        vector[self.place(leaf)] = high
+        if leaf[1] in self._group(leaf[0]).exact:
+            vector[self.place((leaf[0], leaf[1] + LOW))] = low
+
+    def put_array(self, arrays: dict[str, np.ndarray], leaf: Leaf, value: np.ndarray) -> None:
+        """Put an array leaf among the arrays, in copies of those that it changes."""
+        g, r = self.plan.row[leaf[0]]
+        names = (leaf[1], leaf[1] + LOW) if leaf[1] in self._group(leaf[0]).exact else (leaf[1],)
+        for name, part in zip(names, split(value, self.dtype), strict=False):
+            rows = arrays[array_key(g, name)].copy()
+            rows[r] = part
+            arrays[array_key(g, name)] = rows
+
+    def _group(self, ident: str) -> Group:
+        return self.plan.groups[self.plan.row[ident][0]]
+
+    def _part(self, name: str, value: Any) -> np.ndarray:
+        """A leaf in the working precision, or what rounding takes from it."""
+        return split(value, self.dtype)[name.endswith(LOW)]
+
+
+def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None:
+    """Refuse a number that the working precision cannot hold."""
+    if abs(value) > float(np.finfo(precision).max):
+        entry = doc.by_id().get(leaf[0])
+        raise ParameterError(
+            f"is {value:g}, beyond what {precision} can hold", where=f"{entry.path if entry else leaf[0]}.{leaf[1]}", fix="Take precision='float64'"
+        )

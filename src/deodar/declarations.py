@@ -1,0 +1,60 @@
+"""What a part declares of a parameter beside its type: what a change costs, the unit, the range, and what kind of time it is."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from typing import ClassVar, Literal
+
+Cost = Literal["live", "rebuild", "recompile"]
+Role = Literal["", "time constant", "time scale", "moment", "duration"]
+TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "moment", "duration")
+"""What a parameter in units of time is: see `Declaration`."""
+
+
+@dc.dataclass(frozen=True)
+class Declaration:
+    """What is declared beside a parameter's type; use `Live`, `Rebuild` or `Recompile`.
+
+    A parameter whose unit begins with "time" states its `role`:
+
+    * `time constant`: of a linear relaxation; a run refuses an Euler step that is longer.
+    * `time scale`: a time multiplied by another quantity, such as the input; the step is not compared with it.
+    * `moment`: a point of document time.
+    * `duration`: a length of time, such as a delay, a period or an interval; it may be shorter than a step.
+
+    What is compared with document time, or multiplied by it, is `exact`: in a program of single precision it keeps the digits of float64
+    (`numerics/exact.py`). Moments always are.
+    """
+
+    unit: str = ""
+    lower: float | None = None
+    upper: float | None = None
+    neutral: float | None = None
+    choices: tuple[str, ...] = ()
+    meaning: str = ""
+    off: bool = False
+    role: Role = dc.field(default="", kw_only=True)
+    exact: bool = dc.field(default=False, kw_only=True)
+    cost: ClassVar[Cost] = "recompile"
+
+
+class Live(Declaration):
+    """A traced leaf: a change takes effect at the next exchange and never recompiles.
+
+    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it recompiles once. Where that
+    value is not what small values tend to (a speed limit of 0 means none), `off` says so: reaching it recompiles as well.
+    """
+
+    cost = "live"
+
+
+class Rebuild(Declaration):
+    """A change reruns the part's `prepare`, a pure traced function, and does not recompile."""
+
+    cost = "rebuild"
+
+
+class Recompile(Declaration):
+    """A change makes a new program; states are kept by the element's id."""
+
+    cost = "recompile"
