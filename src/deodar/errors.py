@@ -93,6 +93,10 @@ class NotFinite(DeodarError):
         super().__init__(what, fix=fix)
 
 
+class RunWarning(UserWarning):
+    """Warns about a run: some of its copies diverged, or it has so many steps that it takes long."""
+
+
 class TooLarge(DeodarError):
     """Raised before allocating what would not fit into memory."""
 

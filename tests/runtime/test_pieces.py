@@ -11,7 +11,7 @@ import xarray
 
 from deodar.errors import ParameterError
 from deodar.recording.provenance import KEY
-from deodar.runtime.pieces import BATCH_BYTES, Pieces, cut, joined
+from deodar.runtime.pieces import BATCH_BYTES, Part, Pieces, cut, joined
 
 SIZES = [1, 2, 7, 100]
 
@@ -43,11 +43,11 @@ def test_a_wrong_batch_is_refused(wrong: object) -> None:
         cut({"trial": 3}, 1, 1, wrong)  # type: ignore[arg-type]
 
 
-def part(trials: list[int], times: int, whole: bool) -> tuple[xarray.Dataset, bool]:
+def part(trials: list[int], times: int, whole: bool) -> Part:
     values = np.multiply.outer(np.array(trials, float), np.ones(times))
     data = xarray.Dataset({"u": (("trial", "time"), values)}, {"trial": trials, "time": np.arange(times)})
     data.attrs[KEY] = json.dumps({"trials": trials, "dt": 1.0})
-    return data, whole
+    return Part(data, whole)
 
 
 def test_pieces_that_are_complete_become_one_record() -> None:

@@ -8,8 +8,8 @@ import subprocess
 import sys
 
 CODE = """
-import deodar as dd, deodar.runtime.simulate as simulate
-simulate.SHOW_AFTER = 0.0
+import deodar as dd, deodar.runtime.progress as progress
+progress.SHOW_AFTER = 0.0
 model = dd.Model("bar")
 model.add(dd.Field("u", []))
 dd.simulate(model, 2000, record=["u.activation"], every=10{progress})

@@ -165,6 +165,7 @@ def _largest(a: xarray.DataArray | None, b: xarray.DataArray | None) -> float:
     if not a.size:
         return 0.0
     gap = np.abs(a.values.astype(np.float64) - b.values.astype(np.float64))
+    gap[np.isnan(a.values) & np.isnan(b.values)] = 0.0  # copies that diverged both times
     return float("inf") if np.isnan(gap).any() else float(gap.max())
 
 

@@ -6,19 +6,25 @@ import dataclasses as dc
 import json
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from deodar.errors import ParameterError
+from deodar.errors import NotFinite, ParameterError
 from deodar.parameters import show
 from deodar.recording.provenance import KEY
 
 if TYPE_CHECKING:
     import xarray
 
-Part = tuple["xarray.Dataset", bool]
-"""The record of a piece, and whether it is complete."""
+
+class Part(NamedTuple):
+    """The record of a piece, whether it is complete, and the error of its first copy if all of its copies diverged."""
+
+    data: xarray.Dataset
+    complete: bool
+    lost: NotFinite | None = None
+
 
 BATCH_BYTES = 8 * 2**20
 """Ports of all copies in one batch, in bytes: beyond it a step no longer stays in the processor's cache.
@@ -103,16 +109,19 @@ def joined(pieces: Pieces, parts: Sequence[Part | None], settings: Mapping[str, 
     """
     import xarray
 
+    from deodar.recording import diverged
+
     begun = [part for part in parts if part is not None]
-    complete = [data for data, whole in begun if whole]
-    kept = complete or _abreast([data for data, _ in begun])
+    complete = [part.data for part in begun if part.complete]
+    copies = [*(settings.get("sweep") or ()), *(["trial"] if settings.get("trials") is not None else [])]
+    kept = diverged.alike(complete or _abreast([part.data for part in begun]), copies)
     data = kept[0] if kept else xarray.Dataset()
     if len(kept) > 1:
         data = xarray.concat(kept, pieces.dimension, data_vars="all", coords="minimal", compat="override", join="override", combine_attrs="override")
     if KEY in data.attrs:
         about = json.loads(data.attrs[KEY]) | settings | {"batch": pieces.batch, "complete": len(complete) == len(parts)}
         data.attrs[KEY] = json.dumps(about, ensure_ascii=False)
-    return data
+    return diverged.counted(data)
 
 
 def _abreast(records: Sequence[xarray.Dataset]) -> list[xarray.Dataset]:

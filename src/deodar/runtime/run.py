@@ -19,7 +19,9 @@ from deodar.errors import NotFinite, TimeError
 from deodar.leaves import time_constants
 from deodar.model.document import Document
 from deodar.parameters import real, show
+from deodar.runtime.clock import Clock
 from deodar.runtime.exchange import Exchange, Moment
+from deodar.runtime.failure import first_steps, not_finite
 from deodar.runtime.unit import unit_seconds
 from deodar.worlds._base import World
 
@@ -29,35 +31,6 @@ CHUNK_SECONDS = 0.2
 
 MOST_STEPS = 2**44
 """Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at a step of 1 ms."""
-
-
-@dc.dataclass(frozen=True)
-class Clock:
-    """Document time as a count of ticks: `time = t0 + (tick - tick0) * dt`, in float64 on the host."""
-
-    tick: int
-    t0: float
-    tick0: int
-    dt: float
-
-    @property
-    def time(self) -> float:
-        """Document time of the tick."""
-        return self.t0 + (self.tick - self.tick0) * self.dt
-
-    @property
-    def origin(self) -> dict[str, float]:
-        """A tick before this one, less than 2^31 of them, and the time at it: the same for all ticks between two of these."""
-        passed = (self.tick - self.tick0) // 2**31 * 2**31
-        return {"origin": (self.tick0 + passed) % 2**32, "start": self.t0 + passed * self.dt}
-
-    def after(self, ticks: int) -> Clock:
-        """The clock some ticks later."""
-        return dc.replace(self, tick=self.tick + ticks)
-
-    def at(self, dt: float) -> Clock:
-        """The clock with another step from now on."""
-        return Clock(self.tick, self.time, self.tick, dt)
 
 
 class Run:
@@ -73,6 +46,9 @@ class Run:
         self.exchange = Exchange(doc, world)
         self.load(program, doc)
         self.pace = 0.0
+        self.tolerant = False
+        """Whether copies of a batch that diverge go into `lost`, while others are left, instead of being raised."""
+        self.lost: dict[tuple[int, ...], NotFinite] = {}
         self.reset()
 
     # -------------------------------------------------------------------------------- what runs
@@ -167,8 +143,12 @@ class Run:
         began = time.perf_counter()
         before = self.state
         state, seen, finite = self._call(chunk, before, counts)
-        if not np.asarray(finite[0]).all():
-            self._report(before, used)
+        good = np.asarray(finite[0])
+        if not good.all():
+            if self._keeps_others():
+                self._lose(self._diverged(before, used, self._new(~good)))
+            else:
+                self._report(before, used)
         self._require_finite_world(state, used)
         self.state = state
         self.clock = self.clock.after(used)
@@ -248,34 +228,66 @@ class Run:
 
     # -------------------------------------------------------------------------------- values that are not finite
 
+    def _keeps_others(self) -> bool:
+        return self.tolerant and bool(self.program.batch.shape)
+
+    def _new(self, bad: np.ndarray) -> list[tuple[int, ...]]:
+        """Places of the copies that are bad and not lost yet."""
+        return [place for place in map(tuple, np.argwhere(bad).tolist()) if place not in self.lost]
+
+    def _lose(self, found: Mapping[tuple[int, ...], NotFinite]) -> None:
+        """Go on without some copies; if none is left, raise the error of the first."""
+        self.lost.update(found)
+        if len(self.lost) == self.program.batch.size:
+            raise next(iter(self.lost.values()))
+
     def _report(self, before: Tree, used: int) -> None:
         """Find the first step at which a value was not finite, and raise."""
+        step, names = self._search(before, used, [...])[...]
+        self._go(before, step - 1)
+        raise not_finite(self._without_state(...) or names, self.clock.after(1), self.doc.time_unit)
+
+    def _go(self, before: Tree, steps: int) -> None:
+        """Take the state and the clock from the start of a chunk to some step in it."""
+        chunk, _ = self.program.chunk(())
+        self.state, _, _ = self._call(chunk, before, {"head": steps, "every": 0, "records": 0})
+        self.clock = self.clock.after(steps)
+
+    def _diverged(self, before: Tree, used: int, copies: Sequence[tuple[int, ...]]) -> dict[tuple[int, ...], NotFinite]:
+        """For each of these copies the first step at which a value was not finite, as an error."""
+        found = self._search(before, used, copies)
+        out: dict[tuple[int, ...], NotFinite] = {}
+        state, clock = self.state, self.clock
+        for step in sorted({step for step, _ in found.values()}):
+            self._go(before, step - 1)
+            for copy, (first, names) in found.items():
+                if first == step:
+                    out[copy] = not_finite(self._without_state(copy) or names, self.clock.after(1), self.doc.time_unit)
+            self.state, self.clock = state, clock
+        return {copy: out[copy] for copy in copies}
+
+    def _search(self, before: Tree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
+        """For each copy (`...`: all as one) the first step of a chunk after which a value was not finite, and the elements where."""
         chunk, _ = self.program.chunk(())
 
         def bad(n: int) -> list[np.ndarray]:
             _, _, finite = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
             return [~np.asarray(f) for f in finite[1]]
 
-        low, high = 0, max(used, 1)  # finite after `low` steps, not after `high`
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (low, middle) if any(b.any() for b in bad(middle)) else (middle, high)
         groups = self.program.plan.groups
-        found = [n for g, b in zip(groups, bad(high), strict=True) for r, n in enumerate(g.nodes) if b[..., r].any()]
-        self.state, _, _ = self._call(chunk, before, {"head": low, "every": 0, "records": 0})
-        self.clock = self.clock.after(low)
-        raise _not_finite(self._without_state() or [self._path(n) for n in found], self.clock.after(high - low), self.doc.time_unit)
+        found = first_steps(bad, 0, max(used, 1), copies)
+        return {copy: (n, [self._path(node) for g, r in rows for node in [groups[g].nodes[r]]]) for copy, (n, rows) in found.items()}
 
-    def _without_state(self) -> list[str]:
-        """The first element without a state whose output is not finite now: it is what spoils the states that read it."""
+    def _without_state(self, copy: Any) -> list[str]:
+        """The first elements without a state whose output is not finite now in a copy (`...`: in any): they spoil the states that read them."""
         plan = self.program.plan
-        for call in plan.calls:
-            group = plan.groups[call.group]
-            if call.role == "output" and not group.like.element.stateful:
-                ports = [Port(call.group, r, next(iter(group.like.outs))) for r in range(group.rows)]
-                bad = [n for n, value in zip(group.nodes, self.read(ports), strict=True) if not np.isfinite(value).all()]
-                if bad:
-                    return [self._path(n) for n in bad]
+        groups = list(dict.fromkeys(c.group for c in plan.calls if c.role == "output" and not plan.groups[c.group].like.element.stateful))
+        ports = [Port(g, r, next(iter(plan.groups[g].like.outs))) for g in groups for r in range(plan.groups[g].rows)]
+        bad = {(p.group, p.row): not np.isfinite(value[copy]).all() for p, value in zip(ports, self.read(ports), strict=True)} if ports else {}
+        for g in groups:
+            names = [self._path(n) for r, n in enumerate(plan.groups[g].nodes) if bad[g, r]]
+            if names:
+                return names
         return []
 
     def _require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
@@ -283,37 +295,41 @@ class Run:
         lead = len(self.program.batch.shape)
         for port, values in zip(ports, kept, strict=True):
             if not np.isfinite(values).all():
-                spoilt = ~np.isfinite(values).all(axis=tuple(k for k in range(values.ndim) if k != lead))
+                spoilt = np.asarray(~np.isfinite(values).reshape(*values.shape[: lead + 1], -1).all(-1))
                 end = self.clock.tick - (values.shape[lead] - 1) * every
-                clock = dc.replace(self.clock, tick=end + int(np.argmax(spoilt)) * every)
-                name = self._path(self.program.plan.groups[port.group].nodes[port.row or 0])
-                raise _not_finite([f"{name}.{port.name}"], clock, self.doc.time_unit)
+                name = f"{self._path(self.program.plan.groups[port.group].nodes[port.row or 0])}.{port.name}"
+
+                def error(when: np.ndarray, name: str = name, end: int = end) -> NotFinite:
+                    return not_finite([name], dc.replace(self.clock, tick=end + int(np.argmax(when)) * every), self.doc.time_unit)
+
+                if not self._keeps_others():
+                    raise error(np.asarray(spoilt.reshape(-1, values.shape[lead]).any(0)))
+                self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)))})
 
     def _require_finite_world(self, state: Tree, used: int) -> None:
         """Refuse a world inside the step that has left all bounds: what it shows would spoil the model later, and elsewhere."""
-        if self.exchange.inside and not all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
-            bad = [name for name, value in state["world"]["now"].items() if not np.isfinite(value).all()]
-            clock = self.clock.after(used)
-            raise NotFinite(
-                f"{', '.join(bad)} of the world {type(self.world).__name__} became infinite or undefined before step {clock.tick}"
+        if not self.exchange.inside or all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
+            return
+        shape, clock = self.program.batch.shape, self.clock.after(used)
+        bad = {name: ~np.isfinite(value).reshape(*shape, -1).all(-1) for name, value in state["world"]["now"].items()}
+
+        def error(names: Sequence[str]) -> NotFinite:
+            return NotFinite(
+                f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined before step {clock.tick}"
                 f" (time {clock.time:g} {self.doc.time_unit})",
-                bad,
+                names,
                 fix="Look for what drives its motors",
             )
+
+        if not self._keeps_others():
+            raise error([name for name, wrong in bad.items() if wrong.any()])
+        new = self._new(np.any(list(bad.values()), axis=0))
+        self._lose({copy: error([name for name, wrong in bad.items() if wrong[copy]]) for copy in new})
 
     def _path(self, node: Any) -> str:
         """Path of a node in the present document; the program may have been made before it was renamed."""
         entry = self.doc.by_id().get(node.id)
         return entry.path if entry is not None else node.path
-
-
-def _not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
-    shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
-    return NotFinite(
-        f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt {clock.dt:g})",
-        names,
-        fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
-    )
 
 
 def require_step(doc: Document, dt: float) -> None:

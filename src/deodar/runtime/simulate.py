@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
-import sys
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+import warnings
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from deodar.compiler import device as devices
 from deodar.compiler.executable import Batch, Executable, executable
-from deodar.compiler.plan import Leaf, cost
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
-from deodar.errors import Interrupted, ParameterError, TimeError, WorkerError
-from deodar.leaves import leaves
-from deodar.model import edit, find
+from deodar.errors import Interrupted, NotFinite, ParameterError, RunWarning, TimeError, WorkerError
+from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
@@ -25,9 +22,10 @@ from deodar.numerics.axes import shape
 from deodar.parameters import real, show
 from deodar.recording.provenance import provenance
 from deodar.runtime import memory, pieces
-from deodar.runtime.driven import driven
 from deodar.runtime.exchange import embodied
 from deodar.runtime.interrupt import stoppable
+from deodar.runtime.points import Points
+from deodar.runtime.progress import Shown, bar
 from deodar.runtime.run import Run, require_step, whole
 from deodar.runtime.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
@@ -35,11 +33,8 @@ from deodar.worlds._base import World
 if TYPE_CHECKING:
     import xarray
 
-SHOW_AFTER = 1.0
-"""Seconds after which a run shows a progress bar, if it writes to a terminal."""
-
-Shown = bool | Callable[[int], None] | None
-"""Whether to show a bar (None: where it makes sense), or what is told how many steps are done."""
+LONG_STEPS = 10**9
+"""Steps from which on a run is announced: the fastest models take an hour for them, most a day."""
 
 
 def simulate(
@@ -76,7 +71,8 @@ def simulate(
         sweep: for each parameter path its values; several entries form a grid. All points share the noise.
         precision: float32 or float64.
         world: what provides the sensors that the model names.
-        progress: show a bar; none: on a terminal, if the run takes longer than a second. A function is told how many steps are done.
+        progress: show a bar; none: on a terminal, if the run takes longer than a second. A function is told how many steps are done. From 10^9
+            steps on a `RunWarning` states their number, and progress is shown unless this is False: away from a terminal as lines.
         workers: share the copies among so many processes; one for each core is best.
         batch: copies that run at once in one process; none: as many as fit into the cache, all where there is no cache to fit into.
         device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
@@ -85,12 +81,56 @@ def simulate(
 
     Returns:
         A Dataset with one variable for each path; dimensions: sweep paths, `trial` (where given), `time`, axes.
+        Of copies that diverge all values are NaN, at all times; the coordinate `diverged` gives the reason of each, the attribute `diverged` counts
+        them, and a `RunWarning` repeats it.
 
     Raises:
+        NotFinite: a single run diverges, or all copies do.
         Interrupted: on Ctrl-C; its `data` holds what was recorded until then; of a run in pieces those that are complete, if there are any.
         DeviceError: there is no such device.
         WorkerError: something cannot be handed to another process, or a process has died.
     """
+    require_model(model)
+    steps = expected_steps(duration, model.document.step if dt is None else dt)
+    if steps >= LONG_STEPS:
+        step = model.document.step if dt is None else dt
+        warnings.warn(f"{steps:.3g} steps of dt = {step:g}: a smaller number may be meant", RunWarning, stacklevel=2)
+        progress = True if progress is None else progress
+    data, _, lost = compute(
+        model, duration, dt, seed, record, every, trials, sweep, precision, world, progress, workers, batch, device, accuracy
+    )  # fmt: skip
+    if lost is not None:
+        raise lost
+    if "diverged" in data.attrs:
+        warnings.warn(str(data.attrs["diverged"]), RunWarning, stacklevel=2)
+    return data
+
+
+def expected_steps(duration: Any, dt: Any) -> int:
+    """Steps of a run, 0 where it will be refused anyway."""
+    wanted, step = real(duration), real(dt)
+    good = wanted is not None and step is not None and 0 < step < math.inf and 0 <= wanted < math.inf
+    return int(min(wanted / step, 2.0**62)) if good and wanted is not None and step is not None else 0
+
+
+def compute(
+    model: Model,
+    duration: float,
+    dt: float | None = None,
+    seed: int = 0,
+    record: Sequence[str] | str | None = None,
+    every: float | None = None,
+    trials: int | Sequence[int] | None = None,
+    sweep: Mapping[str, Sequence[float]] | None = None,
+    precision: str = "float32",
+    world: World | None = None,
+    progress: Shown = None,
+    workers: int | None = None,
+    batch: int | None = None,
+    device: str | None = None,
+    accuracy: str = "default",
+) -> pieces.Part:
+    """What `simulate` does, for a whole run or a piece of one; if all its copies diverge, the error is returned beside the record."""
     doc = require_model(model).document
     model.require()
     if sweep is not None and not isinstance(sweep, Mapping):
@@ -103,7 +143,7 @@ def simulate(
     if every is not None and gap == 0:
         raise TimeError("every is 0; it is at least one step")
     names, numbers = _trials(trials)
-    points = _Points(doc, sweep or {})
+    points = Points(doc, sweep or {})
     for document in points.documents():
         require_step(document, step)
     ports = _ports(doc, record)
@@ -123,19 +163,21 @@ def simulate(
     if cut.count > 1:
         settings |= {"dt": float(step), "precision": precision, "device": device}
         parts = _in_pieces(model, [settings | own for own in cut.settings(labels, grid)], workers, world, steps, progress)
-        data, complete = pieces.joined(cut, parts, asked), sum(part is not None and part[1] for part in parts)
+        data, complete = pieces.joined(cut, parts, asked), sum(part is not None and part.complete for part in parts)
         if complete < len(parts):
             raise Interrupted(f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data)
-        return data
-    stopped = False
+        errors = [part.lost for part in parts if part is not None]
+        return pieces.Part(data, True, errors[0] if all(error is not None for error in errors) else None)
+    stopped, nothing = False, None
     with stoppable() as check:
         program = executable(model, doc, precision, copies, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
         run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
+        run.tolerant = True
         found = [program.port(i, port) for i, port in ports]
         store = _Store(program, found, copies, count)
         about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)
         try:
-            with _bar(steps, progress) as shown:
+            with bar(steps, progress) as shown:
 
                 def between(done: int) -> None:
                     check()
@@ -144,6 +186,12 @@ def simulate(
                 run.record(steps, found, start, gap, store.collect, between)
         except KeyboardInterrupt:
             stopped = True
+        except NotFinite as error:
+            if len(run.lost) < max(copies.size, 1) or not copies.shape:
+                raise
+            store.fill()
+            nothing = error
+    from deodar.recording.diverged import marked
     from deodar.recording.record import dataset
 
     times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)
@@ -158,9 +206,11 @@ def simulate(
         points.by_path,
         about | {"complete": not stopped},
     )
+    reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in run.lost.items()}
+    data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
     if stopped:
         raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
-    return data
+    return pieces.Part(data, True, nothing)
 
 
 def _in_pieces(
@@ -168,7 +218,7 @@ def _in_pieces(
 ) -> list[pieces.Part | None]:
     """The pieces one after another, or in so many worker processes."""
     parts: list[pieces.Part | None] = [None] * len(jobs)
-    with stoppable() as check, _bar(steps * len(jobs), progress) as shown:
+    with stoppable() as check, bar(steps * len(jobs), progress) as shown:
 
         def between(done: int) -> None:
             check()
@@ -180,15 +230,15 @@ def _in_pieces(
             return workers.run(model, world, jobs, count, between)
         for k, job in enumerate(jobs):
             try:
-                parts[k] = simulate(model, world=world, progress=lambda done, k=k: between(k * steps + done), **job), True
+                parts[k] = compute(model, world=world, progress=lambda done, k=k: between(k * steps + done), **job)
             except Interrupted as error:
-                parts[k] = error.data, False
+                parts[k] = pieces.Part(error.data, False)
                 break
     return parts
 
 
 def _cut(
-    bytes_a_copy: int, trials: Sequence[int] | None, points: _Points, workers: int | None, batch: int | None, device: str | None
+    bytes_a_copy: int, trials: Sequence[int] | None, points: Points, workers: int | None, batch: int | None, device: str | None
 ) -> pieces.Pieces:
     from deodar.runtime.workers import require_workers
 
@@ -199,66 +249,12 @@ def _cut(
     return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, 1 if workers is None else require_workers(workers), batch)
 
 
-class _Points:
-    """The grid of a sweep: which leaves each entry drives, and its value at every point."""
-
-    def __init__(self, doc: Document, sweep: Mapping[str, Sequence[float]]) -> None:
-        self.doc = doc
-        self.paths = list(sweep)
-        self.leaves: list[list[Leaf]] = []
-        lists: list[list[float]] = []
-        for path, values in sweep.items():
-            given = [] if isinstance(values, (str, bytes)) or not np.iterable(values) else list(values)
-            found = [number for number in map(real, given) if number is not None]
-            if not given or len(found) < len(given):
-                raise ParameterError(f"needs a list of numbers, not {show(values)}", where=f"sweep of {path}")
-            self.leaves.append(driven(doc, path))
-            _require_on(doc, path, self.leaves[-1], values)
-            lists.append(found)
-        self.lists = lists
-        self.size = math.prod(len(v) for v in lists)
-
-    @property
-    def values(self) -> list[np.ndarray]:
-        """For each entry its value at every point; made when it is known that they fit into memory."""
-        return [grid.ravel() for grid in np.meshgrid(*(np.array(v) for v in self.lists), indexing="ij")]
-
-    @property
-    def by_path(self) -> dict[str, list[float]]:
-        """For each path the values it takes."""
-        return dict(zip(self.paths, self.lists, strict=True))
-
-    def documents(self) -> Iterator[Document]:
-        """The document at each value of each entry (not each point): values are checked one by one."""
-        for path, values in zip(self.paths, self.lists, strict=True):
-            for value in values:
-                yield edit.change(self.doc, path, value)
-
-    def rebuilt(self) -> set[str]:
-        """Ids of the elements whose constants differ from point to point."""
-        by = self.doc.by_id()
-        costs = {(i, path): cost(p) for i in {i for found in self.leaves for i, _ in found} for path, _, p in leaves(by[i].element)}
-        return {i for found in self.leaves for i, path in found if costs[i, path] == "rebuild"}
-
-
-def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequence[float]) -> None:
-    """Refuse values that switch something off among values that do not: they are not one program."""
-    by = doc.by_id()
-    for ident, inner in driven:
-        declared = {leaf: p for leaf, _, p in leaves(by[ident].element)}[inner]
-        if declared.off and any(v == declared.neutral for v in values):
-            raise ParameterError(
-                f"the value {declared.neutral:g} switches it off, which is another program and not the limit of small values",
-                where=f"sweep of {path}",
-                fix="Run that value on its own",
-            )
-
-
 class _Store:
     """Arrays for everything that is recorded, filled as the run goes on."""
 
     def __init__(self, program: Executable, ports: Sequence[Port], batch: Batch, count: int) -> None:
         self.lead = len(batch.shape)
+        self.count = count
         self.taken = 0
         self.arrays = [np.empty((*batch.shape, count, *shape(program.axes(p))), program.program.dtype) for p in ports]
 
@@ -267,6 +263,12 @@ class _Store:
         for array, part in zip(self.arrays, seen, strict=True):
             array[(slice(None),) * self.lead + (slice(k, k + n),)] = part
         self.taken = k + n
+
+    def fill(self) -> None:
+        """Put NaN everywhere: no copy is left."""
+        for array in self.arrays:
+            array[...] = np.nan
+        self.taken = self.count
 
 
 def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str, str]]:
@@ -306,33 +308,3 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, S
     if not numbers or len(set(numbers)) < len(numbers):
         raise ParameterError(f"trials is {show(trials)}; each trial is named once, and there is at least one")
     return numbers, numbers
-
-
-@contextlib.contextmanager
-def _bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
-    """A progress bar that appears once the run takes longer than SHOW_AFTER."""
-    if callable(progress):
-        yield progress
-        return
-    if progress is False or (progress is None and not sys.stderr.isatty()):
-        yield lambda done: None
-        return
-    import time
-
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    began = time.monotonic()
-    console = Console(stderr=True)
-    columns = (TextColumn("simulating"), BarColumn(), TextColumn("{task.completed}/{task.total} steps"), TimeRemainingColumn())
-    with contextlib.ExitStack() as stack:
-        bar: list[Progress] = []
-
-        def shown(done: int) -> None:
-            if not bar and (progress or time.monotonic() - began > SHOW_AFTER):
-                bar.append(stack.enter_context(Progress(*columns, console=console, transient=True)))
-                bar[0].add_task("", total=steps)
-            if bar:
-                bar[0].update(bar[0].task_ids[0], completed=done)
-
-        yield shown

@@ -10,8 +10,9 @@ import numpy as np
 
 from deodar.compiler.executable import Executable
 from deodar.model.document import Document
+from deodar.runtime.clock import Clock
 from deodar.runtime.exchange import Kept
-from deodar.runtime.run import Clock, Run, host
+from deodar.runtime.run import Run, host
 
 Tree = Any
 Row = Mapping[str, np.ndarray]

@@ -109,7 +109,7 @@ def _mapped(path: str) -> Generator[memoryview]:
 
 def work(job: Job) -> Part:
     """Run one piece."""
-    from deodar.runtime.simulate import simulate
+    from deodar.runtime.simulate import compute
 
     with _mapped(job.board) as board:
 
@@ -119,6 +119,6 @@ def work(job: Job) -> Part:
                 raise KeyboardInterrupt
 
         try:
-            return simulate(job.parcel.model, world=job.parcel.world(), progress=told, **job.settings), True
+            return compute(job.parcel.model, world=job.parcel.world(), progress=told, **job.settings)
         except Interrupted as error:
-            return error.data, False
+            return Part(error.data, False)

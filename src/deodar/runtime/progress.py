@@ -1,0 +1,66 @@
+"""How a run shows its progress: a bar on a terminal, lines elsewhere."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Generator
+
+SHOW_AFTER = 1.0
+"""Seconds after which a run shows a progress bar, if it writes to a terminal."""
+
+LINE_AFTER = 10.0
+"""Seconds after which a run that is asked to shows its progress as a line, where there is no terminal."""
+
+Shown = bool | Callable[[int], None] | None
+"""Whether to show a bar (None: where it makes sense), or what is told how many steps are done."""
+
+
+def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
+    """Progress as lines, for files: at first after LINE_AFTER, then each time after twice as long, so that a day makes about a dozen."""
+    began = now()
+    due = [began + LINE_AFTER]
+
+    def shown(done: int) -> None:
+        if (moment := now()) < due[0] or not done:
+            return
+        left = (moment - began) / done * (steps - done)
+        sys.stderr.write(f"simulating: {done} of {steps} steps after {moment - began:.0f} s, about {left:.0f} s left\n")
+        sys.stderr.flush()
+        due[0] = began + 2 * (moment - began)
+
+    return shown
+
+
+@contextlib.contextmanager
+def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
+    """A progress bar that appears once the run takes longer than SHOW_AFTER."""
+    if callable(progress):
+        yield progress
+        return
+    if progress is False or (progress is None and not sys.stderr.isatty()):
+        yield lambda done: None
+        return
+    import time
+
+    if not sys.stderr.isatty():
+        yield lines(steps, time.monotonic)
+        return
+
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    began = time.monotonic()
+    console = Console(stderr=True)
+    columns = (TextColumn("simulating"), BarColumn(), TextColumn("{task.completed}/{task.total} steps"), TimeRemainingColumn())
+    with contextlib.ExitStack() as stack:
+        bar: list[Progress] = []
+
+        def shown(done: int) -> None:
+            if not bar and (progress or time.monotonic() - began > SHOW_AFTER):
+                bar.append(stack.enter_context(Progress(*columns, console=console, transient=True)))
+                bar[0].add_task("", total=steps)
+            if bar:
+                bar[0].update(bar[0].task_ids[0], completed=done)
+
+        yield shown
