@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -14,9 +16,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.cli import main
+from deodar.cli import _long, main
 from deodar.recording import files
 from deodar.recording.record import about
+from deodar.runtime import simulate
 from deodar.runtime.pace import Pace
 from tests.recording.models import model
 
@@ -171,3 +174,49 @@ def test_what_a_live_run_cannot_do(here: Path, capsys: pytest.CaptureFixture[str
     except SystemExit as end:
         got = int(str(end.code))
     assert got == status and says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("answer", "status"), [("y\n", 0), ("no\n", 1), ("", 1)])
+def test_a_very_long_run_is_asked_about(
+    here: Path, answer: str, status: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Keyboard(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    monkeypatch.setattr(simulate, "LONG_STEPS", 40)
+    monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
+    monkeypatch.setattr(sys, "stdin", Keyboard(answer))
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert main(["run", "small.json", "--duration", "40", "--no-progress", "--out", "out"]) == status
+    told = capsys.readouterr().err
+    assert re.search(r"40 steps of dt = 1 take about \S+ \w+ on this machine", told) and "Begin? [y/N]" in told and "RunWarning" not in told
+    assert (here / "out").is_dir() == (status == 0) and ("not begun" in told) == (status == 1)
+    assert main(["run", "small.json", "--duration", "39", "--out", "shorter"]) == 0
+    assert "on this machine" not in capsys.readouterr().err
+
+
+def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(simulate, "LONG_STEPS", 40)
+    monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
+    monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
+    call = ["run", "small.json", "--duration", "40", "--out", "out"]
+    assert main(call) == 1 and not (here / "out").exists()
+    assert "nobody can be asked" in (told := capsys.readouterr().err) and "--yes" in told
+    assert main([*call, "--yes"]) == 0 and (here / "out").is_dir()
+    assert "steps of dt = 1 take about" in capsys.readouterr().err
+
+
+def test_a_wall_time_in_words() -> None:
+    seconds = [3.2, 90, 7200, 86400 * 3.25, 86400 * 365 * 4000]
+    assert [_long.duration(s) for s in seconds] == ["3 seconds", "1.5 minutes", "2 hours", "3.2 days", "4,000 years"]
+
+
+def test_a_point_of_a_sweep_that_diverges_is_said_once(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = model()
+    made["u"]["activation"] >> made.add(dd.Gain(0.0, name="g")) >> made["u"]
+    dd.save(made, "loop.json")
+    assert main(["run", "loop.json", "--duration", "60", "--sweep", "g.factor=0.1,1e9", "--out", "out"]) == 0
+    told = capsys.readouterr().err
+    assert told.count("1 of 2 copies are NaN") == 1 and told.startswith("deodar run: warning: ") and "RunWarning" not in told
+    assert files.load(here / "out")["diverged"].values.tolist()[0] == ""

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import sys
+from collections.abc import Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar.cli import _live, _options
+from deodar.cli import _live, _long, _options
 
 if TYPE_CHECKING:
     import xarray
@@ -45,6 +47,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)")
     parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write (default: NAME-001, NAME-002, ... here)")
     _options.add_run(parser)
+    _long.add_yes(parser)
     _options.add_world(parser)
     _live.add(parser)
     _options.add_force(parser)
@@ -80,7 +83,7 @@ def _is_record(path: Path) -> bool:
 def _simulate(args: argparse.Namespace) -> int:
     from deodar.errors import Interrupted
     from deodar.importers.opening import load
-    from deodar.runtime.simulate import simulate
+    from deodar.runtime.simulate import expected_steps, simulate
 
     if args.duration is None and args.file.is_file():
         args.wrong("a document needs --duration, for example --duration 500")
@@ -90,14 +93,21 @@ def _simulate(args: argparse.Namespace) -> int:
     for path, value in args.set or ():
         model.set(path, value)
     place = _Place(args, model.name)
+    step = model.document.step if args.dt is None else args.dt
+
+    def simulated(duration: float, progress: bool | None = False) -> xarray.Dataset:
+        return simulate(
+            model, duration, dt=args.dt, seed=args.seed or 0, record=args.record, every=args.every, trials=args.trials,
+            sweep=dict(args.sweep) if args.sweep else None, precision=args.precision or "float32", world=_options.world(args.world),
+            progress=progress, workers=args.workers, device=args.device, accuracy=args.accuracy or "default",
+        )  # fmt: skip
+
     data, stopped = None, ""
     try:
-        data = simulate(
-            model, args.duration or 0.0, dt=args.dt, seed=args.seed or 0, record=args.record, every=args.every, trials=args.trials,
-            sweep=dict(args.sweep) if args.sweep else None, precision=args.precision or "float32", world=_options.world(args.world),
-            progress=False if args.no_progress or args.json else None, workers=args.workers, device=args.device,
-            accuracy=args.accuracy or "default",
-        )  # fmt: skip
+        with _said_here():
+            steps = expected_steps(args.duration or 0.0, step)
+            _long.confirm(args, steps, step, lambda n: simulated(n * step))
+            data = simulated(args.duration or 0.0, False if args.no_progress or args.json else None)
     except Interrupted as error:
         data, stopped = error.data, str(error)
     return _finish(args, place, data, model.document, stopped, None)
@@ -118,10 +128,23 @@ def _repeat(args: argparse.Namespace) -> int:
     place = _Place(args, str(old.attrs.get("title") or "record"))
     stopped = ""
     try:
-        done = repeat(old, simulate, _options.world(args.world), args.trust, False if args.no_progress or args.json else None, args.device)
+        with _said_here():
+            done = repeat(old, simulate, _options.world(args.world), args.trust, False if args.no_progress or args.json else None, args.device)
     except Interrupted as error:
         done, stopped = compare(old, error.data), str(error)
     return _finish(args, place, done.data, provenance.document(about(old)), stopped, done)
+
+
+@contextlib.contextmanager
+def _said_here() -> Generator[None]:
+    """The command line says by itself what `simulate` warns about."""
+    import warnings
+
+    from deodar.errors import RunWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RunWarning)
+        yield
 
 
 class _Place:
@@ -150,6 +173,8 @@ def _finish(args: argparse.Namespace, place: _Place, data: xarray.Dataset, doc: 
         return 1
     out, record = place.write(data, doc)
     good = not stopped and (done is None or done.faithful)
+    if "diverged" in data.attrs:
+        print(f"deodar run: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
         print(json.dumps(_answer(out, record, data, stopped, done), indent=2, ensure_ascii=False))
     told = f"Wrote {_contents(data)} to {_options.shown(out)}"
