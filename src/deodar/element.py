@@ -229,6 +229,10 @@ class Element(Part):
         """The state at t + dt. `noise` holds standard normal deviates over `noise_axes`, or None."""
         return state
 
+    def undefined(self) -> Sequence[str]:
+        """Output ports that show NaN where they have no value yet. Only these may do so in a record."""
+        return ()
+
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         """The new state after a step if its input had been larger by `amount` (over the axes): for hands that reach into a running model.
 

@@ -42,3 +42,21 @@ def test_it_takes_one_number_for_each_axis() -> None:
     model.add(Boost("one", [], 1.0)) >> model.add(SpaceCode([X, Y], name="code"))
     refused(model.require, dd.errors.ModelError, "one axis with 2 samples", "Give it what it takes")
     refused(lambda: SpaceCode([], name="nowhere"), dd.errors.ParameterError, "a peak needs somewhere to stand")
+
+
+@pytest.mark.parametrize("boundary", [None, ["periodic"], ["zero"]])
+def test_a_peak_of_given_integral_and_boundary(boundary: list[str] | None) -> None:
+    code = SpaceCode([RING], 25.0, 3.0, normalized=True, boundary=boundary, name="code")  # type: ignore[arg-type]
+    y = shown(Boost("place", (), 171.0), code)
+    distance = RING.points - 171.0
+    if boundary != ["zero"]:
+        distance = distance - 360 * np.round(distance / 360)
+    plain = np.exp(-0.5 * (distance / 25) ** 2)
+    np.testing.assert_allclose(y, 3 * plain / (plain.sum() * 10), atol=1e-6)
+    assert y.sum() * 10 == pytest.approx(3, rel=1e-5) and (y[0] > 1e-3) == (boundary != ["zero"])
+
+
+def test_boundaries_that_are_too_many_are_a_problem() -> None:
+    model = dd.Model("ends")
+    model.add(Boost("place", (), 1.0)) >> model.add(SpaceCode([X], boundary=["zero", "zero"], name="code"))
+    assert any("boundary has 2 entries for 1 axes" in p.what for p in model.check())

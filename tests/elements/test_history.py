@@ -7,6 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.elements.history import History
+from deodar.errors import NotFinite
 
 X = dd.Axis("x", 0, 3, 4)
 
@@ -31,3 +32,21 @@ def test_the_slots_need_a_name_of_their_own():
     model = dd.Model("names")
     model.connect(model.add(dd.Field("u", [X])), model.add(History("past", [X], dd.Axis("x", 0, 2, 3))))
     assert any("slots are called 'x'" in p.what for p in model.check())
+
+
+def test_empty_slots_may_be_undefined():
+    model = dd.Model("nan")
+    u = model.add(dd.Field("u", [X], tau=10, resting_level=-3))
+    model.connect(u, model.add(History("past", [X], dd.Axis("slot", 0, 2, 3), 2.0, "nan")))
+    past = dd.simulate(model, 8, record=["past.output"])["past.output"].values
+    assert [int(np.isnan(moment).all(axis=1).sum()) for moment in past] == [3, 3, 2, 2, 1, 1, 0, 0, 0]
+    assert not np.isnan(past[:, 0, 0]).all() and not np.isnan(past[-1]).any()
+
+
+def test_what_reads_an_undefined_slot_is_refused_by_name():
+    model = dd.Model("spoilt")
+    u = model.add(dd.Field("u", [X], tau=10, resting_level=-3))
+    past = model.add(History("past", [X], dd.Axis("slot", 0, 2, 3), 2.0, "nan"))
+    u >> past >> dd.Gain(1.0, name="twice")
+    with pytest.raises(NotFinite, match=r"twice\.output became infinite or undefined"):
+        dd.simulate(model, 3, record=["twice.output"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -11,6 +12,7 @@ import jax.numpy as jnp
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.convolution import boundaries
 from deodar.parameters import Live, PerAxis, Recompile
 from deodar.registry import register
 
@@ -22,14 +24,16 @@ class SpaceCode(Coupling):
 
     Equation:
         y(x) = amplitude * exp(-sum_i (x_i - c_i)^2 / (2 sigma_i^2)), c_i = gain_i input_i + offset_i; on a periodic axis the
-        shortest way round, for input of any size.
+        shortest way round, for input of any size. If normalized, divided by its sum over all samples times the grid steps.
 
     Parameters:
         axes: where the peak stands; at least one.
         sigma: width in axis units, one or one for each axis; > 0.
-        amplitude: value at the centre.
+        amplitude: value at the centre; if normalized, the integral.
         gain: axis units per unit of the input, one or one for each axis.
         offset: place of the peak for an input of 0, in axis units, one or one for each axis.
+        normalized: whether the amplitude is the integral.
+        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis; none: the axis decides.
 
     Ports:
         input: one number for one axis; for several an axis with one sample for each of them, in their order.
@@ -45,6 +49,11 @@ class SpaceCode(Coupling):
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the input")] = 1.0
     offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an input of 0")] = 0.0
+    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(default=False, kw_only=True)
+    boundary: Annotated[
+        Sequence[str] | None,
+        Recompile(choices=("periodic", "zero"), meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides"),
+    ] = dc.field(default=None, kw_only=True)
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 
@@ -56,6 +65,8 @@ class SpaceCode(Coupling):
             yield "axes", "is empty; a peak needs somewhere to stand"
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
+            yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes", "Give one for all axes, or one for each"
         arriving, wanted = shape(ins["input"]), len(self.axes)
         if arriving != (wanted,) and not (wanted == 1 and arriving == ()):
             takes = "one number" if wanted == 1 else f"one axis with {wanted} samples"
@@ -63,13 +74,19 @@ class SpaceCode(Coupling):
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         axes, values = tuple(self.axes), jnp.reshape(inputs["input"], (len(self.axes),))
-        every = zip(axes, per_axis(self.sigma, axes), per_axis(self.gain, axes), per_axis(self.offset, axes), strict=True)
+        ends = boundaries(self.boundary, axes)
+        every = zip(axes, ends, per_axis(self.sigma, axes), per_axis(self.gain, axes), per_axis(self.offset, axes), strict=True)
         factors: list[Any] = []
-        for d, (axis, sigma, gain, offset) in enumerate(every):
+        for d, (axis, end, sigma, gain, offset) in enumerate(every):
             distance = at.points(axis) - (gain * values[d] + offset)
-            if axis.periodic:
-                distance = distance - axis.range * jnp.round(distance / axis.range)
-            factors.append(jnp.exp(-0.5 * (distance / sigma) ** 2))
+            if end == "periodic":
+                length = axis.range if axis.periodic else axis.step * axis.samples
+                distance = distance - length * jnp.round(distance / length)
+            factor = jnp.exp(-0.5 * (distance / sigma) ** 2)
+            if self.normalized:  # beyond the ends of a line, or between two samples, a narrow peak may vanish
+                whole = jnp.sum(factor) * axis.step
+                factor = factor / jnp.where(whole > 0, whole, 1.0)
+            factors.append(factor)
         y = self.amplitude * factors[0]
         for factor in factors[1:]:
             # as a product of matrices (the second row adds nothing) it is made once: the compiler would else put the exponentials into

@@ -14,6 +14,8 @@ from deodar.numerics.exact import exact, wide
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
+EMPTY = ("zero", "nan")
+
 
 @register
 @dataclass(frozen=True)
@@ -27,10 +29,11 @@ class History(Element):
         axes: of the input.
         slots: the axis of the moments that are kept, the newest at its lower end; comes first in the output.
         interval: time between two moments that are kept, in the document's time unit; > 0. Shorter than a step: every step.
+        empty: what slots show that no moment has reached yet: `zero`, or `nan` (not a number). What reads `nan` becomes undefined too.
 
     Ports:
         input: over `axes`.
-        output: over `slots`, then `axes`; 0 where nothing has arrived yet.
+        output: over `slots`, then `axes`.
 
     Reference:
         no reference
@@ -40,6 +43,7 @@ class History(Element):
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
     slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = Axis("slot", 0, 9, 10)
     interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="time between two moments that are kept")] = 1.0
+    empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show that no moment has reached yet")] = "zero"
 
     stateful: ClassVar[bool] = True
 
@@ -50,11 +54,19 @@ class History(Element):
         if self.slots.name in [a.name for a in self.axes]:
             yield f"the slots are called {self.slots.name!r} like an axis of the input", "Give the axis of the slots another name"
 
+    def undefined(self) -> Sequence[str]:
+        return ("output",) if self.empty == "nan" else ()
+
     def init(self, at: Setting) -> Arrays:
-        return {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}
+        state = {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}
+        return state | ({"count": at.full((), 0.0)} if self.empty == "nan" else {})
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        return {"output": jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)}
+        kept = jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)
+        if self.empty == "nan":  # the state itself stays finite
+            there = jnp.arange(self.slots.samples) < state["count"]
+            kept = jnp.where(there.reshape(-1, *(1 for _ in self.axes)), kept, jnp.nan)
+        return {"output": kept}
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         # a ring whose newest place moves: one row is written in a step, however many there are
@@ -64,4 +76,7 @@ class History(Element):
             due = jnp.abs(coming - interval * jnp.round(coming / interval)) < 0.5 * time.wide_dt
         newest = jnp.where(due, jnp.mod(newest - 1, self.slots.samples), newest)
         place = newest.astype(int)
-        return {"kept": kept.at[place].set(jnp.where(due, inputs["input"], kept[place])), "newest": newest}
+        new = {"kept": kept.at[place].set(jnp.where(due, inputs["input"], kept[place])), "newest": newest}
+        if self.empty == "nan":
+            new["count"] = jnp.minimum(state["count"] + due, self.slots.samples)
+        return new

@@ -294,10 +294,16 @@ class Run:
         """Refuse records that are not finite although all states are: a coupling's output may be."""
         lead = len(self.program.batch.shape)
         for port, values in zip(ports, kept, strict=True):
-            if not np.isfinite(values).all():
-                spoilt = np.asarray(~np.isfinite(values).reshape(*values.shape[: lead + 1], -1).all(-1))
+            good = np.isfinite(values)
+            if good.all():
+                continue
+            node = self.program.plan.groups[port.group].nodes[port.row or 0]
+            if port.name in node.element.undefined():
+                good |= np.isnan(values)
+            if not good.all():
+                spoilt = np.asarray(~good.reshape(*values.shape[: lead + 1], -1).all(-1))
                 end = self.clock.tick - (values.shape[lead] - 1) * every
-                name = f"{self._path(self.program.plan.groups[port.group].nodes[port.row or 0])}.{port.name}"
+                name = f"{self._path(node)}.{port.name}"
 
                 def error(when: np.ndarray, name: str = name, end: int = end) -> NotFinite:
                     return not_finite([name], dc.replace(self.clock, tick=end + int(np.argmax(when)) * every), self.doc.time_unit)

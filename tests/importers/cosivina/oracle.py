@@ -48,6 +48,7 @@ class Sim:
         self.elements, self.dt, self.t = elements, dt, t0
         self.out = {}
         self.memory = {}
+        self.sizes = {label: p.get("size", (1, 1)) for label, _, p, _ in elements}
         for label, kind, p, inputs in elements:
             self.out[label] = self.begin(label, kind, p, inputs)
 
@@ -77,7 +78,20 @@ class Sim:
             case "WeightMatrix":
                 return {"output": np.zeros((1, size[1]))}
             case "RunningHistory":
-                return {"output": np.zeros((p["timeSlots"], size[1]))}
+                return {"output": np.full((p["timeSlots"], size[1]), np.nan)}
+            case "History":
+                count = len(p["storingTimes"])
+                return {"output": np.full((count, size[1]) if size[0] == 1 else (*size, count), np.nan)}
+            case "DynamicVariable":
+                return {"state": np.broadcast_to(np.array(p["initialState"], float), size)}
+            case "CustomStimulusSequence":
+                return {"output": np.zeros(p["stimulusSize"])}
+            case "ScalarToGaussian":  # cosivina leaves the place empty, which nothing can be computed with
+                return {"output": np.zeros(size), "position": np.zeros((1, 1))}
+            case "HebbianConnection":
+                pre, post = (self.sizes[name] for name, _ in inputs[:2])
+                self.memory[label] = np.zeros((np.prod(pre), np.prod(post)))
+                return {"output": np.zeros(post)}
             case "MemoryTrace":
                 return {"output": np.zeros(size), "activeRegions": np.zeros(size)}
             case "DiagonalSum":
@@ -191,6 +205,32 @@ class Sim:
             case "RunningHistory":
                 if t % p["interval"] == 0:
                     return {"output": np.vstack([x[0], o["output"][:-1]])}
+            case "History":
+                y = o["output"].copy()
+                for k, moment in enumerate(p["storingTimes"]):
+                    if moment == t:
+                        y[(k, slice(None)) if p["size"][0] == 1 else (..., k)] = x[0][0] if p["size"][0] == 1 else x[0]
+                return {"output": y}
+            case "DynamicVariable":
+                return {"state": o["state"] + dt / p["tau"] * sum(x)}
+            case "CustomStimulusSequence":
+                begun = [k for k, start in enumerate(p["startTimes"]) if start <= t]
+                patterns = np.array(p["stimulusPatterns"], float)
+                if not begun:
+                    return {"output": np.zeros(p["stimulusSize"])}
+                return {"output": patterns[begun[-1]][None] if patterns.ndim == 2 else patterns[:, :, begun[-1]]}
+            case "ScalarToGaussian":
+                n, place = p["size"][1], p["inputScale"] * x[0].item() + p["inputOffset"]
+                y = gauss(np.arange(1, n + 1) - place, p["sigma"], n if p["circular"] else None)[None]
+                y = y / y.sum() if p["normalized"] and y.sum() > 0 else y
+                return {"output": p["amplitude"] * y, "position": np.full((1, 1), place)}
+            case "HebbianConnection":
+                w, pre, post = self.memory[label], np.ravel(x[0]), np.ravel(x[1])
+                rewarded = len(x) < 3 or x[2].item() > 0.9
+                if rewarded:
+                    change = (pre[:, None] - w) * post[None, :]  # the default, which cosivina does not call instar
+                    self.memory[label] = w + dt * p["learningRate"] * change
+                return {"output": (pre @ w).reshape(x[1].shape)}
             case "DiagonalSum":
                 n = p["inputSize"][0]
                 y = [sum(x[0][i, k - i] for i in range(n) if 0 <= k - i < n) for k in range(2 * n - 1)]

@@ -27,6 +27,7 @@ DOG = {"amplitudeExc": 1.3, "amplitudeInh": 0.7, "normalized": 1, "cutoffFactor"
 DOG_1D = {**DOG, "size": ROW, "sigmaExc": 1.2, "sigmaInh": 2.7}
 DOG_2D = {**DOG, "size": PLANE, "sigmaExcX": 1.2, "sigmaExcY": 0.7, "sigmaInhX": 2.7, "sigmaInhY": 1.9, "circularX": 1, "circularY": 0}
 FFT = {"amplitudeExc": 1.3, "amplitudeInh": 0.7, "amplitudeGlobal": -0.02, "normalized": 1, "paddingFactor": 5}
+CODE = {"size": ROW, "inputScale": 30.0, "inputOffset": -1.5, "sigma": 1.3, "amplitude": 2.0}
 BELL = {"size": ROW, "sigma": 1.7, "amplitude": 2.0, "position": 11.3, "circular": 1, "normalized": 0}
 BELL_2D = {"size": PLANE, "sigmaX": 1.7, "sigmaY": 2.0, "amplitude": 2.0, "positionX": 11.3, "positionY": 2, "circularX": 1, "circularY": 0}
 U, V, W = ("u", "output"), ("v", "output"), ("w", "output")
@@ -89,7 +90,30 @@ CASES = {
     "gated learning": ("AdaptiveWeightMatrix", {"size": [N, M], "learningRate": 0.5}, [U, ("w", "output"), ("n", "output")], [1, M]),
     "trace": ("MemoryTrace", {"size": ROW, "tauBuild": 5, "tauDecay": 20, "threshold": 0.3}, [U], ROW),
     "where the trace grows": ("MemoryTrace", {"size": ROW, "tauBuild": 5, "tauDecay": 20, "threshold": 0.3}, [U], ROW, "activeRegions"),
-    "history": ("RunningHistory", {"size": ROW, "timeSlots": 4, "interval": 3}, [U], [4, N]),
+    "variable": ("DynamicVariable", {"size": ROW, "tau": 7, "initialState": 0.3}, [U, ("half", "output")], ROW, "state"),
+    "variable from a pattern": (
+        "DynamicVariable",
+        {"size": ROW, "tau": -4, "initialState": np.linspace(-0.5, 0.5, N)[None].tolist()},
+        [("bell", "output")],
+        ROW,
+        "state",
+    ),
+    "number to peak": ("ScalarToGaussian", {**CODE, "circular": 1, "normalized": 0}, [("n", "output")], ROW),
+    "number to peak on a line": ("ScalarToGaussian", {**CODE, "circular": 0, "normalized": 0}, [("n", "activation")], ROW),
+    "number to peak of its integral": ("ScalarToGaussian", {**CODE, "circular": 0, "normalized": 1}, [("n", "activation")], ROW),
+    "number to peak, its place": ("ScalarToGaussian", {**CODE, "circular": 1, "normalized": 1}, [("n", "output")], ONE, "position"),
+    "sequence": (
+        "CustomStimulusSequence",
+        {"stimulusSize": ROW, "stimulusPatterns": RANDOM.normal(size=(4, N)).tolist(), "startTimes": [3.4, 6, 6, 11]},
+        [],
+        ROW,
+    ),
+    "sequence from the start": (
+        "CustomStimulusSequence",
+        {"stimulusSize": ROW, "stimulusPatterns": RANDOM.normal(size=(3, N)).tolist(), "startTimes": [-5, 0, 7]},
+        [],
+        ROW,
+    ),
     "diagonal sum": ("DiagonalSum", {"inputSize": [N, N], "amplitude": 0.4}, [("square plane", "output")], [1, 2 * N - 1]),
     "diagonal expansion": ("DiagonalExpansion", {"inputSize": [1, 2 * N - 1], "amplitude": 1}, [("long", "output")], [N, N]),
     "shift": ("ShiftInput", {"size": ROW, "shiftValue": [0, 3], "amplitude": 1, "circular": 0, "fillValue": 0}, [U], ROW),
@@ -181,7 +205,15 @@ def _plain(times):
 def test_the_cases_cover_what_is_translated():
     there = {kind for kind, *_ in CASES.values()} | {"NormalNoise"}
     further = {"GaussKernel3D", "GaussStimulus3D", "MexicanHatKernel3D", "LateralInteractions3D", "LateralInteractionsShifted1D"}
-    further |= {"LateralInteractionsDiscrete", "KernelInverseFFT", "FastFourierTransform", "ExpandDimension"}
+    further |= {
+        "RunningHistory",
+        "History",
+        "HebbianConnection",
+        "LateralInteractionsDiscrete",
+        "KernelInverseFFT",
+        "FastFourierTransform",
+        "ExpandDimension",
+    }
     assert set(CLASSES) == there | further
 
 
@@ -194,7 +226,7 @@ def test_noise_has_the_strength_of_cosivina(tmp_path):
     assert s.read("u.activation").std() == pytest.approx(3 * 2 / 10, rel=0.05)
 
 
-@pytest.mark.parametrize("kind", ["CameraGrabber", "HebbianConnection", "MobileRobotArena", "Interpolation1D", "GausKernel1D"])
+@pytest.mark.parametrize("kind", ["CameraGrabber", "AttractorDynamics", "MobileRobotArena", "Interpolation1D", "GausKernel1D"])
 def test_what_is_missing_keeps_its_place(kind, tmp_path):
     parts = [
         element("u", "NeuralField", {**FIELD, "size": ROW}, [("it", "output")]),
@@ -227,5 +259,6 @@ def test_every_class_of_cosivina_is_translated_or_says_what_is_missing(tmp_path)
     for kind in MISSING:
         assert verdicts[kind] == ("dropped", f"Placeholder: {MISSING[kind]}")
     lost = {kind for kind in CLASSES if verdicts[kind][0] != "carried"}
-    assert lost == {"CustomStimulus", "TimedCustomStimulus", "WeightMatrix"}  # a pattern or weights must be given
+    given = {"CustomStimulus", "TimedCustomStimulus", "CustomStimulusSequence", "WeightMatrix", "History"}  # patterns, weights, times must be
+    assert lost == given | {"ScalarToGaussian", "HebbianConnection"}  # no peak on one sample; learning needs two inputs
     dd.simulate(done.model, 3, every=3)

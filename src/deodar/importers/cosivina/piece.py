@@ -106,6 +106,11 @@ class Bench:
             return None
         s = self.element.sources[k]
         found = self.simulator.by_label.get(s.label)
+        passed: set[str] = set()
+        while found is not None and found.kind == "HebbianConnection" and len(found.sources) > 1 and found.label not in passed:
+            passed.add(found.label)  # its size is that of its second input, and not in the file
+            s = found.sources[1]
+            found = self.simulator.by_label.get(s.label)
         return None if found is None else self._dims.of(output_size(found, s.component))
 
     def named(self, what: str) -> str:

@@ -49,8 +49,9 @@ def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:
         case "DiagonalExpansion", _:
             side = (size(e.values.get("inputSize"))[-1] + 1) // 2
             return (side, side)
-        case "RunningHistory", _:
-            slots = size(e.values.get("timeSlots"))[-1]
+        case "RunningHistory" | "History", _:
+            times = array(e.values.get("storingTimes"))
+            slots = size(e.values.get("timeSlots"))[-1] if e.kind == "RunningHistory" else times.size if times is not None else 1
             return (slots, columns) if rows == 1 else (*own, slots)
         case _:
             given = next((e.values[key] for key in (*SIZES[:1], *SIZES[2:]) if key in e.values), None)

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.field import Field
 from deodar.elements.history import History
+from deodar.elements.integrator import Integrator
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.rate_node import RateNode
+from deodar.elements.sampled_history import SampledHistory
 from deodar.importers.cosivina.components import PHASE_PLOT
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, axes
+from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
 from deodar.importers.cosivina.sizes import Dims
 from deodar.model.paths import display
-from deodar.numerics.axes import Axis
+from deodar.numerics.axes import Axis, shape
 from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.windows import FOR_EVER
 
 STEEPEST = 1e6
+
+MOST_COUNTED = 1_000_000
+"""Steps up to which cosivina's own counting of time is followed, with its rounding."""
 
 
 def neural_field(b: Bench) -> Piece:
@@ -68,19 +78,84 @@ def memory_trace(b: Bench) -> Piece:
     return Piece([trace], [[Inlet(b.label, dims)]], outlets, needs=1, why="MemoryTrace")
 
 
+def dynamic_variable(b: Bench) -> Piece:
+    """DynamicVariable, a pure integrator."""
+    b.values.size()
+    dims = b.dims()
+    tau = b.values.number("tau", 10)
+    if tau == 0:
+        tau = 10.0
+        b.values.say("tau", "approximated", "it is 0; cosivina's default 10 is taken")
+    elif "tau" in b.element.values and b.values.lines["tau"].verdict == "carried":
+        b.values.say("tau", "carried", "as the rate 1 / tau")
+    given = b.values.matrix("initialState")
+    if given is not None and given.size not in (1, math.prod(shape(axes(dims)))):
+        raise Unfit("its initialState is not of its size")
+    level = given is not None and len({float(v) for v in given.reshape(-1)}) == 1
+    initial = float(given.reshape(-1)[0]) if given is not None and level else 0.0
+    start = given.reshape(shape(axes(dims))) if given is not None and not level else None
+    element = Integrator(b.label, axes(dims), 1 / tau, initial, start)
+    outlets = {"state": Outlet(b.label, dims, state=True)}
+    elsewhere = {"initialState": f"the parameter {display((b.label, 'initial' if start is None else 'start'))}"}
+    return Piece([element], [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Integrator")
+
+
 def running_history(b: Bench) -> Piece:
     """RunningHistory: the newest row first."""
-    own = b.values.size()
-    dims = b.of(own)
-    count = int(b.values.number("timeSlots", 1, 1, 100_000))
+    dims = b.of(b.values.size())
+    slots, shown = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
+    history = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6), _empty(b))
+    return _stored(b, history, dims, shown)
+
+
+def history(b: Bench) -> Piece:
+    """History: a row for each moment that is listed."""
+    dims = b.of(b.values.size())
+    given = b.values.matrix("storingTimes")
+    if given is None:
+        raise Unfit("it lists no times at which to store")
+    times = given.reshape(-1)
+    slots, shown = _slots(b, dims, times.size)
+    return _stored(b, SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b)), dims, shown)
+
+
+def _moments(b: Bench, times: np.ndarray) -> np.ndarray:
+    """The moments at which cosivina stores: those that a step reaches. The others are moved to where no run comes."""
+    start, step = b.simulator.start, b.step
+    ticks = np.round((times - start) / step)
+    reached = (ticks >= 1) & (abs((times - start) / step - ticks) <= 1e-6)
+    if reached.any() and ticks[reached].max() <= MOST_COUNTED:
+        counted = np.add.accumulate([start, *[step] * int(ticks[reached].max())])  # as cosivina counts, with the same rounding
+        exact = np.isin(times, counted)
+        missed = int((reached & ~exact).sum())
+        if missed and b.bug(f"History compares times exactly, and misses {missed} of {times.size} by rounding"):
+            reached = reached & exact
+    lost = times.size - int(reached.sum())
+    if lost:
+        b.values.say("storingTimes", "carried", f"no step ends at {lost} of {times.size} of them; their rows stay empty, as in cosivina")
+    return np.where(reached, start + ticks * step, FOR_EVER)
+
+
+def _slots(b: Bench, dims: Dims, count: int) -> tuple[Axis, Dims]:
+    """The axis of what is stored, and the dimensions of the whole as cosivina has them."""
     kept = b.dims()
     slots = Axis("slot", 0, max(count - 1, 1), count, periodic=count == 1)
     if b.asked:  # who reads it takes the moments for rows
         slots = kept[0 if dims[0] is None else -1] or slots
-    history = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6))
-    shown: Dims = kept if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
-    why = "History; moments that have not come yet are 0, where cosivina has NaN"
-    return Piece([history], [[Inlet(b.label, dims)]], {"output": Outlet(b.label, shown, state=True)}, needs=1, why=why)
+    return slots, kept if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
+
+
+def _empty(b: Bench) -> str:
+    """What cosivina shows where nothing is stored yet; where elements read it, it would make them undefined for ever."""
+    return "zero" if b.asked else "nan"
+
+
+def _stored(b: Bench, element: History | SampledHistory, dims: Dims, shown: Dims) -> Piece:
+    why = type(element).__name__
+    if b.asked:
+        why += "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them undefined for ever"
+    outlets = {"output": Outlet(b.label, shown, state=True)}
+    return Piece([element], [[Inlet(b.label, dims)]], outlets, needs=1, verdict="approximated" if b.asked else "carried", why=why)
 
 
 def _tau(b: Bench, name: str, default: float) -> float:
@@ -95,4 +170,11 @@ def _per_step(b: Bench, name: str, default: float) -> float:
     return max(value * b.step, 1e-6)
 
 
-CLASSES = {"NeuralField": neural_field, "SingleNodeDynamics": single_node, "MemoryTrace": memory_trace, "RunningHistory": running_history}
+CLASSES = {
+    "NeuralField": neural_field,
+    "SingleNodeDynamics": single_node,
+    "DynamicVariable": dynamic_variable,
+    "MemoryTrace": memory_trace,
+    "RunningHistory": running_history,
+    "History": history,
+}

@@ -13,16 +13,11 @@ MISSING = {
     "CameraGrabber": "reads a camera",
     "ColorExtraction": "counts colours in the columns of an image",
     "Convolution": "convolves its two inputs with each other",
-    "CustomStimulusSequence": "shows one stored pattern after the other",
     "DynamicRobotController": "drives an e-puck robot",
-    "DynamicVariable": "integrates its input",
-    "HebbianConnection": "learns connections between fields; most of its parameters are not in the file",
-    "History": "stores its input at listed times",
     "ImageLoader": "reads images from files",
     "Interpolation1D": "samples its input anew at given points",
     "LFP": "records the mean input of a field",
     "MobileRobotArena": "simulates a vehicle among targets",
-    "ScalarToGaussian": "turns a number into a peak",
 }
 """What classes would do that are not translated."""
 

@@ -6,16 +6,21 @@ import math
 
 import numpy as np
 
+from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
+from deodar.couplings.space_code import SpaceCode
 from deodar.couplings.sum import Sum
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.gaussian_stimulus import GaussianStimulus
 from deodar.elements.noise import Noise
 from deodar.elements.pattern import Pattern
+from deodar.elements.time_series import TimeSeries
+from deodar.importers.cosivina.file import empty
 from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
 from deodar.importers.cosivina.sizes import Dims
 from deodar.importers.cosivina.values import ticks
+from deodar.model.paths import display
 from deodar.numerics.axes import shape
 from deodar.numerics.windows import FOR_EVER, Window
 
@@ -97,6 +102,60 @@ def custom_stimulus(b: Bench) -> Piece:
     return Piece([element], [], {"output": Outlet(b.label, dims, still=not timed)}, why="Pattern")
 
 
+def sequence(b: Bench) -> Piece:
+    """CustomStimulusSequence: one pattern after the other, nothing before the first."""
+    given = b.values.matrix("stimulusPatterns")
+    if given is None or given.ndim > 3:
+        raise Unfit("its stimulusPatterns are no patterns")
+    patterns = np.moveaxis(given, -1, 0) if given.ndim == 3 else given.reshape(1, -1) if given.ndim < 2 else given
+    own = (1, patterns.shape[1]) if patterns.ndim == 2 else patterns.shape[1:]
+    if "stimulusSize" in b.element.values and b.values.size("stimulusSize") != own:
+        raise Unfit(f"its patterns have the size {list(own)}, which is not its stimulusSize")
+    if patterns.ndim == 3 and b.bug("CustomStimulusSequence forgets, when it is read from a file, that its patterns are planes"):
+        raise Unfit("cosivina cannot show patterns that are planes after it has read them from a file")
+    starts = b.values.matrix("startTimes")
+    if starts is None and not empty(b.element.values.get("startTimes")):
+        raise Unfit("its startTimes are no times")
+    times = np.arange(1.0, len(patterns) + 1) if starts is None else starts.reshape(-1)
+    if times.size != len(patterns) or (np.diff(times) < 0).any():
+        raise Unfit(f"its startTimes are not {len(patterns)} rising numbers")
+    dims = b.of(own)
+    rows = {
+        max(first, 1): pattern for t, pattern in zip(times, patterns, strict=True) for first, _ in ticks([(t, math.inf)], b.simulator.start, b.step)
+    }
+    if not rows or min(rows) > 1:
+        rows[min(rows, default=2) - 1] = np.zeros(patterns.shape[1:])
+    order = sorted(rows)
+    if "startTimes" in b.element.values:
+        b.values.say("startTimes", "carried", "moved by one step, since cosivina counts the time before it computes")
+    moments = [b.simulator.start + (tick - 1) * b.step for tick in order]
+    values = np.stack([rows[tick] for tick in order]).reshape(len(order), *shape(axes(dims)))
+    element = TimeSeries(b.label, axes(dims), moments, values, interpolation="hold")
+    return Piece([element], [], {"output": Outlet(b.label, dims)}, why="TimeSeries")
+
+
+def scalar_to_gaussian(b: Bench) -> Piece:
+    """ScalarToGaussian: a peak at the place that a number names."""
+    columns = b.values.size()[1]
+    dims = b.of((1, columns))
+    if columns == 1:
+        raise Unfit("a peak needs more than one sample")
+    sigma, amplitude = b.values.width("sigma"), b.values.number("amplitude", 0)
+    gain, offset = b.values.number("inputScale", 1), b.values.number("inputOffset", 0)
+    ends = boundary(dims, ["periodic" if b.values.flag("circular", True) else "zero"])
+    code = SpaceCode(axes(dims), sigma, amplitude, gain, offset, normalized=b.values.flag("normalized", False), boundary=ends, name=b.label)
+    elements, inlets, inner = list[Element]([code]), [Inlet(b.label, (None, None), whole=True)], list[tuple[str, ...]]()
+    outlets = {"output": Outlet(b.label, dims)}
+    elsewhere = {"position": f"its input times the parameter {display((b.label, 'gain'))} plus {display((b.label, 'offset'))}"}
+    if "position" in b.asked:
+        place, scaled, moved = b.named("position"), b.named("scaled"), b.named("offset")
+        elements += [Sum(name=place), Gain(gain, name=scaled), Boost(moved, (), offset)]
+        inlets.append(Inlet(scaled, (None, None), whole=True))
+        inner += [(scaled, place), (moved, place)]
+        outlets["position"] = Outlet(place, (None, None))
+    return Piece(elements, [inlets], outlets, inner, elsewhere=elsewhere, needs=1, why="SpaceCode")
+
+
 def timed_switch(b: Bench) -> Piece:
     """TimedSwitch: a product with a factor that is 1 while the switch is on."""
     b.values.size()
@@ -148,6 +207,8 @@ CLASSES = {
     "TimedBoost": timed_boost,
     "CustomStimulus": custom_stimulus,
     "TimedCustomStimulus": custom_stimulus,
+    "CustomStimulusSequence": sequence,
+    "ScalarToGaussian": scalar_to_gaussian,
     "TimedSwitch": timed_switch,
     "NormalNoise": noise,
 }

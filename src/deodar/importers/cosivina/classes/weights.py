@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from deodar.couplings.adaptive_weights import AdaptiveWeights
+from deodar.couplings.hebbian import Hebbian
+from deodar.couplings.reward_gate import RewardGate
 from deodar.couplings.weights import Weights
+from deodar.element import Element
+from deodar.importers.cosivina.file import empty
 from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers.cosivina.values import LARGEST
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 
@@ -41,4 +48,73 @@ def adaptive_weight_matrix(b: Bench) -> Piece:
     return Piece([element], inlets, {"output": Outlet(b.label, dims)}, elsewhere=elsewhere, needs=1, why=why)
 
 
-CLASSES = {"WeightMatrix": weight_matrix, "AdaptiveWeightMatrix": adaptive_weight_matrix}
+REWARDED = 0.9
+"""What a reward must exceed in cosivina."""
+
+
+def hebbian(b: Bench) -> Piece:
+    """HebbianConnection. Its files hold two of its parameters at most; the others are cosivina's defaults, each of them named.
+
+    cosivina calls `instar` what moves weights from active sources towards the target, and the other rule where it is 0.
+    """
+    came, dims = b.source(0), b.source(1)
+    if came is None or dims is None:
+        raise Unfit("it learns between two inputs, which are not both there")
+    if "size" in b.element.values:
+        b.values.say("size", "carried", "it follows from the inputs")
+    rate, tau, decay = (_default(b, name, value) for name, value in (("learningRate", 0.1), ("tau", 1.0), ("tauDecay", 1.0)))
+    if tau != decay:
+        b.values.say("tauDecay", "approximated", f"it is {decay:g}; weights to silent places change with tau = {tau:g} as well")
+    rule = "outstar" if _default(b, "instar", 0.0) else "instar"
+    if str(b.element.values.get("biDirectional", "FALSE")) == "TRUE":
+        b.values.say("biDirectional", "dropped", "reverse_output is not given")
+    else:
+        _default(b, "biDirectional", "FALSE")
+    manual = next((name for name in ("manualWeights", "weightsParameters") if not empty(b.element.values.get(name))), "")
+    if manual:
+        b.values.say(manual, "dropped", "weights begin at 0")
+    else:
+        b.values.say("manualWeights", "approximated", "it is not in the file; weights begin at 0, cosivina's default")
+    gated = len(b.element.sources) > 2
+    duration = _duration(b, gated)
+    element = Hebbian(axes(dims), rule, max(rate / tau, 0.0), threshold=0.0, gated=gated, name=b.label)
+    inlets, elements, inner = [[Inlet(b.label, came, whole=True)], [Inlet(b.label, dims, "post")]], list[Element]([element]), list[tuple[str, ...]]()
+    if gated:
+        gate = RewardGate(REWARDED, duration, name=b.named("reward"))
+        elements.append(gate)
+        inner.append((gate.name, b.label, "gate"))
+        inlets.append([Inlet(gate.name, (None, None), whole=True)])
+    elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
+    why = "Hebbian, with defaults for what is not in the file; input that is not above 0 counts as 0"
+    return Piece(elements, inlets, {"output": Outlet(b.label, dims)}, inner, elsewhere=elsewhere, needs=2, verdict="approximated", why=why)
+
+
+T = TypeVar("T", float, str)
+
+
+def _default(b: Bench, name: str, value: T) -> T:
+    """A parameter of the file, or cosivina's default, which the report then names."""
+    if name not in b.element.values:
+        b.values.say(name, "approximated", f"it is not in the file; cosivina's default {value} is taken")
+        return value
+    if isinstance(value, str):
+        b.values.say(name)
+        return value
+    lower = 1e-6 if name.startswith("tau") else -LARGEST
+    return b.values.number(name, value, lower)
+
+
+def _duration(b: Bench, gated: bool) -> float:
+    """How long a reward opens learning; 0: as long as it lasts."""
+    if "rewardDuration" not in b.element.values:
+        b.values.say("rewardDuration", "approximated", "it is not in the file; cosivina's default [-1, -1] is taken, no fixed duration")
+        return 0.0
+    delay, duration = b.values.numbers("rewardDuration", [-1.0, -1.0], 2)
+    if not gated or delay == -1 or duration == -1:
+        return 0.0
+    if delay:
+        b.values.say("rewardDuration", "approximated", f"learning begins with the reward, without the delay of {delay:g}")
+    return max(duration, 0.0)
+
+
+CLASSES = {"WeightMatrix": weight_matrix, "AdaptiveWeightMatrix": adaptive_weight_matrix, "HebbianConnection": hebbian}

@@ -1,0 +1,68 @@
+"""A variable that integrates its input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.registry import register
+
+
+@register
+@dataclass(frozen=True)
+class Integrator(Element):
+    """A variable whose rate of change is its input: a heading, a count, the position of something that moves.
+
+    It has no attractor of its own: without input it keeps its value, and input that does not end lets it grow without bound.
+
+    Equation:
+        dx/dt = rate input(t), x(0) = initial; Euler step: x(t + dt) = x(t) + dt rate input(t)
+
+    Parameters:
+        axes: axes of the variable; none: one number.
+        rate: factor of the input, per unit of the document's time; the inverse of a time constant.
+        initial: x at the start, everywhere.
+        start: x at the start, one value for each sample, in place of `initial`.
+
+    Ports:
+        input: over `axes`.
+        output: x, over `axes`.
+
+    Shapes:
+        start: the samples of `axes`, in their order.
+
+    Reference:
+        no reference
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the variable")] = ()
+    rate: Annotated[float, Live("1/time", meaning="factor of the input")] = 0.1
+    initial: Annotated[float, Live(meaning="value at the start")] = 0.0
+    start: Annotated[ArrayLike | None, Rebuild(meaning="value at the start, for each sample")] = None
+
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        needed = shape(self.axes)
+        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
+            yield f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples", "Give values of that shape"
+
+    def init(self, at: Setting) -> Arrays:
+        return {"x": at.full(tuple(self.axes), self.initial) if self.start is None else at.array(self.start)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"output": state["x"]}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        return {"x": state["x"] + time.dt * self.rate * inputs["input"]}
+
+    def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+        return {"x": state["x"] + dt * self.rate * amount}

@@ -1,0 +1,87 @@
+"""What arrived at given moments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.exact import exact, wide
+from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
+from deodar.registry import register
+
+EMPTY = ("zero", "nan")
+
+
+@register
+@dataclass(frozen=True)
+class SampledHistory(Element):
+    """Its input at given moments, each stored once and kept. `History` keeps the recent past instead.
+
+    Equation:
+        y(k) = input(times_k) from the moment times_k on; before that `empty`
+
+    Parameters:
+        axes: of the input.
+        slots: the axis of the moments, one sample for each; comes first in the output.
+        times: the moments, in the document's time unit. A moment between two steps counts for the nearer one; the start of a run is not stored.
+        empty: what slots show before their moment: `zero`, or `nan` (not a number). What reads `nan` becomes undefined too.
+
+    Ports:
+        input: over `axes`.
+        output: over `slots`, then `axes`.
+
+    Shapes:
+        times: one moment for each sample of `slots`.
+
+    Reference:
+        no reference
+    """
+
+    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
+    slots: Annotated[Axis, Recompile(meaning="the moments")] = Axis("slot", 0, 2, 3)
+    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray([1.0, 5.0, 10.0])
+    empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show before their moment")] = "zero"
+
+    stateful: ClassVar[bool] = True
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": (self.slots, *self.axes)}
+
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        if self.slots.name in [a.name for a in self.axes]:
+            yield f"the slots are called {self.slots.name!r} like an axis of the input", "Give the axis of the slots another name"
+        given = self.times.shape if isinstance(self.times, FrozenArray) else ()
+        if given != (self.slots.samples,):
+            yield f"times has shape {list(given)}, the axis of the slots has {self.slots.samples} samples", "Give one moment for each sample"
+
+    def undefined(self) -> Sequence[str]:
+        return ("output",) if self.empty == "nan" else ()
+
+    def prepare(self, at: Setting) -> Any:
+        return {"times": at.exact(self.times)}
+
+    def init(self, at: Setting) -> Arrays:
+        return {"kept": at.full((self.slots, *self.axes), 0.0), "stored": at.full((self.slots,), 0.0)}
+
+    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        kept = state["kept"]
+        return {"output": jnp.where(self._each(state["stored"]) > 0, kept, jnp.nan) if self.empty == "nan" else kept}
+
+    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+        with exact():
+            late, half = time.wide + time.wide_dt - wide(constants["times"]), 0.5 * time.wide_dt
+            due = (late >= -half) & (late < half)
+        return {
+            "kept": jnp.where(self._each(due), inputs["input"], state["kept"]),
+            "stored": jnp.maximum(state["stored"], due.astype(at.dtype)),
+        }
+
+    def _each(self, values: Any) -> Any:
+        """Values of the slots, to be spread over the axes."""
+        return values.reshape(-1, *(1 for _ in self.axes))
