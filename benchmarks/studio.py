@@ -16,6 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import websockets
 
@@ -53,7 +54,8 @@ async def settle(socket: Any, seconds: float, watching: bool) -> dict[str, Any]:
 
 async def compare(address: str) -> tuple[float, float]:
     """Free steps a second, and the median slowdown in percent, in alternation."""
-    async with websockets.connect(address.replace("http", "ws") + "ws", max_size=None) as socket:
+    there = urlsplit(address)
+    async with websockets.connect(f"ws://{there.netloc}/ws?{there.query}", max_size=None) as socket:
         document = None
         while document is None or not document["elements"]:
             message = json.loads(await socket.recv())

@@ -14,6 +14,12 @@ interface Stream {
   frame?: Frame;
 }
 
+/** Where the socket of a studio is, with the token of the address that it printed. */
+export function socketOf(url: string): string {
+  const there = new URL(url);
+  return new URL(`/ws${there.search}`, there).href.replace(/^http/, "ws");
+}
+
 export class Observer {
   document: DocumentView | null = null;
   clock: Clock | undefined;
@@ -43,7 +49,7 @@ export class Observer {
 
   /** Connect to the server at the address that it printed. */
   static async connect(url: string): Promise<Observer> {
-    const observer = new Observer(new WebSocket(new URL("/ws", url).href.replace(/^http/, "ws")));
+    const observer = new Observer(new WebSocket(socketOf(url)));
     await observer.until(() => observer.clock !== undefined);
     return observer;
   }

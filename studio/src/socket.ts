@@ -3,6 +3,7 @@
 import { addressed } from "./addressed";
 import { decode } from "./frames";
 import type { Answer, Folder, ToPage, ToServer } from "./protocol";
+import { isRefused } from "./refused";
 import { useStudio } from "./store";
 import { live } from "./world/live";
 import { Streams } from "./streams";
@@ -38,13 +39,19 @@ class Socket {
     };
     socket.onclose = () => {
       this.socket = null;
-      useStudio.getState().connect("lost");
+      if (useStudio.getState().connection !== "refused") useStudio.getState().connect("lost");
       for (const [request, reply] of this.waiting) {
         reply({ answer: { type: "answer", request, problems: [{ what: "The connection to the studio was lost." }] }, folder: null });
       }
       this.waiting.clear();
-      setTimeout(() => this.open(), AGAIN_MS[Math.min(this.failed++, AGAIN_MS.length - 1)]);
+      setTimeout(() => void this.again(), AGAIN_MS[Math.min(this.failed++, AGAIN_MS.length - 1)]);
     };
+  }
+
+  // A page that is refused tries on: another page of this browser may bring the new token.
+  private async again(): Promise<void> {
+    useStudio.getState().connect((await isRefused()) ? "refused" : "lost");
+    this.open();
   }
 
   // Say something without waiting for an answer; dropped while there is no connection.

@@ -4,7 +4,8 @@ import { create } from "zustand";
 import type { Changed, Clock, Costs, DocumentView, ElementView, Gallery, Kind, Problem, ToPage, Trouble, Welcome } from "./protocol";
 import { replaced } from "./values";
 
-export type Connection = "connecting" | "open" | "lost";
+// refused: the server was started anew with another token
+export type Connection = "connecting" | "open" | "lost" | "refused";
 
 // What can be done about a notice, by a button.
 export type Offer = { label: string; run: () => unknown };

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -16,14 +17,15 @@ import pytest
 
 from deodar.cli import main
 from deodar.server import app
-from tests.server.page import studio
+from tests.server.page import play, studio
 
 
 def fetch(address: str) -> tuple[int, bytes]:
     """Status and content of the page at an address."""
     connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=30)
     try:
-        connection.request("GET", "/")
+        there = urlsplit(address)
+        connection.request("GET", "/", headers={"Cookie": f"deodar_token_{there.port}={there.query.removeprefix('token=')}"})
         answer = connection.getresponse()
         return answer.status, answer.read()
     finally:
@@ -43,12 +45,34 @@ def test_it_prints_an_address_answers_there_and_ends_with_ctrl_c(tmp_path: Path)
     process, address = start(tmp_path)
     try:
         there = urlsplit(address)
-        assert there.hostname == "127.0.0.1" and not there.query
+        assert there.hostname == "127.0.0.1" and len(there.query.removeprefix("token=")) == 32
         assert b"<title>" in fetch(address)[1]
     finally:
         process.send_signal(signal.SIGINT)
         _, told = process.communicate(timeout=60)
     assert process.returncode == 0 and told == ""
+
+
+def test_a_file_is_opened_by_a_relative_path_and_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    shutil.copy(Path(__file__).parents[2] / "examples" / "node.json", tmp_path / "folder")
+    (tmp_path / "link.json").symlink_to(tmp_path / "folder" / "node.json")
+    for name in ("folder/node.json", "link.json"):
+        process, address = start(tmp_path, name)
+        try:
+            play(address, lambda p: p.until(lambda: p.document and p.document["file"] == "node.json"))
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+
+
+def test_it_may_be_started_without_a_token(tmp_path: Path) -> None:
+    process, address = start(tmp_path, "--no-token")
+    try:
+        assert urlsplit(address).query == "" and b"<title>" in fetch(address)[1]
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
 
 
 def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -67,7 +91,7 @@ def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(serve, "prepare", lambda *given: (Server(given[-1]), None))
     said: list[str] = []
     for browser in (True, False):
-        serve.serve(None, tmp_path, "127.0.0.1", 0, browser, False, None, said.append)
+        serve.serve(None, tmp_path, "127.0.0.1", 0, browser, False, None, True, said.append)
     assert opened == ["http://here/"] and said == ["http://here/"] * 2
 
 

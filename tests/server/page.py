@@ -9,6 +9,7 @@ import threading
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
+from urllib.parse import urlsplit
 
 import numpy as np
 import websockets
@@ -21,8 +22,10 @@ WAIT = 60.0
 
 
 @contextlib.contextmanager
-def studio(root: Path, file: Path | None = None, host: str = "127.0.0.1", trust: bool = False, world: Any = None) -> Iterator[str]:
-    """A studio in a thread of its own; gives its address."""
+def studio(
+    root: Path, file: Path | None = None, host: str = "127.0.0.1", trust: bool = False, world: Any = None, token: bool = True, port: int = 0
+) -> Iterator[str]:
+    """A studio in a thread of its own; gives its address, with the token."""
     up: list[str] = []
     ready = threading.Event()
 
@@ -30,7 +33,7 @@ def studio(root: Path, file: Path | None = None, host: str = "127.0.0.1", trust:
         up.append(address)
         ready.set()
 
-    server, bound = prepare(file, root, host, 0, trust, world, say)
+    server, bound = prepare(file, root, host, port, trust, world, token, say)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [bound]})
     thread.start()
     try:
@@ -151,8 +154,8 @@ P = TypeVar("P", bound=Page)
 @contextlib.asynccontextmanager
 async def page(address: str, draws: bool = True, kind: type[P] = Page, **how: Any) -> AsyncIterator[P]:  # type: ignore[assignment]
     """Connect to a studio."""
-    host = address.split("//")[1].split("/")[0]
-    async with websockets.connect(f"ws://{host}/ws", max_size=None, **how) as socket:
+    there = urlsplit(address)
+    async with websockets.connect(f"ws://{there.netloc}/ws?{there.query}", max_size=None, **how) as socket:
         one = kind(socket, draws)
         listening = asyncio.create_task(one.listen())
         try:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.couplings.weights import Weights
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.server.keeper import Keeper, state_folder
-from deodar.server.workspace import Workspace, digest
+from deodar.server.workspace import UNREADABLE, Workspace
 
 
 @pytest.mark.parametrize("path", ["..", "../x.json", "/etc/passwd", "a/../../x.json", "link/x.json", "a\0b", "folder/../../../x"])
@@ -55,12 +58,84 @@ def test_targets_end_in_json_and_stand_in_a_folder(tmp_path: Path) -> None:
 
 
 def test_a_digest_is_of_the_content(tmp_path: Path) -> None:
-    path = tmp_path / "a"
-    assert digest(path) == ""
+    space, path = Workspace(tmp_path), tmp_path / "a"
+    assert space.digest(path) == ""
     path.write_text("one")
-    first = digest(path)
+    first = space.digest(path)
     path.write_text("two")
-    assert first and digest(path) != first
+    assert first and space.digest(path) not in (first, UNREADABLE)
+
+
+def test_what_cannot_be_compared_is_not_taken_for_absent(tmp_path: Path) -> None:
+    """Saving asks before it replaces what has a digest."""
+    space = Workspace(tmp_path)
+    os.mkfifo(tmp_path / "pipe.json")
+    (tmp_path / "folder.json").mkdir()
+    with (tmp_path / "huge.json").open("wb") as file:
+        file.truncate(2**40)
+    for name in ("pipe", "folder", "huge"):
+        assert space.digest(tmp_path / f"{name}.json") == UNREADABLE
+
+
+@pytest.mark.parametrize("what", ["pipe", "link", "device"])
+def test_what_would_stop_its_reader_is_refused(tmp_path: Path, what: str) -> None:
+    place = tmp_path / "x.json"
+    match what:
+        case "pipe":
+            os.mkfifo(place)
+        case "link":
+            place.symlink_to("/dev/zero")
+        case _:
+            with socket.socket(socket.AF_UNIX) as listening:
+                listening.bind(str(place))
+    with pytest.raises(DocumentError):
+        Workspace(tmp_path).require_file(place)
+
+
+def test_a_folder_with_links_that_lead_nowhere_is_listed(tmp_path: Path) -> None:
+    (tmp_path / "good.json").touch()
+    (tmp_path / "loop.json").symlink_to(tmp_path / "loop.json")
+    (tmp_path / "a").symlink_to(tmp_path / "b")
+    (tmp_path / "b").symlink_to(tmp_path / "a")
+    (tmp_path / "gone.json").symlink_to(tmp_path / "nowhere")
+    os.mkfifo(tmp_path / "pipe.json")
+    listed = Workspace(tmp_path).listed(1, "")
+    assert (listed.files, listed.folders) == (["good.json"], [])
+    for path in ("loop.json", "a/x.json", "x" * 5000, "/".join(["d"] * 3000)):
+        with pytest.raises(DeodarError):
+            space = Workspace(tmp_path)
+            space.require_file(space.inside(path))
+
+
+def test_a_link_that_appears_after_the_check_is_not_followed(tmp_path: Path) -> None:
+    root, outside = tmp_path / "root", tmp_path / "outside"
+    for folder in (root / "sub" / "deep", outside / "deep"):
+        folder.mkdir(parents=True)
+    space, doc = Workspace(root), dd.Model("m").document
+    place = space.target("sub/deep/mine")
+    (root / "sub").rename(root / "old")
+    (root / "sub").symlink_to(outside)
+    for attempt in (lambda: space.save(doc, place), lambda: space.require_file(place)):
+        with pytest.raises(DeodarError):
+            attempt()
+    assert list((outside / "deep").iterdir()) == []
+    (root / "sub").unlink()
+    (root / "old").rename(root / "sub")
+    place.symlink_to(outside / "target.json")
+    with pytest.raises(DeodarError, match="not a regular file"):
+        space.save(doc, place)
+    assert not (outside / "target.json").exists()
+
+
+def test_a_document_is_saved_with_its_arrays_and_the_old_ones_go(tmp_path: Path) -> None:
+    space = Workspace(tmp_path)
+    for seed in (1, 2):
+        model = dd.Model("m")
+        u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)]))
+        u >> Weights(weights=np.random.default_rng(seed).normal(size=(10, 10)), axes=[dd.Axis("x", 0, 9, samples=10)]) >> u
+        space.save(model.document, space.target("m"))
+        assert dd.load(tmp_path / "m.json").document == model.document
+    assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_unsaved_edits_are_kept_until_forgotten(tmp_path: Path) -> None:

@@ -59,14 +59,16 @@ class Studio:
             Mount("/assets", _Assets(directory=STATIC / "assets", check_dir=False)),
             Route("/{name}", self._file_of_page),
         ]
-        self.app: ASGIApp = Guard(Starlette(routes=routes, lifespan=self._life), host, port, token)
+        star = Starlette(routes=routes, lifespan=self._life)
+        star.router.redirect_slashes = False  # a path such as //host would become an address of another host
+        self.app: ASGIApp = Guard(star, host, port, token)
 
     @contextlib.asynccontextmanager
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
         self._hub = Hub(self._root, self._trust, self._world)
         project, file = self._hub.project, self._file
         if file is not None:
-            await project.turns.take(lambda: project.open_file(file, True))
+            await project.turns.take(lambda: project.open_file(file.resolve(), True))
         self._ready()
         yield
         await self._hub.close()
@@ -80,7 +82,11 @@ class Studio:
     async def _file_of_page(self, request: Request) -> Response:
         """What lies beside the page: its sign."""
         path = STATIC / request.path_params["name"]
-        return FileResponse(path) if path.parent == STATIC and path.is_file() else PlainTextResponse("not found", 404)
+        try:
+            there = path.parent == STATIC and path.is_file()
+        except (OSError, ValueError):  # a name that is too long, or that holds a null
+            there = False
+        return FileResponse(path) if there else PlainTextResponse("not found", 404)
 
     async def _picture(self, request: Request) -> Response:
         try:

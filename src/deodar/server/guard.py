@@ -1,4 +1,4 @@
-"""Who may talk to the studio: hosts, origins, and a token as soon as it listens beyond this machine."""
+"""Who may talk to the studio: hosts, origins, and a token on every request and socket."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from collections.abc import Iterable
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
-from starlette.responses import PlainTextResponse, RedirectResponse
+from starlette.responses import HTMLResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-COOKIE = "deodar_token"
 HEADERS = {
     "content-security-policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:;"
     " connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
@@ -21,6 +20,23 @@ HEADERS = {
     "x-frame-options": "DENY",
     "cross-origin-opener-policy": "same-origin",
 }
+ASK = """<!doctype html>
+<html lang="en">
+<title>deodar studio</title>
+<meta name="viewport" content="width=device-width">
+<style>:root { color-scheme: light dark } body { font: 1rem/1.5 system-ui, sans-serif; max-width: 34rem; margin: 15vh auto }</style>
+<h1>deodar studio</h1>
+<p>This studio needs its token. Open the address that <code>deodar studio</code> printed in the terminal, or enter the token of that address:</p>
+<form action="/" method="get"><label>Token <input name="token" type="password" autocomplete="off" autofocus></label> <button>Open</button></form>
+</html>
+"""
+ON = """<!doctype html>
+<html lang="en">
+<title>deodar studio</title>
+<meta http-equiv="refresh" content="0; url=/">
+<p><a href="/">Open the studio</a></p>
+</html>
+"""
 
 
 def is_local(host: str) -> bool:
@@ -37,39 +53,49 @@ class Guard:
     """Refuses what does not come from a page of this server, opened by the person who started it.
 
     The host of a request must be the one it listens on (or this machine's name or address), so that no foreign name can be made to point here;
-    its origin, where a browser states one, must be the same; and where there is a token, every request needs it, in the address or as a cookie.
+    its origin, where a browser states one, must be the same; and every request needs the token, in the address or as a cookie. Other users of
+    this machine reach it too, so the token is needed on localhost as well. The cookie's name has the port in it: browsers keep cookies by host
+    alone, and two studios would overwrite each other's.
+
+    Args:
+        app: what is served to those who may.
+        host, port: where it listens.
+        token: the token; empty: none is needed.
     """
 
     def __init__(self, app: ASGIApp, host: str, port: int, token: str) -> None:
         self._app, self._host, self._port, self._token = app, host, port, token
+        self.cookie = f"deodar_token_{port}"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Let a request pass, or refuse it."""
         if scope["type"] == "lifespan":
             return await self._app(scope, receive, send)
         headers = {key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]}
-        wrong = self._wrong(headers)
+        status, wrong = self._wrong(headers)
         if wrong:
-            return await self._refuse(scope, receive, send, 403, wrong)
-        asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
-        if self._token and not any(_same(self._token, given) for given in (asked, _cookie(headers.get("cookie", "")))):
-            return await self._refuse(
-                scope, receive, send, 401, "this studio needs the token that was printed when it was started: open that address"
-            )
-        if self._token and asked and scope["type"] == "http":
-            return await self._with_cookie(scope, receive, send)
+            return await self._refuse(scope, receive, send, status, wrong)
+        if self._token:
+            asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
+            if not any(_same(self._token, given) for given in (asked, _cookie(headers.get("cookie", ""), self.cookie))):
+                return await self._ask(scope, receive, send, headers)
+            if asked and scope["type"] == "http" and scope["path"] == "/":
+                return await self._enter(scope, receive, send, headers)
         return await self._app(scope, receive, self._with_headers(send))
 
-    def _wrong(self, headers: dict[str, str]) -> str:
+    def _wrong(self, headers: dict[str, str]) -> tuple[int, str]:
         host, port = _split(headers.get("host", ""))
         if not self._is_ours(host) or port not in (self._port, None):
-            return f"this studio is not called {headers.get('host', '')!r}"
+            return 403, f"this studio is not called {headers.get('host', '')!r}"
         origin = headers.get("origin")
         if origin is not None:
-            there = urlsplit(origin)
+            try:
+                there = urlsplit(origin)
+            except ValueError:
+                return 400, "the origin of the request is not an address"
             if there.scheme not in ("http", "https") or there.netloc != headers.get("host"):
-                return f"a page of {origin} may not use this studio"
-        return ""
+                return 403, f"a page of {origin} may not use this studio"
+        return 0, ""
 
     def _is_ours(self, host: str) -> bool:
         if is_local(host) or host == self._host:
@@ -82,11 +108,27 @@ class Guard:
         except ValueError:
             return host in (socket.gethostname(), socket.getfqdn())
 
-    async def _with_cookie(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """The token leaves the address bar at once; from then on the cookie carries it."""
-        answer = RedirectResponse(scope["path"] or "/", 303, headers=HEADERS)
-        answer.set_cookie(COOKIE, self._token, httponly=True, samesite="strict")
+    async def _enter(self, scope: Scope, receive: Receive, send: Send, headers: dict[str, str]) -> None:
+        """Move the token from the address to a cookie, and go on to the page.
+
+        A browser that comes from another site does not send a strict cookie along a redirect, but it does from a page of this server.
+        """
+        if headers.get("sec-fetch-site") == "cross-site":
+            answer: Response = HTMLResponse(ON, headers=HEADERS)
+        else:
+            answer = RedirectResponse("/", 303, headers=HEADERS)
+        answer.headers["cache-control"] = "no-store"
+        answer.set_cookie(self.cookie, self._token, httponly=True, samesite="strict")
         await answer(scope, receive, send)
+
+    async def _ask(self, scope: Scope, receive: Receive, send: Send, headers: dict[str, str]) -> None:
+        """Refuse a request without the token; a person is asked for it."""
+        if scope["type"] != "http" or scope["path"] != "/" or "text/html" not in headers.get("accept", ""):
+            why = "this studio needs the token that was printed when it was started: open that address"
+            return await self._refuse(scope, receive, send, 401, why)
+        policy = HEADERS["content-security-policy"].replace("form-action 'none'", "form-action 'self'")
+        answer = HTMLResponse(ASK, 401, headers={**HEADERS, "content-security-policy": policy, "cache-control": "no-store"})
+        return await answer(scope, receive, send)
 
     async def _refuse(self, scope: Scope, receive: Receive, send: Send, status: int, why: str) -> None:
         if scope["type"] == "websocket":
@@ -116,9 +158,9 @@ def _split(host: str) -> tuple[str, int | None]:
         return "", None
 
 
-def _cookie(header: str) -> str:
+def _cookie(header: str, name: str) -> str:
     try:
-        found = SimpleCookie(header).get(COOKIE)
+        found = SimpleCookie(header).get(name)
     except CookieError:
         return ""
     return found.value if found is not None else ""

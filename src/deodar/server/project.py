@@ -6,7 +6,6 @@ Lives in the thread of the event loop. What a change would break is refused befo
 from __future__ import annotations
 
 import asyncio
-import dataclasses as dc
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -21,19 +20,17 @@ from deodar.model.model import Model
 from deodar.runtime.engine import Engine
 from deodar.runtime.session import Session
 from deodar.server import content, view
+from deodar.server.aside import aside
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper
 from deodar.server.recent_changes import RecentChanges
 from deodar.server.to_page import Changed, DocumentView, Problem
 from deodar.server.turns import Turns
-from deodar.server.workspace import Workspace, digest
+from deodar.server.workspace import Workspace
 from deodar.worlds._base import World
 
 Ask = Literal["unsaved", "replace"]
 Cost = Literal["live", "rebuild", "recompile"]
-
-LOOKS = ("panels", "folded")
-"""What of the layout is no edit worth asking about: how panels stand, which groups are folded."""
 
 
 class Asks(Exception):
@@ -101,7 +98,7 @@ class Project:
     @property
     def unsaved(self) -> bool:
         """Whether there are edits that no file holds."""
-        return self.model is not None and self._saved is not self.model.document and _plain(self.model.document) != self._saved
+        return self.model is not None and self._saved is not self.model.document and view.plain(self.model.document) != self._saved
 
     def failures(self) -> list[Problem]:
         """Why nothing runs, if so."""
@@ -117,9 +114,10 @@ class Project:
         What is wrong with it becomes the trouble that the page shows.
         Of a file of another tool it answers in a sentence what became of it, otherwise nothing.
         """
-        foreign = opening.tool_of(path) is not None
+        self._ask_unsaved(discard)
+        foreign = await aside(lambda: content.is_foreign(self.workspace, path), str(path))
         own = None if foreign or examples.holds(path) else path
-        await self._open(lambda: opening.load(path).document, own, str(path), discard)
+        await self._open(lambda: content.load(self.workspace, path), own, str(path), discard)
         return self._reported() if foreign else ""
 
     async def open_copy(self, path: Path, title: str, discard: bool) -> None:
@@ -153,7 +151,7 @@ class Project:
     async def _open(self, read: Callable[[], Document], file: Path | None, title: str, discard: bool) -> None:
         self._ask_unsaved(discard)
         try:
-            doc = await asyncio.to_thread(read)
+            doc = await aside(read, title)
             if found := problems(doc):
                 raise DocumentError(found)
         except DeodarError as error:
@@ -163,7 +161,7 @@ class Project:
             return
         await self._leave()
         self.model = Model(document=doc, trusted=self._trust)
-        self.file, self._saved, self._digest = file, _plain(doc), digest(file) if file is not None else ""
+        self.file, self._saved, self._digest = file, view.plain(doc), await self._hash(file)
         self._name, self._kept = self.keeper.new_name(), doc
         if file is not None:
             self.keeper.opened(file)
@@ -236,16 +234,19 @@ class Project:
         if place is None:
             raise DocumentError("has no file yet", where=model.name, fix="Save it under a name")
         own = self.file is not None and place == self.file
-        now = digest(place)
+        now = await self._hash(place)
         if not replace and now and not (own and now == self._digest):
             raise Asks("replace")
         doc = model.document
-        await asyncio.to_thread(files.save, doc, place, True)
-        self.file, self._saved, self._digest, self._kept = place, _plain(doc), digest(place), doc
+        await aside(lambda: self.workspace.save(doc, place), path or str(place))
+        self.file, self._saved, self._digest, self._kept = place, view.plain(doc), await self._hash(place), doc
         self.keeper.forget(self._name)
         self.keeper.opened(place)
         self._moved()
         return place
+
+    async def _hash(self, place: Path | None) -> str:
+        return "" if place is None else await aside(lambda: self.workspace.digest(place), str(place))
 
     def keep(self) -> None:
         """Keep unsaved edits, if there are new ones."""
@@ -390,8 +391,3 @@ class Project:
         self.version += 1
         self._recent.clear()
         self._changed()
-
-
-def _plain(doc: Document) -> Document:
-    """The document without what of its layout is no edit."""
-    return dc.replace(doc, layout={k: v for k, v in doc.layout.items() if k not in LOOKS})

@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 
 from deodar.errors import DocumentError, ParameterError
-from deodar.importers import opening, presets
+from deodar.importers import presets
 from deodar.importers.report import Line
 from deodar.model import edit, find
 from deodar.numerics.axes import Axes
@@ -20,9 +20,11 @@ from deodar.runtime.engine import Hand
 from deodar.runtime.session import Session
 from deodar.runtime.trace import Wish
 from deodar.server import content, gallery, to_server
+from deodar.server.aside import aside
 from deodar.server.scene import Follower
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
+from deodar.worlds._base import World
 
 if TYPE_CHECKING:
     from deodar.server.connection import Connection
@@ -89,7 +91,7 @@ async def _save(page: Connection, m: to_server.Save) -> Answer:
 
 
 async def _list_folder(page: Connection, m: to_server.ListFolder) -> Folder:
-    return page.hub.workspace.listed(m.request, m.path)
+    return await aside(lambda: page.hub.workspace.listed(m.request, m.path), m.path)
 
 
 # ------------------------------------------------------------------------------------------------ edits
@@ -132,8 +134,9 @@ async def _arrange(page: Connection, m: to_server.Arrange) -> None:
 
 
 async def _apply_preset(page: Connection, m: to_server.ApplyPreset) -> Answer:
-    preset = await asyncio.to_thread(opening.load, page.hub.workspace.inside(m.path))
-    return await _take_over(page, m.request, preset.document)
+    place = page.hub.workspace.inside(m.path)
+    preset = await aside(lambda: content.load(page.hub.workspace, place), m.path)
+    return await _take_over(page, m.request, preset)
 
 
 async def _apply_preset_text(page: Connection, m: to_server.ApplyPresetText) -> Answer:
@@ -235,7 +238,13 @@ def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:
 
 
 async def _use_world(page: Connection, m: to_server.UseWorld) -> None:
-    world = page.hub.embodiment.open(m.kind, page.hub.workspace.inside(m.path), m.path)
+    place = page.hub.workspace.inside(m.path)
+
+    def read() -> World:
+        page.hub.workspace.require_file(place)
+        return page.hub.embodiment.open(m.kind, place, m.path)
+
+    world = await aside(read, m.path)
     await page.hub.project.embody(world)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import socket
 import webbrowser
 from collections.abc import Callable
@@ -13,8 +12,10 @@ from pathlib import Path
 import uvicorn
 
 from deodar.errors import OutputError
+from deodar.server import token as tokens
 from deodar.server.app import Studio
 from deodar.server.guard import is_local
+from deodar.server.keeper import state_folder
 from deodar.worlds._base import World
 
 PORT = 8430
@@ -26,33 +27,41 @@ MOST_MESSAGE = 64 * 2**20
 
 
 def serve(
-    file: Path | None, root: Path, host: str, port: int | None, browser: bool, trust: bool, world: World | None, say: Callable[[str], None]
+    file: Path | None,
+    root: Path,
+    host: str,
+    port: int | None,
+    browser: bool,
+    trust: bool,
+    world: World | None,
+    token: bool,
+    say: Callable[[str], None],
 ) -> None:
-    """Serve until Ctrl-C. `say` gets the address once it answers."""
+    """Serve until Ctrl-C. `say` gets the address once it answers; without `token` everybody who can connect may use the studio."""
 
     def ready(address: str) -> None:
         say(address)
         if browser:
             webbrowser.open(address)
 
-    server, bound = prepare(file, root, host, port, trust, world, ready)
+    server, bound = prepare(file, root, host, port, trust, world, token, ready)
     with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends, once everything is put away
         server.run(sockets=[bound])
 
 
 def prepare(
-    file: Path | None, root: Path, host: str, port: int | None, trust: bool, world: World | None, ready: Callable[[str], None]
+    file: Path | None, root: Path, host: str, port: int | None, trust: bool, world: World | None, token: bool, ready: Callable[[str], None]
 ) -> tuple[uvicorn.Server, socket.socket]:
     """A server that is not started yet, and the socket it is to listen at; `ready` gets the address once everything is up."""
     bound = bind(host, port)
     number = bound.getsockname()[1]
-    token = "" if is_local(host) else secrets.token_urlsafe(24)
+    secret = "" if not token else tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
     shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
-    address = f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={token}' if token else ''}"
-    studio = Studio(root, file, trust, world, host, number, token, lambda: ready(address))
+    address = f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"
+    studio = Studio(root, file, trust, world, host, number, secret, lambda: ready(address))
     config = uvicorn.Config(
-        studio.app, log_level="warning", ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=MOST_MESSAGE, lifespan="on",
-        timeout_graceful_shutdown=2, server_header=False,
+        studio.app, log_level="warning", access_log=False, ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=MOST_MESSAGE,
+        lifespan="on", timeout_graceful_shutdown=2, server_header=False,
     )  # fmt: skip
     return uvicorn.Server(config), bound
 

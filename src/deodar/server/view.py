@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -18,6 +19,10 @@ from deodar.server.to_page import AxisView, ConnectionView, DocumentView, Elemen
 
 BESIDE = ("kind", "id", "every")
 """What a document writes of an element besides its parameters."""
+
+
+LOOKS = ("panels", "folded")
+"""What of the layout is no edit worth asking about: how panels stand, which groups are folded."""
 
 
 def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:
@@ -114,3 +119,8 @@ def shown_value(doc: Document, element: str, parameter: str) -> Any:
     for step in parameter.split("."):
         value = value[int(step)] if isinstance(value, list) else value[step]
     return value
+
+
+def plain(doc: Document) -> Document:
+    """The document without what of its layout is no edit."""
+    return dc.replace(doc, layout={k: v for k, v in doc.layout.items() if k not in LOOKS})

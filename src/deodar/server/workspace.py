@@ -1,19 +1,39 @@
-"""The folder that the studio may read and write, and nothing beside it."""
+"""The folder that the studio may read and write, and nothing beside it.
+
+Paths are resolved first and used later. What becomes a link in between is not followed when the studio writes: folders are opened one inside the
+other, without links (`OpenFolder`), and a file is written beside its name and renamed. Windows has no such calls; there the check alone holds.
+"""
 
 from __future__ import annotations
 
 import hashlib
+import itertools
+import json
 import os
-from collections.abc import Iterable
+import tempfile
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from deodar.errors import DocumentError, OutputError
+from deodar.errors import DeodarError, DocumentError, OutputError
+from deodar.model import files, output
+from deodar.model.document import Document
+from deodar.model.files import MOST_BYTES
+from deodar.server.open_folder import OpenFolder
 from deodar.server.to_page import Folder
 
 DOCUMENTS = (".json", ".deodar")
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
 MOST_NAMES = 2000
 """Names of one folder that are listed."""
+
+MOST_SEEN = 100_000
+"""Entries of one folder that are looked at."""
+
+MOST_HASHED = 2**32
+"""Largest file, in bytes, that is compared with what was read (a guess: seconds of reading)."""
+
+UNREADABLE = "unreadable"
+"""In place of the hash of something that is there and cannot be read."""
 
 
 class Workspace:
@@ -40,8 +60,59 @@ class Workspace:
         return path.resolve().relative_to(self.root).as_posix()
 
     def holds(self, path: Path) -> bool:
-        """Whether a path lies below the root."""
-        return self.root in path.resolve().parents
+        """Whether a path lies below the root; a link that leads to itself lies nowhere."""
+        try:
+            return self.root in path.resolve().parents
+        except (OSError, RuntimeError, ValueError):
+            return False
+
+    def folder(self, place: Path) -> OpenFolder:
+        """The folder of a place that `inside` gave, opened without following links."""
+        if not place.is_relative_to(self.root):
+            raise DocumentError(f"lies outside the folder {self.root} that this studio may read and write", where=str(place))
+        try:
+            return OpenFolder(self.root, place.relative_to(self.root).parts[:-1])
+        except OSError as error:
+            raise DocumentError(f"the folder cannot be opened: {error.strerror}", where=self._named(place)) from None
+
+    def require_file(self, place: Path) -> None:
+        """Refuse what could stop its reader: named pipes, devices, links that appeared since the path was resolved. Folders pass, and nothing."""
+        try:
+            if place.is_dir():
+                return
+            with self.folder(place) as folder, folder.open(place.name):
+                return
+        except DeodarError as error:
+            raise DocumentError(error.problems[0].what, where=self._named(place)) from None
+        except FileNotFoundError:
+            return
+        except OSError as error:
+            raise DocumentError(f"cannot be read: {error.strerror}", where=self._named(place)) from None
+
+    def digest(self, place: Path) -> str:
+        """A hash of a file's content; empty where there is no file, `UNREADABLE` where it cannot be read."""
+        try:
+            with self.folder(place) as folder, folder.open(place.name) as (file, size):
+                return hashlib.file_digest(file, "sha256").hexdigest() if size <= MOST_HASHED else UNREADABLE
+        except FileNotFoundError:
+            return ""
+        except (OSError, DeodarError):
+            return UNREADABLE
+
+    def save(self, doc: Document, place: Path) -> None:
+        """Write a document to a place that `target` gave, in the way of `files.save`."""
+        output.claim(place, True)
+        with tempfile.TemporaryDirectory(prefix="deodar-") as private, self.folder(place) as folder:
+            files.save(doc, Path(private) / place.name)
+            made = {path.name: path.read_bytes() for path in Path(private).iterdir()}
+            old = _array_file(folder, place)
+            for name in sorted(made, key=lambda name: name == place.name):  # the document last: it names the others
+                folder.write(name, made[name])
+            if old and old not in made:
+                folder.remove(old)
+
+    def _named(self, place: Path) -> str:
+        return place.relative_to(self.root).as_posix() if place.is_relative_to(self.root) else str(place)
 
     def listed(self, request: int, path: str) -> Folder:
         """Folders, documents and pictures in a folder; hidden ones are left out, and links that lead outside."""
@@ -49,14 +120,16 @@ class Workspace:
         if not place.is_dir():
             raise DocumentError("there is no such folder", where=path)
         try:
-            found = sorted((e for e in os.scandir(place) if not e.name.startswith(".")), key=lambda e: e.name.casefold())[:MOST_NAMES]
+            with os.scandir(place) as entries:
+                seen = [e for e in itertools.islice(entries, MOST_SEEN) if not e.name.startswith(".")]
+            found = sorted(seen, key=lambda e: e.name.casefold())[:MOST_NAMES]
         except OSError as error:
             raise DocumentError(f"cannot be read: {error.strerror}", where=path) from None
         inside = [e for e in found if self.holds(Path(e.path))]
         return Folder(
             request=request,
             path="" if place == self.root else self.shown(place),
-            folders=[e.name for e in inside if e.is_dir()],
+            folders=[e.name for e in inside if _is(e.is_dir)],
             files=_ending(inside, DOCUMENTS),
             pictures=_ending(inside, PICTURES),
         )
@@ -74,12 +147,21 @@ class Workspace:
 
 
 def _ending(entries: Iterable[os.DirEntry[str]], suffixes: tuple[str, ...]) -> list[str]:
-    return [e.name for e in entries if e.name.lower().endswith(suffixes) and e.is_file()]
+    return [e.name for e in entries if e.name.lower().endswith(suffixes) and _is(e.is_file)]
 
 
-def digest(path: Path) -> str:
-    """A hash of a file's content; empty where it cannot be read."""
+def _is(question: Callable[[], bool]) -> bool:
+    """The answer of a directory entry; no for a link that leads nowhere."""
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        return question()
     except OSError:
+        return False
+
+
+def _array_file(folder: OpenFolder, place: Path) -> str:
+    """The array file of the document that is replaced, if it is one of ours."""
+    try:
+        name = json.loads(folder.read(place.name, MOST_BYTES))["arrays"]["file"]
+        return name if Path(name).name == name and name.startswith(f"{place.stem}.") else ""
+    except (OSError, DeodarError, ValueError, KeyError, TypeError, RecursionError):
         return ""

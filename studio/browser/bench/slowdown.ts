@@ -1,5 +1,6 @@
 /** How much a page in a real browser slows an engine that runs as fast as it can. */
 import { curves } from "./documents";
+import { socketOf } from "../observer";
 import { median } from "./figures";
 import { onStage, type Stage } from "./stage";
 
@@ -34,7 +35,7 @@ interface Observer {
 
 /** A page without a screen, which looks at the clock only when it is asked for; the engine runs free from now on. */
 async function connected({ server }: Stage): Promise<Observer> {
-  const socket = new WebSocket(`${server.url.replace("http", "ws")}ws`);
+  const socket = new WebSocket(socketOf(server.url));
   const say = (message: object) => socket.send(JSON.stringify(message));
   let frame = 0;
   let opened = false;

@@ -6,13 +6,13 @@ import { useStudio } from "../store";
 import classes from "./LostBanner.module.css";
 
 export function LostBanner() {
-  const lost = useStudio((state) => state.connection === "lost" && state.welcome !== null);
+  const connection = useStudio((state) => (state.welcome === null ? "connecting" : state.connection));
   return (
     <div role="status">
-      {lost && (
+      {(connection === "lost" || connection === "refused") && (
         <div className={classes.banner}>
           <IconPlugConnectedX size={16} aria-hidden="true" />
-          Connection lost, trying again
+          {connection === "lost" ? "Connection lost, trying again" : "The studio was started again: open the address that it printed"}
         </div>
       )}
     </div>

@@ -4,12 +4,19 @@ import { useStudio } from "../store";
 import { Mark } from "./Mark";
 import classes from "./Splash.module.css";
 
+const WORDS = {
+  connecting: "Connecting",
+  open: "Connecting",
+  lost: "Nothing answers. Is deodar studio running?",
+  refused: "The studio was started again: open the address that it printed",
+};
+
 export function Splash() {
-  const lost = useStudio((state) => state.connection === "lost");
+  const connection = useStudio((state) => state.connection);
   return (
     <main className={classes.splash} aria-busy="true">
       <Mark size={56} color="var(--border-strong)" />
-      <p role="status">{lost ? "Nothing answers. Is deodar studio running?" : "Connecting"}</p>
+      <p role="status">{WORDS[connection]}</p>
     </main>
   );
 }

@@ -1,0 +1,41 @@
+"""Work that may wait for a disk, beside the event loop."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TypeVar
+
+from deodar.errors import DocumentError
+
+T = TypeVar("T")
+SECONDS = 60.0
+"""Longest wall time that a request waits for a file system (a guess: a network folder that does not answer takes longer)."""
+
+
+async def aside(function: Callable[[], T], where: str) -> T:
+    """Run a function in a thread of its own, which ends with the process.
+
+    A pool of threads would be used up by a few calls that never return, and would keep the process from ending.
+
+    Raises:
+        DocumentError: if it takes longer than `SECONDS`; the thread goes on, and its result is dropped.
+    """
+    future: Future[T] = Future()
+
+    def work() -> None:
+        try:
+            result = function()
+        except BaseException as error:
+            future.set_exception(error)
+        else:
+            future.set_result(result)
+
+    future.set_running_or_notify_cancel()
+    threading.Thread(target=work, name="deodar-aside", daemon=True).start()
+    try:
+        return await asyncio.wait_for(asyncio.wrap_future(future), SECONDS)
+    except TimeoutError:
+        raise DocumentError(f"took longer than {SECONDS:g} s to read or write", where=where, fix="Does its disk or network folder answer?") from None

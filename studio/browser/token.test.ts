@@ -1,0 +1,44 @@
+import { rmSync } from "node:fs";
+import { join } from "node:path";
+
+import { expect, onTestFinished, test } from "vitest";
+
+import { box } from "./hands";
+import { startStudio, type Studio } from "./studio";
+
+/** What a browser says of a server that is gone for a while, or that wants another token. */
+const GONE = [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/, /status of 401/];
+
+async function start(): Promise<Studio> {
+  const studio = await startStudio({ copies: ["examples/selection.json"], file: "selection.json", expected: GONE });
+  onTestFinished(studio.stop);
+  return studio;
+}
+
+test("the address bar does not keep the token, and a person without it is asked for it", async () => {
+  const { page, url, browser } = await start();
+  await box(page, "u").waitFor();
+  expect(page.url()).toBe(new URL("/", url).href);
+  const context = await browser.newContext({ locale: "en-US", reducedMotion: "reduce" });
+  context.setDefaultTimeout(60_000);
+  onTestFinished(() => context.close());
+  const stranger = await context.newPage();
+  await stranger.goto(new URL("/", url).href);
+  await stranger.getByText("This studio needs its token").waitFor();
+  await stranger.getByLabel("Token").fill(new URL(url).searchParams.get("token") ?? "");
+  await stranger.getByRole("button", { name: "Open" }).click();
+  await stranger.getByRole("toolbar", { name: "Run" }).waitFor();
+  expect(stranger.url()).toBe(page.url());
+});
+
+test("a page whose studio comes back with another token says what to open, and goes on once that is done", async () => {
+  const studio = await start();
+  const { page, state, restart, another } = studio;
+  await box(page, "u").waitFor();
+  rmSync(join(state, "tokens"), { recursive: true });
+  await restart();
+  await page.getByText("open the address that it printed").waitFor();
+  const second = await another();
+  await box(second, "u").waitFor();
+  await page.getByText("open the address that it printed").waitFor({ state: "detached" });
+});
