@@ -5,17 +5,15 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import pytest
-
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import clock
 
 
 def test_four_runs_of_which_two_have_time_enough() -> None:
-    """Drift is what the machine takes to wake up at the end; a busy one may take long, so that the bound here is wide."""
+    """Only bounds that a busy machine keeps too: it may be late, and is never early."""
     plain, slow, stays, grows = clock.measure(1.2).values()
-    assert plain.steps == 1200 and slow.steps == 20 and slow.factor == pytest.approx(0.1, rel=0.3)
+    assert plain.steps == 1200 and slow.steps == 20 and slow.factor < 0.13 and plain.factor < 1.3
     for meter in (plain, slow):
-        assert meter.lengthened == 0 and meter.drift < 100
+        assert meter.lengthened == 0
     assert stays.lengthened == 0 and stays.step == 1 and stays.drift > 20 and stays.overruns >= 1
     assert grows.lengthened > 0 and 1 < grows.step <= clock.LONGEST

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -187,9 +186,7 @@ def test_what_does_not_fit_into_memory_is_refused_before_it_is_asked_for(name: s
     import resource
 
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    began = time.perf_counter()
     refused(LARGE[name], TooLarge, "this run needs about", "GiB", "most of it is u", "Take fewer samples, fewer trials, or a larger `every`")
-    assert time.perf_counter() - began < 5
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 400_000, "nothing large was allocated (kilobytes)"
 
 

@@ -17,7 +17,7 @@ import websockets
 from deodar.server import frames
 from deodar.server.serve import prepare
 
-WAIT = 60.0
+WAIT = 600.0
 """Longest time anything may take here; a failure, not a measure."""
 
 
