@@ -70,3 +70,47 @@ def test_a_share_is_a_claim():
     claim = statistics.share("arrives", 19, 20, 0.95, quick=True)
     assert claim.holds is True and claim.value == 0.95 and claim.n == 20 and claim.target == ">= 0.95"
     assert statistics.share("arrives", 0, 0, 0.95).holds is None
+    assert claim.origin == "ours" and not claim.assumes and not claim.inferred
+
+
+def test_equality_is_shown_by_two_one_sided_tests_and_not_by_a_large_p():
+    draw = np.random.default_rng(1)
+    few = [draw.normal(1.1, 0.1, 6), draw.normal(1.1, 0.1, 6)]
+    assert statistics.anova(few)[1] > 0.05  # no difference is found, and none is excluded
+    assert statistics.equivalent(statistics.difference_interval(*few), -0.05, 0.05) is None
+    many = [draw.normal(1.1, 0.1, 400), draw.normal(1.1, 0.1, 400)]
+    assert statistics.equivalent(statistics.difference_interval(*many), -0.05, 0.05) is True
+    apart = [draw.normal(1.1, 0.1, 400), draw.normal(1.2, 0.1, 400)]
+    assert statistics.equivalent(statistics.difference_interval(*apart), -0.05, 0.05) is False
+    assert statistics.equivalent(None, -0.05, 0.05) is None
+    # the same decision as two one-sided t tests at 2.5 %
+    for a, b in (few, many, apart):
+        p = max(stats.ttest_ind(a + 0.05, b, equal_var=False, alternative="greater").pvalue,
+                stats.ttest_ind(a - 0.05, b, equal_var=False, alternative="less").pvalue)  # fmt: skip
+        assert (p <= 0.025) == (statistics.equivalent(statistics.difference_interval(a, b), -0.05, 0.05) is True)
+
+
+def test_an_inequality_can_fail_on_its_own_side():
+    larger, smaller = statistics.larger, statistics.smaller
+    assert larger(0.3, (0.2, 0.4), 0.0, 0.1) is True
+    assert larger(0.0, (-0.02, 0.02), 0.0, 0.1) is False  # an effect of 0.1 is excluded
+    assert larger(0.05, (0.01, 0.09), 0.0, 0.1) is False  # significant, and too small
+    assert larger(0.3, (-0.1, 0.7), 0.0, 0.1) is None and larger(0.08, (0.01, 0.15), 0.0, 0.1) is None
+    assert larger(None, None, 0.0, 0.1) is None
+    assert smaller(0.7, (0.6, 0.8), 1.0, 0.05) is True and smaller(1.0, (0.97, 1.03), 1.0, 0.05) is False
+
+
+def test_the_interval_of_a_difference_of_shares_is_the_published_one():
+    value, (low, high) = statistics.share_difference((56, 70), (48, 80))  # Newcombe (1998), table II, method 10, example (a)
+    assert value == pytest.approx(0.2) and (low, high) == (pytest.approx(0.0524, abs=1e-4), pytest.approx(0.3339, abs=1e-4))
+    assert statistics.share_difference((0, 0), (1, 2)) == (None, None)
+
+
+def test_pairs_narrow_the_interval_of_a_ratio():
+    draw = np.random.default_rng(2)
+    base = draw.uniform(1.0, 2.0, 80)
+    near = base * draw.normal(1.0, 0.01, 80)
+    loose, tight = statistics.ratio_interval(near, base), statistics.ratio_interval(near, base, paired=True)
+    assert tight[1] - tight[0] < 0.5 * (loose[1] - loose[0]) and tight[0] < 1 < tight[1]
+    with pytest.raises(AnalysisError, match="as many on both sides"):
+        statistics.ratio_interval(near, base[:7], paired=True)

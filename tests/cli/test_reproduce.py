@@ -31,7 +31,10 @@ def toy(monkeypatch, tmp_path):
         return [Job((f"d/{k}",), one, {"trial": k}) for k in range(3 if quick else 6)]
 
     def report(rows, quick):
-        claims = [Claim("trials", len(rows), f">= {paper.least}", len(rows) >= paper.least, n=len(rows)), Claim("heard", None, "?", None, "reported")]
+        claims = [
+            Claim("trials", len(rows), f">= {paper.least}", len(rows) >= paper.least, n=len(rows), origin="ours"),
+            Claim("heard", None, "?", None, "reported", origin="printed", assumes="the start", inferred=True),
+        ]
         return Report(claims, {"nothing": Figure((1, 1))}, {"table": "| a |\n"})
 
     paper.jobs, paper.report, paper.BY_CONDITION = jobs, report, ("runs",)
@@ -49,7 +52,8 @@ def call(*args):
 def test_it_runs_writes_and_says_what_holds(toy, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
-    assert "yes trials -> 6 (wanted >= 6; n 6)" in out and "?   heard -> nothing yet" in out and "6 of 6 runs. Of 1 required claims 1 hold" in out
+    assert "yes trials -> 6 (wanted >= 6, ours; n 6)" in out and "6 of 6 runs. Of 1 required claims 1 hold" in out
+    assert "?   heard -> nothing yet (wanted ?, printed; n 1; no evidence, it assumes the start)" in out
     assert {p.name for p in (tmp_path / "toy-001").iterdir()} == {"runs.jsonl", "results.json", "table.md", "nothing.png"}
     found = json.loads((tmp_path / "toy-001" / "results.json").read_text())
     assert found["settings"] == {"paper": "toy", "quick": False, "runs": 6, "of": 6} and found["claims"][0]["holds"] is True

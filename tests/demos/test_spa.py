@@ -15,6 +15,8 @@ from deodar.architectures.spa import DIRECTIONS, maze
 from deodar.cli import main
 from deodar.demos import spa
 
+INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at step"
+
 
 def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
     """A record as a run gives it, without noise in it: north intends what is given, nobody else anything."""
@@ -41,8 +43,15 @@ def test_claims_follow_from_the_record() -> None:
     assert (found.planned, found.left) == (210, pytest.approx(236, abs=4))
     assert found.north is not None and found.south is not None and found.arrived is not None
     assert found.left < found.north < found.south < found.arrived
-    assert [c.holds for c in spa.claims(found) if c.kind == "required"] == [True] * 4
-    for late, straight in ((intention * 0, pose), (intention, pose[:300]), (intention, np.concatenate([pose[:110], way(start, goal, each=200)]))):
+    assert [c.holds for c in spa.claims(found) if c.kind == "required"] == [True] * 3
+    assert {c.name.partition(":")[0] for c in spa.claims(found) if c.inferred} == {"the plan is complete", INFERRED_WAVE}
+    early = np.concatenate([np.ones(105), np.zeros(len(pose) - 105)])
+    for late, straight in (
+        (early, pose),
+        (intention * 0, pose),
+        (intention, pose[:300]),
+        (intention, np.concatenate([pose[:110], way(start, goal, each=200)])),
+    ):
         wrong = spa.read(record(straight, late[: len(straight)]), maze("z"))
         assert any(c.holds is False for c in spa.claims(wrong) if c.kind == "required")
     assert "never planned" in spa.sentence(spa.read(record(pose, intention * 0), maze("z")))
@@ -54,7 +63,8 @@ def test_the_command_writes_what_it_says(tmp_path: Path, monkeypatch: pytest.Mon
     assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, "in 300 steps it does not arrive, which is a required claim"
     said = capsys.readouterr().out
     claims = json.loads((out / "results.json").read_text())["claims"]
-    assert claims[0]["holds"] is True and abs(claims[0]["value"] - 210) <= 21
+    plan = next(c for c in claims if c["name"].startswith("the plan is complete"))
+    assert plan["holds"] is True and abs(plan["value"] - 210) <= 21 and plan["inferred"] and plan["kind"] == "reported"
     assert [c["holds"] for c in claims if "arrives within" in c["name"]] == [False]
     assert "never at the goal" in said.splitlines()[-1]
     with Image.open(out / "spa.gif") as film:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from scipy import stats
 
-from deodar.analysis.claims import Claim
+from deodar.analysis.claims import Claim, Kind, Origin
 from deodar.errors import AnalysisError
 
 Interval = tuple[float, float]
@@ -57,15 +57,49 @@ def median_interval(values: Any) -> Interval | None:
     return float(v[k - 1]), float(v[v.size - k])
 
 
-def ratio_interval(above: Any, below: Any) -> Interval | None:
-    """95 % interval of median(above) / median(below), by 2000 resamplings of a fixed seed; None of fewer than six values each."""
+def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | None:
+    """95 % interval of median(above) / median(below), by 2000 resamplings of a fixed seed; None of fewer than six values each.
+
+    Args:
+        above: values whose median is above the line.
+        below: values whose median is below it.
+        paired: the values belong together one by one, so pairs are resampled.
+    """
     a, b = np.asarray(above, float), np.asarray(below, float)
     if min(a.size, b.size) < 6:
         return None
+    if paired and a.size != b.size:
+        raise AnalysisError(f"paired values are as many on both sides, not {a.size} and {b.size}")
     draw = np.random.default_rng(0)
-    many = [np.median(draw.choice(a, a.size)) / np.median(draw.choice(b, b.size)) for _ in range(2000)]
+    of_a = draw.integers(a.size, size=(2000, a.size))
+    of_b = of_a if paired else draw.integers(b.size, size=(2000, b.size))
+    many = np.median(a[of_a], axis=1) / np.median(b[of_b], axis=1)
     low, high = np.quantile(many, [(1 - LEVEL) / 2, 0.5 + LEVEL / 2])
     return float(low), float(high)
+
+
+def difference_interval(first: Any, second: Any) -> Interval | None:
+    """95 % interval of mean(first) - mean(second) by Welch's test; None of fewer than two values each, or where all are equal."""
+    a, b = np.asarray(first, float), np.asarray(second, float)
+    if min(a.size, b.size) < 2 or a.std() + b.std() == 0:
+        return None
+    result: Any = stats.ttest_ind(a, b, equal_var=False)
+    low, high = result.confidence_interval(LEVEL)
+    return float(low), float(high)
+
+
+def share_difference(first: tuple[int, int], second: tuple[int, int]) -> tuple[float | None, Interval | None]:
+    """Difference of two shares (hits, n) with its 95 % interval; None without runs.
+
+    Reference:
+        Newcombe (1998), Stat. Med. 17, 873-890, method 10.
+    """
+    a, b = wilson(*first), wilson(*second)
+    if a is None or b is None:
+        return None, None
+    p, q = first[0] / first[1], second[0] / second[1]
+    below, above = math.hypot(p - a[0], b[1] - q), math.hypot(a[1] - p, q - b[0])
+    return p - q, (p - q - below, p - q + above)
 
 
 def anova(groups: Sequence[Any]) -> tuple[float, float] | None:
@@ -99,14 +133,71 @@ def decided(value: float | None, interval: Interval | None, n: int, low: float, 
     return None
 
 
+def equivalent(interval: Interval | None, low: float, high: float) -> bool | None:
+    """Whether a number equals another within a margin, by two one-sided tests of 2.5 % each.
+
+    True where the 95 % interval lies inside the margin, False where it lies outside, None where it reaches over a bound: then neither equality
+    nor difference is shown, however large p of a test for a difference is.
+
+    Args:
+        interval: 95 % interval of the difference or ratio, or None.
+        low: lower bound of the margin.
+        high: upper bound.
+
+    Reference:
+        Schuirmann (1987), J. Pharmacokinet. Biopharm. 15, 657-680.
+    """
+    if interval is None:
+        return None
+    if low <= interval[0] and interval[1] <= high:
+        return True
+    return False if interval[1] < low or interval[0] > high else None
+
+
+def larger(value: float | None, interval: Interval | None, than: float, by: float) -> bool | None:
+    """Whether a number is larger than another, by an amount that matters.
+
+    True where the 95 % interval lies above `than` and the value reaches `than + by`; False where the interval lies below `than + by`, so that an
+    effect of this size is excluded; None otherwise.
+
+    Args:
+        value: the number, or None.
+        interval: its 95 % interval, or None.
+        than: what it is compared with.
+        by: the smallest amount that counts, above 0.
+    """
+    if value is None or interval is None:
+        return None
+    if interval[1] < than + by:
+        return False
+    return True if interval[0] > than and value >= than + by else None
+
+
+def smaller(value: float | None, interval: Interval | None, than: float, by: float) -> bool | None:
+    """Whether a number is smaller than another, by an amount that matters: `larger` with all signs turned."""
+    if value is None or interval is None:
+        return None
+    return larger(-value, (-interval[1], -interval[0]), -than, by)
+
+
 def share(
-    name: str, hits: int, n: int, at_least: float, kind: Literal["required", "reported"] = "required", source: str = "", quick: bool = False
+    name: str,
+    hits: int,
+    n: int,
+    at_least: float,
+    kind: Kind = "required",
+    source: str = "",
+    quick: bool = False,
+    origin: Origin = "ours",
+    assumes: str = "",
+    inferred: bool = False,
 ) -> Claim:
     """The claim that at least such a share of runs does something."""
     interval = wilson(hits, n)
     value = round(hits / n, 4) if n else None
-    target = f">= {at_least:g}"
-    return Claim(name, value, target, decided(value, interval, n, at_least, 1.0, quick), kind, source, n, rounded(interval))
+    holds = decided(value, interval, n, at_least, 1.0, quick)
+    marks: dict[str, Any] = {"origin": origin, "assumes": assumes, "inferred": inferred}
+    return Claim(name, value, f">= {at_least:g}", holds, kind, source, n, rounded(interval), **marks)
 
 
 def rounded(interval: Interval | None) -> Interval | None:

@@ -101,7 +101,9 @@ def _write(args: argparse.Namespace, out: Path, report: Report, settings: Mappin
         for c in report.claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"
             interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
-            print(f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} (wanted {c.target}; n {c.n}{interval})")
+            wanted = "no target" if c.origin == "none" else f"wanted {c.target}, {c.origin}"
+            inferred = f"; no evidence, it assumes {c.assumes}" if c.inferred else ""
+            print(f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} ({wanted}; n {c.n}{interval}{inferred})")
         names = ", ".join([ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)])
         print(f"Written to {_options.shown(out)}: {names}.")
         required = [c for c in report.claims if c.kind == "required"]

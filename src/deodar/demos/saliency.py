@@ -239,7 +239,8 @@ def claims(result: Result) -> list[Claim]:
     They are required of the photographs on which the parameters were found. Of the others each is reported, and `totals` says what is required.
     """
     name, kind = result.scene.name, "required" if result.scene.tuned else "reported"
-    out = [Claim(f"{name}, no cue: the colour-space field stays below threshold", round(result.quiet, 3), "< 0", result.quiet < 0, kind, SOURCE)]
+    quiet = f"{name}, no cue: the colour-space field stays below threshold"
+    out = [Claim(quiet, round(result.quiet, 3), "< 0", result.quiet < 0, kind, SOURCE, origin="ours")]
     for o in result.outcomes:
         value: dict[str, Any] = {
             "peaks": len(o.places),
@@ -248,17 +249,17 @@ def claims(result: Result) -> list[Claim]:
             "motor variable": [round(v) for v in o.motor],
         }
         if not o.cue.expect:
-            out.append(Claim(f"{name}, cue {o.cue.hue:g} deg", value, "not marked", None, kind="reported"))
+            out.append(Claim(f"{name}, cue {o.cue.hue:g} deg", value, "not marked", None, kind="reported", origin="none"))
             continue
         cue = f"{name}, cue {o.cue.name} ({o.cue.hue:g} deg)"
         present = o.cue.expect == "present"
         what = f"exactly one peak, on {o.cue.object}; the spatial field follows" if present else "no such colour in the picture, no peak"
         target = "one peak in the marked region, one spatial peak there too" if present else "no peak in either field"
-        out.append(Claim(f"{cue}: {what}", value, target, o.right, kind, SOURCE))
+        out.append(Claim(f"{cue}: {what}", value, target, o.right, kind, SOURCE, origin="ours"))
         what = "the motor variable converges to the peak" if present else "the motor variable stays"
         distance, target = (o.gap, f"at most {NEAR:g} from the spatial peak") if present else (o.moved, f"at most {NEAR / 10:g} from its start")
         held = o.converged if (o.gap is not None) == present else False
-        out.append(Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, kind, SOURCE))
+        out.append(Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, kind, SOURCE, origin="ours"))
     return out
 
 
@@ -273,9 +274,9 @@ def totals(results: Sequence[Result]) -> list[Claim]:
     says = ("a present colour is selected", "an absent colour selects nothing", "the motor variable converges to the peak")
     selected, nothing, motor = (f"untuned: {what}" for what in says)
     return [
-        Claim(selected, right, f"at least {LEAST_RIGHT} of {len(present)}", right >= LEAST_RIGHT, n=len(present)),
-        Claim(nothing, silent, f"all of {len(absent)}", silent == len(absent), n=len(absent)),
-        Claim(motor, arrived, f"all of {len(present)}", arrived == len(present), "reported", n=len(present)),
+        Claim(selected, right, f"at least {LEAST_RIGHT} of {len(present)}", right >= LEAST_RIGHT, n=len(present), origin="ours"),
+        Claim(nothing, silent, f"all of {len(absent)}", silent == len(absent), n=len(absent), origin="ours"),
+        Claim(motor, arrived, f"all of {len(present)}", arrived == len(present), "reported", n=len(present), origin="ours"),
     ]
 
 

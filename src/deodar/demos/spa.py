@@ -6,7 +6,7 @@ import dataclasses as dc
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,6 +34,14 @@ LONGEST = 3000
 
 MEMORY = 400e6
 """Bytes that the motivation fields of a record may take; in a large maze records are further apart for it."""
+
+SOON = 50
+"""Steps after the plan is complete within which the robot leaves. Ours: the paper has it start to move when the plan is complete."""
+
+START = "the start of case 3, which the paper does not print"
+"""It was inferred from the plan, the wave and the route of this very run, so these are no evidence."""
+
+PLACES = f"{START}, and its second location, which was read off a run of ours"
 
 COMES = 336
 """Step at which the obstacle comes, as in figure 11; it stays."""
@@ -159,45 +167,40 @@ def claims(result: Result) -> list[Claim]:
         x, y = r.sites[1]
         wave = _first(r.record["west.motivation.activation"].sel(x=x, y=y, method="nearest").values > 0)
         at = None if wave is None else wave * r.every
+    waits = None if r.left is None or r.planned is None else r.left - r.planned
+    route = {"north": r.north, "south": r.south}
+    turned = switched and r.south is not None and r.south > COMES
+    ours: dict[str, Any] = {"source": SOURCE, "origin": "ours", "assumes": START}
+    printed: dict[str, Any] = {"kind": "reported", "source": SOURCE, "origin": "printed", "assumes": START}
+    placed: dict[str, Any] = {**printed, "assumes": PLACES}
+    text = "the plan is complete: from this step on there is an intention until the robot moves"
+    wave = "the wave reaches location 2, in the motivation to go west, at step"
+    path = None if gone is None else round(length(gone), 1)
     return [
-        Claim(
-            "the plan is complete: from this step on there is an intention until the robot moves",
-            r.planned,
-            f"{PLANNED} +- 10 %",
-            _within(r.planned, PLANNED, 0.1),
-            source=SOURCE,
-        ),
-        Claim("it leaves after the plan is complete, at step", r.left, "later", _later(r.left, r.planned), source=SOURCE),
-        Claim(
-            "it takes the north route, and the south route after the obstacle came",
-            {"north": r.north, "south": r.south},
-            f"north before south, south after {COMES}",
-            switched and r.south is not None and r.south > COMES,
-            source=SOURCE,
-        ),
-        Claim(f"it arrives within {NEAR:g} cm of the goal, at step", r.arrived, f"< {DURATION}", r.arrived is not None, source=SOURCE),
-        Claim("length of its path, cm", None if gone is None else round(length(gone), 1), "not printed", None, "reported"),
-        Claim("the wave reaches location 2, in the motivation to go west, at step", at, "around 150", _within(at, 150, 0.1), "reported", SOURCE),
-        Claim("it arrives around step 1250", r.arrived, f"{ARRIVES} +- 10 %", _within(r.arrived, ARRIVES, 0.1), "reported", SOURCE),
+        Claim("it leaves when the plan is complete: steps from one to the other", waits, f"0 to {SOON}", waits is not None and waits <= SOON, **ours),
+        Claim("it takes the north route, and the south route after the obstacle came", route, f"north first, south after {COMES}", turned, **ours),
+        Claim(f"it arrives within {NEAR:g} cm of the goal, at step", r.arrived, f"< {DURATION}", r.arrived is not None, **ours),
+        Claim(text, r.planned, f"{PLANNED} +- 10 %", _within(r.planned, PLANNED, 0.1), **printed, inferred=True),
+        Claim(wave, at, "150 +- 10 %", _within(at, 150, 0.1), **placed, inferred=True),
+        Claim("it arrives around step 1250", r.arrived, f"{ARRIVES} +- 10 %", _within(r.arrived, ARRIVES, 0.1), **printed),
+        Claim("length of its path, cm", path, "none", None, "reported", origin="none"),
     ]
 
 
 def _reported(r: Result) -> list[Claim]:
     gone = until(r.path, r.goal, NEAR)
+    path = None if gone is None else round(length(gone), 1)
+    arrives = f"it arrives within {NEAR:g} cm of the goal, at step"
     return [
-        Claim("the plan is complete at step", r.planned, "not printed", None, "reported"),
-        Claim("it leaves at step", r.left, "not printed", None, "reported"),
-        Claim(f"it arrives within {NEAR:g} cm of the goal, at step", r.arrived, f"< {LONGEST}", r.arrived is not None, "reported"),
-        Claim("length of its path, cm", None if gone is None else round(length(gone), 1), "not printed", None, "reported"),
+        Claim("the plan is complete at step", r.planned, "none", None, "reported", origin="none"),
+        Claim("it leaves at step", r.left, "none", None, "reported", origin="none"),
+        Claim(arrives, r.arrived, f"< {LONGEST}", r.arrived is not None, "reported", origin="ours"),
+        Claim("length of its path, cm", path, "none", None, "reported", origin="none"),
     ]
 
 
 def _within(value: int | None, target: float, share: float) -> bool:
     return value is not None and abs(value - target) <= share * target
-
-
-def _later(value: int | None, than: int | None) -> bool:
-    return value is not None and than is not None and value >= than
 
 
 def sentence(result: Result) -> str:

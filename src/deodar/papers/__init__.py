@@ -1,8 +1,16 @@
 """Published experiments, run again: one folder for each paper; the folder is the registry.
 
-A paper is a module or a package with `HELP` (one line), `about(quick)` (what makes its design, as plain data), `BY_CONDITION` (the entries of
-`about` that map names of conditions to settings; a folder with fewer conditions is extended), `jobs(quick)` (its trials as
-`experiments.jobs.Job`) and `report(rows, quick)` (a `papers._report.Report` of the rows that are there). Heavy imports stand inside.
+A paper is a module or a package with
+
+* `HELP`: one line;
+* `about(quick)`: what makes its design, as plain data;
+* `BY_CONDITION`: the entries of `about` that map names of conditions to settings; a folder with fewer conditions is extended;
+* `jobs(quick)`: its trials as `experiments.jobs.Job`;
+* `report(rows, quick)`: a `papers._report.Report` of the rows that are there;
+* `kept(row)`: a row without what no claim, figure or number reads; so it is kept in the repository;
+* `PICTURES`: pictures of the manual, and which figure each of them is.
+
+Heavy imports stand inside.
 """
 
 from __future__ import annotations

@@ -20,8 +20,10 @@ class Report:
         claims: figures and sentences that were checked.
         figures: by file name without its ending.
         tables: Markdown by file name without its ending.
+        numbers: what the manual says of the runs, by name: numbers as text, and tables in Markdown.
     """
 
     claims: Sequence[Claim]
     figures: Mapping[str, Figure] = field(default_factory=dict[str, "Figure"])
     tables: Mapping[str, str] = field(default_factory=dict[str, str])
+    numbers: Mapping[str, str] = field(default_factory=dict[str, str])

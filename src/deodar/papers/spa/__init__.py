@@ -22,6 +22,14 @@ HELP = "Billing, Lowe & Sandamirskaya (2015): a robot plans its way through two 
 BY_CONDITION = ("runs", "carrots", "planners")
 """Entries of `about` that map names of conditions to their settings."""
 
+PICTURES = {
+    "spa-success": "figure-7-success",
+    "spa-divergence": "figure-8-divergence",
+    "spa-routes": "figure-13-routes",
+    "spa-choice": "figure-16-full",
+}
+"""Pictures of the manual, and which figure each of them is."""
+
 
 def about(quick: bool) -> dict[str, Any]:
     """What makes the design: rows of another one are not mixed with its own."""
@@ -37,11 +45,17 @@ def jobs(quick: bool) -> Sequence[Job]:
     return trials.jobs(quick)
 
 
+def kept(row: Row) -> Row:
+    """A row as the repository keeps it. Paths of the carrot are left out: they are the larger part, and nothing reads them."""
+    return {k: v for k, v in row.items() if k != "path" or "planner" in row["condition"]}
+
+
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
-    """Claims, figures and tables of the trials that are there."""
+    """Claims, figures, tables and numbers of the trials that are there."""
     from deodar.papers._report import Report
-    from deodar.papers.spa import figures, sentences, tables, targets
+    from deodar.papers.spa import figures, sentences, tables, targets, variations
     from deodar.papers.spa.runs import Runs
 
     runs = Runs(rows, quick)
-    return Report([*targets.claims(runs), *sentences.claims(runs)], figures.draw(runs), tables.write(runs))
+    said = [*targets.claims(runs), *sentences.claims(runs), *variations.claims(runs)]
+    return Report(said, figures.draw(runs), tables.write(runs), tables.numbers(runs))

@@ -53,8 +53,21 @@ class Runs:
 
     def divergences(self, condition: str) -> np.ndarray:
         """Lp / Lo of the runs that reached the goal and whose reference path is long enough."""
-        found = [r for r in self.of(condition) if r["success"] and r["divergence"] is not None and r["shortest"] > LONG]
-        return np.asarray([r["divergence"] for r in found])
+        return np.asarray([r["divergence"] for r in self._long(condition)])
+
+    def both(self, first: str, second: str) -> tuple[np.ndarray, np.ndarray]:
+        """Lp / Lo of two conditions, of the pairs of start and goal that have one in both."""
+        found = [{r["trial"]: r["divergence"] for r in self._long(name)} for name in (first, second)]
+        trials = [k for k in found[0] if k in found[1]]
+        return np.asarray([found[0][k] for k in trials]), np.asarray([found[1][k] for k in trials])
+
+    def like(self, condition: str, other: str) -> list[Row]:
+        """The rows of a condition whose trials the other one has too."""
+        trials = {r["trial"] for r in self.of(other)}
+        return [r for r in self.of(condition) if r["trial"] in trials]
+
+    def _long(self, condition: str) -> list[Row]:
+        return [r for r in self.of(condition) if r["success"] and r["divergence"] is not None and r["shortest"] > LONG]
 
 
 def between(rows: Sequence[Row], onset: tuple[float, float] = (-1, 1e9), duration: tuple[float, float] = (-1, 1e9), **equal: Any) -> list[Row]:

@@ -1,0 +1,191 @@
+"""The runs that the manual speaks of: kept in `evidence/`, a folder for each paper, and every number on a page that comes from them.
+
+python docs/evidence.py FOLDER   take the folder of a finished `deodar reproduce PAPER`, then write claims, pictures and pages anew
+python docs/evidence.py          write claims and pages anew from the runs that are kept
+python docs/evidence.py --print  print every number and table by its name
+
+A folder of evidence holds `about.json` (versions, machine, date, command), `runs.jsonl.xz` (a row for each run) and `results.json` (the claims).
+On a page a comment names a number or table of a paper, and what lies between it and the next `<!-- end -->` is written from the rows:
+
+    reaches <!-- evidence spa success:z/planner/low -->96 of 96<!-- end --> goals
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+import lzma
+import re
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from deodar import papers
+from deodar.analysis.claims import Claim, results
+from deodar.figures import _files
+from deodar.papers._report import Report
+
+DOCS = Path(__file__).parent
+ROOT = DOCS.parent
+EVIDENCE = ROOT / "evidence"
+ABOUT, ROWS, RESULTS = "about.json", "runs.jsonl.xz", "results.json"
+PLACE = re.compile(r"<!-- evidence (\w+) (\S+) -->(.*?)<!-- end -->", re.DOTALL)
+REGION = re.compile(r"<!-- numbers of (\w+) -->(.*?)<!-- end of numbers -->", re.DOTALL)
+NAMED = re.compile(
+    r"!?\[[^\]]*\]\([^)]*\)|`[^`]*`|\(\d{4}\)|(?:figures?|sections?|tables?|eqs?\.|equations?|cases?) \d[\d.]*(?:(?:, | to | and )\d[\d.]*)*|95 %"
+)
+"""What may stand outside of a mark: links and pictures, code, years, places in a paper, and the level of all intervals."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """The runs of a paper as they are kept.
+
+    Attributes:
+        paper: its name.
+        about: versions, machine, date and command.
+        design: what makes the experiment: the first lines of the rows, the last one holds for all of them.
+        rows: by their keys.
+    """
+
+    paper: str
+    about: Mapping[str, Any]
+    design: Sequence[Mapping[str, Any]]
+    rows: Mapping[str, Mapping[str, Any]]
+
+    def report(self) -> Report:
+        """Claims, figures, tables and numbers of the rows."""
+        return papers.paper(self.paper).report(self.rows, False)
+
+    def results(self, report: Report) -> str:
+        """The content of `results.json`."""
+        return results(report.claims, {"paper": self.paper, "quick": False, "runs": len(self.rows), "of": self.about["of"]})
+
+
+def kept() -> list[str]:
+    """The papers whose runs are kept."""
+    return sorted(folder.name for folder in EVIDENCE.iterdir() if folder.is_dir()) if EVIDENCE.is_dir() else []
+
+
+def read(paper: str, folder: Path | None = None) -> Evidence:
+    """The runs of a paper that are kept; `folder`: another one than that of the repository."""
+    at = folder or EVIDENCE / paper
+    about = json.loads((at / ABOUT).read_text(encoding="utf-8"))
+    lines = [json.loads(line) for line in lzma.decompress((at / ROWS).read_bytes()).splitlines()]
+    return Evidence(paper, about, [line["about"] for line in lines if "key" not in line], {line["key"]: line for line in lines if "key" in line})
+
+
+def take(source: Path, into: Path = EVIDENCE) -> Evidence:
+    """Take the folder of a reproduction: its rows without what nothing reads, and what made them."""
+    text = (source / "runs.jsonl").read_text(encoding="utf-8")
+    lines = [json.loads(line) for line in text[: text.rfind("\n") + 1].splitlines()]
+    made = [line["about"] for line in lines if "key" not in line][-1]
+    name = made["paper"]
+    paper = papers.paper(name)
+    if made["quick"] or any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(False))).items()):
+        sys.exit(f"{source}: not the whole design of {name}; run deodar reproduce {name} --out {source} first")
+    keys = {key for job in paper.jobs(False) for key in job.keys}
+    rows = [paper.kept(line) for line in lines if "key" in line]
+    date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
+    about = {"paper": name, "command": f"deodar reproduce {name}", "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
+    folder = into / name
+    folder.mkdir(parents=True, exist_ok=True)
+    content = "".join(json.dumps(line) + "\n" for line in [*(line for line in lines if "key" not in line), *rows])
+    (folder / ROWS).write_bytes(lzma.compress(content.encode(), preset=9))
+    (folder / ABOUT).write_text(json.dumps(about, indent=2) + "\n", encoding="utf-8")
+    return read(name, folder)
+
+
+def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
+    """What a page may say, by name: the numbers of the paper, and of its claims and runs."""
+    required = [c for c in report.claims if c.kind == "required"]
+    told = [c for c in report.claims if c.kind == "reported"]
+    made = evidence.about["made_by"]
+    versions = f"deodar {made['deodar']}, JAX {made['jax']}, NumPy {made['numpy']}, Python {made['python']}"
+    return {
+        **report.numbers,
+        "required": _table(required),
+        "contradicted": _table([c for c in told if c.holds is False]),
+        "undecided": _table([c for c in report.claims if c.holds is None and c.origin != "none"]),
+        "inferred": _table([c for c in told if c.inferred]),
+        "required-count": _counted("required claims", required),
+        "reported-count": _counted("reported sentences", told),
+        "made": f"{versions}, {made['machine']}, {evidence.about['date']}",
+    }
+
+
+def _counted(what: str, claims: Sequence[Claim]) -> str:
+    """How many hold, fail, and are undecided."""
+    hold, fail = (sum(c.holds is verdict for c in claims) for verdict in (True, False))
+    untold = sum(c.origin == "none" for c in claims)
+    target = f", {untold} have no target" if untold else ""
+    return f"{len(claims)} {what} {hold} hold, {fail} fail, {len(claims) - hold - fail - untold} are undecided{target}"
+
+
+def _table(claims: Sequence[Claim]) -> str:
+    """Claims as Markdown."""
+    lines = ["| claim | target | from | value | 95 % interval | n | holds |", "|---|---|---|---|---|---|---|"]
+    for c in claims:
+        interval = "" if c.interval is None else f"{c.interval[0]:g} to {c.interval[1]:g}"
+        holds = {True: "yes", False: "no", None: "open"}[c.holds]
+        value = "" if c.value is None else f"{c.value:g}" if isinstance(c.value, float) else str(c.value)
+        target = str(c.target).replace("|", " ")
+        lines.append(f"| {c.name} | {target} | {c.origin} | {value} | {interval} | {c.n} | {holds} |")
+    return "\n".join(lines) + "\n"
+
+
+def pages() -> list[Path]:
+    """Every page that has a place for a number."""
+    return [p for p in (ROOT / "README.md", *sorted(DOCS.glob("*.md"))) if PLACE.search(p.read_text(encoding="utf-8"))]
+
+
+def filled(text: str, known: Mapping[str, Mapping[str, str]]) -> str:
+    """The text of a page with every number as the runs have it; a name that is not known is an error."""
+
+    def put(found: re.Match[str]) -> str:
+        paper, name, _ = found.groups()
+        if name not in known.get(paper, {}):
+            sys.exit(f"the runs of {paper} give nothing that is called {name}: see python docs/evidence.py --print")
+        value = known[paper][name]
+        block = "\n" in value
+        return f"<!-- evidence {paper} {name} -->{chr(10) * 2 + value + chr(10) if block else value}<!-- end -->"
+
+    return PLACE.sub(put, text)
+
+
+def loose(text: str) -> list[str]:
+    """Numbers in a region of results that no run gives: each of them would have to be kept right by hand."""
+    out: list[str] = []
+    for region in REGION.finditer(text):
+        prose = re.sub(r"^```.*?^```$", "", PLACE.sub("", region[2]), flags=re.MULTILINE | re.DOTALL)
+        out += [line for line in NAMED.sub("", prose).splitlines() if re.search(r"\d", line)]
+    return out
+
+
+def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
+    """Write claims and pictures anew; the numbers for the pages."""
+    report = evidence.report()
+    (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
+    for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():
+        if figure in report.figures:
+            _files.save(report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True)
+    return numbers(evidence, report)
+
+
+def main() -> int:
+    """Status 0."""
+    words = [word for word in sys.argv[1:] if not word.startswith("-")]
+    taken = [take(Path(word)).paper for word in words]
+    known = {paper: write(read(paper), paper in taken) for paper in kept()}
+    if "--print" in sys.argv[1:]:
+        for paper, found in known.items():
+            sys.stdout.writelines(f"{paper} {name}: {chr(10) if chr(10) in value else ''}{value}\n" for name, value in found.items())
+    for page in pages():
+        page.write_text(filled(page.read_text(encoding="utf-8"), known), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

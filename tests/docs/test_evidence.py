@@ -1,0 +1,120 @@
+"""The runs that are kept give every claim that is kept beside them and every number on the pages."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from deodar import papers
+from tests.docs.source import DOCS, ROOT, module
+from tests.papers.spa.rows import PATH, all_rows
+
+evidence = module(DOCS / "evidence.py")
+MADE = {"deodar": "0.1.0", "jax": "1", "jaxlib": "1", "numpy": "2", "python": "3", "device": "cpu", "cores": "1", "machine": "Linux"}
+
+
+@pytest.fixture(scope="module")
+def reports() -> dict[str, Any]:
+    """Evidence and report of each paper whose runs are kept."""
+    found = {name: evidence.read(name) for name in evidence.kept()}
+    return {name: (kept, kept.report()) for name, kept in found.items()}
+
+
+def test_the_claims_that_are_kept_follow_from_the_rows(reports: dict[str, Any]) -> None:
+    for name, (kept, report) in reports.items():
+        assert same(evidence.EVIDENCE / name / evidence.RESULTS, kept.results(report)), f"evidence/{name} is stale: python docs/evidence.py"
+
+
+def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) -> None:
+    known = {name: evidence.numbers(*found) for name, found in reports.items()}
+    for page in evidence.pages():
+        text = page.read_text(encoding="utf-8")
+        assert evidence.filled(text, known) == text, f"{page.name} is stale: python docs/evidence.py"
+        assert evidence.loose(text) == [], f"{page.name} states numbers of runs outside of a mark"
+
+
+def test_what_is_kept_names_versions_and_date_and_no_place(reports: dict[str, Any]) -> None:
+    for name, (kept, _) in reports.items():
+        assert set(kept.about) == {"paper", "command", "date", "runs", "of", "made_by"} and kept.about["paper"] == name
+        assert re.fullmatch(r"20\d\d-\d\d-\d\d", kept.about["date"]) and kept.about["runs"] == len(kept.rows)
+        assert {"deodar", "jax", "jaxlib", "numpy", "python", "machine"} <= set(kept.about["made_by"])
+        assert not re.search(r"/(home|root|tmp|Users|work)\b", json.dumps([kept.about, kept.design]))
+        assert sum(p.stat().st_size for p in (evidence.EVIDENCE / name).iterdir()) < 4e6
+        design = kept.design[-1]
+        assert {k: design[k] for k in design if k != "made_by"} == json.loads(json.dumps(papers.paper(name).about(False))), "the design has changed"
+
+
+def test_the_wheel_does_not_carry_it() -> None:
+    assert evidence.EVIDENCE == ROOT / "evidence" and not list((ROOT / "src").rglob("runs.jsonl*"))
+
+
+# ------------------------------------------------------------------------------------------------ on rows made by hand
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A reproduction in which all went as told."""
+    spa = papers.paper("spa")
+    first = {"about": {**spa.about(False), "made_by": MADE}}
+    text = "".join(json.dumps(line) + "\n" for line in [first, *all_rows(False, lambda c, k: {"path": PATH[::10]}).values()])
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "runs.jsonl").write_text(text + '{"key": "cut o')
+    return tmp_path / "out"
+
+
+def same(file: Path, text: str) -> bool:
+    """Whether a file holds these results; numbers to four digits, since versions of NumPy differ in the last ones."""
+
+    def near(a: Any, b: Any) -> bool:
+        if isinstance(a, dict) and isinstance(b, dict):
+            return a.keys() == b.keys() and all(near(a[k], b[k]) for k in a)
+        if isinstance(a, list) and isinstance(b, list):
+            return len(a) == len(b) and all(map(near, a, b))
+        if isinstance(a, float) and isinstance(b, float):
+            return abs(a - b) <= 2e-4 + 1e-6 * abs(a)
+        return a == b
+
+    return near(json.loads(file.read_text(encoding="utf-8")), json.loads(text))
+
+
+def test_a_reproduction_is_taken_and_a_changed_row_is_noticed(folder: Path, tmp_path: Path) -> None:
+    taken = evidence.take(folder, tmp_path / "evidence")
+    assert len(taken.rows) == taken.about["runs"] == taken.about["of"] and taken.about["made_by"] == MADE
+    assert not any("path" in row for row in taken.rows.values() if "planner" not in row["condition"])
+    report = taken.report()
+    file = tmp_path / "results.json"
+    file.write_text(taken.results(report))
+    again = evidence.read("spa", tmp_path / "evidence" / "spa")
+    assert same(file, again.results(again.report()))
+    known = {"spa": evidence.numbers(taken, report)}
+    page = "<!-- numbers of spa -->It reaches <!-- evidence spa success:z/planner/low -->?<!-- end --> goals (figure 7).<!-- end of numbers -->"
+    whole = evidence.filled(page, known)
+    assert "-->96 of 96<!--" in whole and evidence.filled(whole, known) == whole and evidence.loose(whole) == []
+    assert evidence.loose(whole.replace("goals", "goals, 3 of them late")) != []
+    for key in ("z/planner/low/000", "z/planner/low/002"):
+        again.rows[key]["success"] = False
+    other = again.report()
+    assert not same(file, again.results(other))
+    assert "-->94 of 96<!--" in evidence.filled(whole, {"spa": evidence.numbers(again, other)})
+    with pytest.raises(SystemExit, match="nothing that is called speed"):
+        evidence.filled("<!-- evidence spa speed -->3<!-- end -->", known)
+
+
+def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) -> None:
+    taken = evidence.take(folder, tmp_path / "evidence")
+    known = {"spa": evidence.numbers(taken, taken.report())}
+    text = evidence.filled("<!-- evidence spa required --><!-- end -->", known)
+    assert "\n\n| claim | target |" in text and text.count("| yes |") == 18
+    assert evidence.filled(text, known) == text
+    assert "| large/reflection-1.0-planner/low | 40 |" in known["spa"]["settings"]
+
+
+def test_another_design_is_not_taken(folder: Path, tmp_path: Path) -> None:
+    file = folder / "runs.jsonl"
+    file.write_text(file.read_text().replace('"limit": 3000', '"limit": 2000', 1))
+    with pytest.raises(SystemExit, match="not the whole design of spa"):
+        evidence.take(folder, tmp_path / "evidence")
