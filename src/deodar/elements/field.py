@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import REST, WAVES, Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
-from deodar.numerics import interaction
+from deodar.numerics import interaction, quadrature
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
@@ -21,6 +21,7 @@ from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 MOST_AXES = 4
+QUADRATURES = ("cell", "point")
 
 
 @register
@@ -41,10 +42,12 @@ class Field(Element):
         noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by the root of
             the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) / tau.
         noise_length: correlation length of the noise, in axis units, one or one for each axis; 0: white.
+        quadrature: `cell`: the output at a sample is the mean of g over its cell, so that edges narrower than a sample behave as on a fine
+            grid; `point`: g at the sample. On a node both are g. A document that does not state it means `point`.
 
     Ports:
         input: s, the sum of all connections, over `axes`.
-        output: g(u), over `axes`.
+        output: g(u), over `axes`; its mean over each cell with `quadrature="cell"`.
         activation: u, over `axes`.
         interaction: the integrals, over `axes`.
 
@@ -61,6 +64,7 @@ class Field(Element):
     global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the output")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
     noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")] = 0.0
+    quadrature: Annotated[str, Recompile(choices=QUADRATURES, meaning="output as its mean over a cell, or at the sample")] = "point"
 
     stateful: ClassVar[bool] = True
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "ends"
@@ -100,17 +104,20 @@ class Field(Element):
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         u = state["activation"]
-        g = self.sigmoid(u)
+        g = self._output(u)
         shown = {"output": g, "activation": u, "interaction": self._interaction(at, g, constants)}
         return shown | ({"output" + WAVES: interaction.to_waves(at.waves, g)} if at.shared else {})
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         u, h, s = state["activation"], self.resting_level, inputs["input" + REST if at.shared else "input"]
-        rate = -u + h + s + self._interaction(at, self.sigmoid(u), constants, inputs)
+        rate = -u + h + s + self._interaction(at, self._output(u), constants, inputs)
         return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
 
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
+
+    def _output(self, u: Any) -> Any:
+        return quadrature.cell_means(self.sigmoid, u, tuple(self.axes)) if self.quadrature == "cell" else self.sigmoid(u)
 
     def _interaction(self, at: Setting, g: Any, constants: Any, inputs: Arrays | None = None) -> Any:
         axes = tuple(self.axes)

@@ -34,3 +34,7 @@ class Linear(Sigmoid):
 
     def __call__(self, u: Any) -> Any:
         return self.slope * (u - self.threshold)
+
+    def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
+        """The output in the middle."""
+        return self(0.5 * (a + b)), 1.0

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
+import jax.numpy as jnp
+
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
 from deodar.registry import register
@@ -32,3 +34,9 @@ class Step(Sigmoid):
 
     def __call__(self, u: Any) -> Any:
         return (u > self.threshold).astype(u.dtype)
+
+    def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
+        """The share of the range that lies above the threshold."""
+        va, vb = a - self.threshold, b - self.threshold
+        d = vb - va
+        return jnp.where(d == 0, self(a), jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0)), jnp.where(d == 0, 1.0, d)

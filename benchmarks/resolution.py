@@ -1,0 +1,131 @@
+"""Prints what a field's behaviour owes to its grid, with `quadrature="point"` and `"cell"`: `python benchmarks/resolution.py [--quick]`.
+
+A field with a memory over 100 degrees (kernel of width 5, integral 18) and one over a torus of 60 x 60 (integral 22), on grids of 2.5
+samples a kernel width and more. Three things are measured: the boost at which a memory is forgotten, how far memories drift under white noise,
+and how far they move without any. For the step function on a line the boost is known (Amari 1977). Nothing is asserted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import math
+import os
+import sys
+import time
+from collections.abc import Callable
+
+os.environ.setdefault("NPROC", "1")
+
+import numpy as np
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids.step import Step
+
+MADE, HELD = 400, 3000
+"""Times in ms: how long the input is there, and how long a memory is then held."""
+SIGMOIDS: dict[str, Sigmoid] = {"logistic, beta 4": dd.Logistic(4.0), "step": Step()}
+LENGTH, NOISE = {1: 100.0, 2: 60.0}, {1: 0.5, 2: 1.0}
+GRIDS = {1: (51, 101, 201, 501), 2: (31, 61, 121)}
+
+
+def memory(dimensions: int, samples: int, g: Sigmoid, quadrature: str, noise: float = 0.0, dt: float = 1.0) -> dd.Model:
+    """A field with an input that makes a memory, and a boost that follows."""
+    periodic = dimensions == 2
+    axes = [dd.Axis(n, 0, LENGTH[dimensions], samples=samples - periodic, periodic=periodic, unit="deg") for n in "xy"[:dimensions]]
+    kernel, inhibition = [dd.Gaussian(18 if dimensions == 1 else 22, 5, normalized=True)], 0.3 if dimensions == 1 else 0.01
+    model = dd.Model("memory", dt=dt)
+    u = model.add(dd.Field("u", axes, tau=20, sigmoid=g, kernel=kernel, global_inhibition=inhibition, noise=noise, quadrature=quadrature))
+    middle = [LENGTH[dimensions] / 2] * dimensions
+    model.add(dd.GaussianStimulus("input", axes, center=middle, sigma=5, amplitude=8, windows=[(0, MADE)])) >> u
+    model.add(Boost("boost", axes, amplitude=0.0, windows=[(2 * MADE, 1e6)])) >> u
+    return model
+
+
+def forgetting(dimensions: int, samples: int, g: Sigmoid, quadrature: str, precise: float = 1e-3, lasting: float = 6000.0) -> float:
+    """The boost below which a memory is lost, to `precise`; Euler steps of a fifth of the time constant."""
+    model = memory(dimensions, samples, g, quadrature, dt=4.0)
+    model["u"]["activation"] >> model.add(dd.Project([], reduce="max", name="top"))
+    low, high = -2.5, 0.0
+    while high - low > precise:
+        tried = np.linspace(low, high, 9)
+        data = dd.simulate(
+            model, 2 * MADE + lasting, record=["top.output"], every=2 * MADE + lasting, sweep={"boost.amplitude": tried[1:-1]}, progress=False
+        )
+        held = [False, *(data["top.output"].values[:, -1] > 0), True]
+        k = int(np.argmax(held))
+        low, high = float(tried[k - 1]), float(tried[k])
+    return (low + high) / 2
+
+
+def amari() -> float:
+    """The same for the step function on a long line: the boost at which the stable and the unstable width of a peak meet."""
+    widths = np.linspace(0.01, 60, 600_000)
+    excitation = 9.0 * np.array([math.erf(w / (5 * math.sqrt(2))) for w in widths[::10]])  # the kernel's integral over 0..w
+    return float(5 - np.max(excitation - 0.3 * widths[::10]))
+
+
+def places(model: dd.Model, dimensions: int, until: float, **how: object) -> np.ndarray:
+    """Where the memory is at 800 ms and at the end: shape (runs, 2, dimensions)."""
+    data = dd.simulate(model, 2 * MADE + until, record=["u.output"], every=400.0, progress=False, **how)["u.output"]  # type: ignore[arg-type]
+    g = data.isel(time=[2, -1]).values.astype(float)
+    g = np.moveaxis(g, data.dims.index("time"), -dimensions - 1).reshape(-1, 2, *g.shape[-dimensions:])
+    x = data["x"].values
+    total = g.sum(tuple(range(2, g.ndim)))
+    return np.stack([np.moveaxis(g, 2 + d, -1).sum(tuple(range(2, g.ndim - 1))) @ x / total for d in range(dimensions)], -1)
+
+
+def drift(dimensions: int, samples: int, g: Sigmoid, quadrature: str, trials: int) -> float:
+    """Variance of the place of a memory (mean over axes) that 3,000 ms of noise add, in squared degrees."""
+    found = places(memory(dimensions, samples, g, quadrature, NOISE[dimensions]), dimensions, HELD, trials=trials)
+    return float(np.mean(np.var(found[:, 1] - found[:, 0], axis=0)))
+
+
+def motion(dimensions: int, samples: int, g: Sigmoid, quadrature: str) -> float:
+    """The farthest that a memory moves without noise in 3,000 ms, in samples, over places between two samples."""
+    step = LENGTH[dimensions] / (samples - 1)
+    model, most = memory(dimensions, samples, g, quadrature), 0.0
+    for share in (0.1, 0.25, 0.4, 0.5):
+        away = [share * step, 0.6 * share * step][:dimensions]
+        model.set("input.center", [LENGTH[dimensions] / 2 + a for a in away])
+        found = places(model, dimensions, HELD)
+        most = max(most, float(np.abs(found[:, 1] - found[:, 0]).max()) / step)
+    return most
+
+
+def table(title: str, dimensions: int, grids: tuple[int, ...], measure: Callable[..., float], form: str, sigmoids: dict[str, Sigmoid]) -> None:
+    print(f"\n{title}")
+    print(f"{'samples an axis (a kernel width)':44}" + "".join(f"{f'{n} ({5 * (n - 1) / LENGTH[dimensions]:g})':>12}" for n in grids))
+    for name, g in sigmoids.items():
+        for quadrature in ("point", "cell"):
+            print(f"{name + ', ' + quadrature:44}", end="", flush=True)
+            for n in grids:
+                print(f"{measure(dimensions, n, g, quadrature):{form}}", end="", flush=True)
+            print()
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="one dimension, three grids, 400 trials")
+    parser.add_argument("--trials", type=int, default=1000, help="runs that the variance of drift is taken over (default 1000)")
+    parser.add_argument("--dimensions", type=int, choices=(1, 2), help="one of them alone")
+    given = parser.parse_args()
+    began = time.time()
+    trials = 400 if given.quick else given.trials
+    for dimensions in (given.dimensions,) if given.dimensions else (1,) if given.quick else (1, 2):
+        grids = GRIDS[dimensions][:3] if given.quick else GRIDS[dimensions]
+        where = "a line" if dimensions == 1 else "a plane"
+        known = f"; Amari's value for the step: {amari():.4f}" if dimensions == 1 else ""
+        table(f"Boost at which a memory is forgotten, on {where}{known}", dimensions, grids, forgetting, "12.4f", SIGMOIDS)
+        table(f"Farthest motion without noise in {HELD} ms, in samples, on {where}", dimensions, grids[:2], motion, "12.3f", SIGMOIDS)
+        noisy = functools.partial(drift, trials=trials if dimensions == 1 else min(trials, 400))
+        title = f"Variance of the place after {HELD} ms of noise {NOISE[dimensions]:g}, squared degrees, {noisy.keywords['trials']} runs, on {where}"
+        table(title, dimensions, grids[:3], noisy, "12.4f", SIGMOIDS if not given.quick else dict([*SIGMOIDS.items()][:1]))
+    print(f"\n{time.time() - began:.0f} s; deodar {dd.__version__}, single precision")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,93 @@
+"""The output of a field as its mean over cells: the rule against plain loops, and what it is for."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.numerics.quadrature import cell_means
+from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.sigmoids.step import Step
+from tests.oracle import fields
+
+SIGMOIDS = [dd.Logistic(3.0, 0.4), Absolute(20.0, -0.3), Step(0.2), Linear(0.6, 0.1), SemiLinear(0.5, 0.3)]
+LINE, RING = dd.Axis("x", -3, 12, 16), dd.Axis("phi", -30, 330, 9, periodic=True)
+PLACES = [[LINE], [RING], [LINE, RING], [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 1, 2), RING], [dd.Axis(n, 0, 4, 3, periodic=n < "c") for n in "abcd"]]
+
+
+def bumpy(axes, seed=0):
+    """Activation with steep slopes, and a stretch without any."""
+    u = np.random.default_rng(seed).normal(0, 2, [a.samples for a in axes])
+    u[:3] = 0.5
+    return u
+
+
+@pytest.mark.parametrize("axes", PLACES, ids=lambda axes: f"{len(axes)}-D {axes[0].name}")
+@pytest.mark.parametrize("g", SIGMOIDS, ids=lambda g: type(g).__name__)
+def test_the_rule(g, axes):
+    u = bumpy(axes)
+    with jax.enable_x64(True):
+        found = np.asarray(cell_means(g, jnp.asarray(u), tuple(axes)))
+    np.testing.assert_allclose(found, fields.cell_means(g, u, axes), rtol=1e-9, atol=1e-10)
+    single = np.asarray(jax.jit(lambda u: cell_means(g, u, tuple(axes)))(jnp.asarray(u, jnp.float32)))
+    assert single.dtype == np.float32
+    np.testing.assert_allclose(single, found, atol=3e-5)
+
+
+@pytest.mark.parametrize("axes", [[LINE], [LINE, RING]], ids=["1-D", "2-D"])
+def test_a_field_sums_the_means_wherever_its_output_goes(axes):
+    model, s = dd.Model("cells"), dd.GaussianStimulus("s", axes, center=[4.2, 100][: len(axes)], sigma=[2.0, 60][: len(axes)], amplitude=7)
+    u = model.add(dd.Field("u", axes, kernel=[dd.Gaussian(0.02, [1.5, 50][: len(axes)])], global_inhibition=1e-4, quadrature="cell"))
+    model.add(s) >> u
+    u >> model.add(dd.Project([], name="total"))
+    ports = ["u.output", "u.activation", "u.interaction", "total.output"]
+    data = dd.simulate(model, 40, record=ports, every=40, precision="float64")
+    plain = fields.Field(u.element)
+    for _ in range(40):
+        plain.step(fields.stimulus(s, 0), 1.0)
+    wanted = [plain.output, plain.u, plain.interaction, plain.output.sum() * fields.volume(axes)]
+    for port, value in zip(ports, wanted, strict=True):
+        np.testing.assert_allclose(data[port].values[-1], value, rtol=1e-9, atol=1e-10)
+
+
+def test_a_node_and_an_axis_of_one_sample_take_the_sigmoid_itself():
+    for axes in ([], [dd.Axis("x", 0, 1, 1, periodic=True)]):
+        u = jnp.full([a.samples for a in axes], 0.3)
+        np.testing.assert_array_equal(cell_means(dd.Logistic(), u, tuple(axes)), dd.Logistic()(u))
+
+
+def test_where_the_output_is_resolved_the_sum_over_cells_is_the_sum_over_points():
+    axis = dd.Axis("x", 0, 100, 200, periodic=True)
+    u = jnp.asarray(3.0 * np.exp(-0.5 * ((axis.points - 50) / 12) ** 2) - 1.5, jnp.float32)
+    assert np.isclose(cell_means(dd.Logistic(2.0), u, (axis,)).sum(), dd.Logistic(2.0)(u).sum(), rtol=1e-4)
+
+
+@pytest.mark.parametrize("axes", [[LINE], [LINE, RING]], ids=["1-D", "2-D"])
+@pytest.mark.parametrize("g", SIGMOIDS, ids=lambda g: type(g).__name__)
+def test_the_gradient_is_finite_and_right(g, axes):
+    u, along = bumpy(axes, 1), bumpy(axes, 2)
+    with jax.enable_x64(True):
+
+        def total(e):
+            return jnp.sum(jnp.sin(cell_means(g, jnp.asarray(u) + e * jnp.asarray(along), tuple(axes))))
+
+        slope, differences = jax.grad(total)(0.0), (total(1e-6) - total(-1e-6)) / 2e-6
+    assert np.isclose(slope, differences, rtol=1e-4, atol=1e-4)
+
+
+def test_a_document_without_the_entry_means_points(tmp_path):
+    import json
+
+    model = dd.Model("old")
+    model.add(dd.Field("u", [LINE], quadrature="cell"))
+    dd.save(model, tmp_path / "new.json")
+    assert dd.load(tmp_path / "new.json")["u"].element.quadrature == "cell"
+    data = json.loads((tmp_path / "new.json").read_text())
+    del data["elements"]["u"]["quadrature"]
+    (tmp_path / "old.json").write_text(json.dumps(data))
+    assert dd.load(tmp_path / "old.json")["u"].element.quadrature == "point"
