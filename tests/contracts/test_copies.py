@@ -149,9 +149,11 @@ def test_a_copy_inside_the_process_is_trusted_as_its_model_is(trust, tmp_path):
 
 def test_trust_does_not_travel_through_pickle(tmp_path):
     other = pickle.loads(pickle.dumps(foreign(tmp_path, trust=True)))
-    with pytest.raises(Untrusted, match=r"dd\.Model\(document=model\.document\)"):
+    with pytest.raises(Untrusted, match=r"dd\.Model\(document=model\.document, trusted=True\)"):
         dd.Session(other)
-    dd.Session(dd.Model(document=other.document)).step()
+    with pytest.raises(Untrusted):
+        dd.Session(dd.Model(document=other.document))
+    dd.Session(dd.Model(document=other.document, trusted=True)).step()
 
 
 def test_trust_does_not_come_back_by_undoing(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,6 +15,7 @@ import deodar as dd
 from deodar import cli
 from deodar.elements.function import Function
 from deodar.errors import ModelError, NotFinite, UnknownName, Untrusted
+from deodar.model import edit, files
 from tests.errors.refused import refused
 
 X = dd.Axis("x", 0, 10, samples=11)
@@ -179,3 +181,32 @@ def test_a_function_that_divides_by_zero_names_element_and_step() -> None:
     model = dd.Model("m")
     model.add(Function("f", [X], function=undefined))
     refused(lambda: dd.simulate(model, 5, record="f.output"), NotFinite, "f became infinite or undefined in step 1 (time 1 ms, dt 1)")
+
+
+def test_a_model_made_of_a_strangers_document_does_not_run_its_functions(stranger: Path) -> None:
+    document = files.load(stranger.with_name("strange.json"))
+    model = dd.Model(document=document)
+    assert not model.trusted
+    refused(lambda: dd.simulate(model, 5, record="f.output"), Untrusted, "trusted=True")
+    model.set("f.initial", 0.5)
+    own = dd.Model("own")
+    own.insert(model, "theirs")
+    packed = pickle.loads(pickle.dumps(dd.Model(document=document, trusted=True).document))
+    for one in (model.document, own.document, packed, edit.remove(own.document, [])):
+        assert not dd.Model(document=one).trusted
+    assert not stranger.exists()
+
+
+def test_a_document_keeps_the_trust_that_a_script_gave_it(stranger: Path) -> None:
+    loaded = dd.load(stranger.with_name("strange.json"), trust=True)
+    loaded.set("f.initial", 0.5)
+    own = dd.Model("own")
+    own.add(Function("f", function="math:sqrt"))
+    said = dd.Model(document=files.load(stranger.with_name("strange.json")), trusted=True)
+    for model in (loaded, own, said):
+        assert dd.Model(document=model.document).trusted
+    assert not dd.Model(document=loaded.document, trusted=False).trusted
+    own.insert(dd.load(stranger.with_name("strange.json")), "theirs")
+    assert not dd.Model(document=own.document).trusted
+    own.undo()
+    assert dd.Model(document=own.document).trusted

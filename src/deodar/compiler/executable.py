@@ -364,5 +364,5 @@ def require_trust(model: Model, doc: Document) -> None:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",
                 where=e.path,
-                fix="If you trust it, type dd.load(file, trust=True), or --trust; after unpickling dd.Model(document=model.document)",
+                fix="If you trust it, type dd.load(file, trust=True), or --trust; after unpickling dd.Model(document=model.document, trusted=True)",
             )

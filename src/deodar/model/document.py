@@ -75,7 +75,12 @@ class Use:
 
 @dc.dataclass(frozen=True)
 class Document:
-    """An architecture as data. Only `deodar.model.edit` makes new ones."""
+    """An architecture as data. Only `deodar.model.edit` makes new ones.
+
+    Attributes:
+        foreign: whether it came from a file or another process, and nobody has said that functions it names may be run. It is not written into
+            files, is no part of what makes two documents equal, and is passed on to every document that is made from this one.
+    """
 
     name: str
     entries: tuple[Entry, ...] = ()
@@ -88,6 +93,15 @@ class Document:
     t0: float = 0.0
     notes: str = ""
     layout: Mapping[str, Any] = dc.field(default_factory=dict[str, Any])
+    foreign: bool = dc.field(default=False, compare=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What a pickle holds: trust stays in the process in which it was given."""
+        return {**self.__dict__, "foreign": True}
+
+    def asks(self) -> bool:
+        """Whether it names functions that nobody has said may be run."""
+        return self.foreign and any(e.element.outside() for e in self.entries)
 
     def by_id(self) -> Mapping[str, Entry]:
         """Entries by id."""

@@ -141,7 +141,8 @@ def insert(doc: Document, template: Document, place: Callable[[Names], Names], i
     groups = [place((*g, ""))[:-1] for g in template.groups] if ids is None else []
     uses = [Use(place((*u.group, ""))[:-1], u.template, tuple((t, new[i]) for t, i in u.elements)) for u in template.uses] if ids is None else []
     uses += [Use(place(("",))[:-1], template.name, tuple(new.items()))] if linked else []
-    return dc.replace(doc, groups=_with_groups(doc.groups, [g for g in groups if g]), uses=(*doc.uses, *uses))
+    foreign = doc.foreign or template.asks()
+    return dc.replace(doc, groups=_with_groups(doc.groups, [g for g in groups if g]), uses=(*doc.uses, *uses), foreign=foreign)
 
 
 def connect(doc: Document, source: Entry, source_port: str, target: Entry, target_port: str, reads: str = "") -> Document:

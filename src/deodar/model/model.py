@@ -62,15 +62,16 @@ class Model:
         time_unit: unit of all times: us, ms, s, min, abstract, or steps such as "1 = 64 ms".
         dt: Euler step where a run states none.
         document: start from this document instead of an empty one.
-        trusted: whether user functions named in the document may be imported and run.
+        trusted: whether user functions named in the document may be imported and run. None: if this process made the document, or read it with
+            trust; not if it came from a file, a pickle or a message.
     """
 
     def __init__(
-        self, name: str = "model", *, time_unit: str = "ms", dt: float | None = None, document: Document | None = None, trusted: bool = True
+        self, name: str = "model", *, time_unit: str = "ms", dt: float | None = None, document: Document | None = None, trusted: bool | None = None
     ) -> None:
         doc = document if document is not None else edit.describe(Document(name), name=name, time_unit=time_unit, dt=dt)
-        self.history = edit.History(doc)
-        self._trusted = trusted
+        self._trusted = not doc.foreign if trusted is None else trusted
+        self.history = edit.History(doc if doc.foreign != self._trusted else dc.replace(doc, foreign=not self._trusted))
         self._doubted: int | None = None
         self.declared: dict[str, str] = {}
         self.programs: dict[Hashable, Any] = {}
@@ -89,7 +90,7 @@ class Model:
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle holds: no compiled programs, and no trust in functions that a document names.
 
-        Whoever reads the pickle decides whether to trust them: `Model(document=model.document)`.
+        Whoever reads the pickle decides whether to trust them: `Model(document=model.document, trusted=True)`.
         """
         plain = not any(e.element.outside() for d in self.history.documents for e in d.entries)
         return {**self.__dict__, "programs": {}, "_trusted": self._trusted and plain}

@@ -41,7 +41,7 @@ class _Reader:
         for key in self.data:
             if key not in KEYS:
                 self.problem(key, "is no key of a document", did_you_mean(key, KEYS))
-        doc = self.general(Document(self.text("name", "model")))
+        doc = self.general(Document(self.text("name", "model"), foreign=True))
         axes = self.axes()
         doc = self.elements(doc, axes)
         doc = self.groups(doc)

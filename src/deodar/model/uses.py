@@ -22,7 +22,7 @@ def refresh(doc: Document, template: Document) -> Document:
         )
     for group in linked:
         doc = _refreshed(doc, next(u for u in doc.uses if u.group == group and u.template == template.name), template)
-    return doc
+    return dc.replace(doc, foreign=doc.foreign or template.asks())
 
 
 def _refreshed(doc: Document, use: Use, template: Document) -> Document:
