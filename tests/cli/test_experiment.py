@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 
 import pytest
@@ -90,3 +91,17 @@ def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
     assert "there is no such file. Did you mean 'when.json'?" in capsys.readouterr().err
     assert cli.main(["experiment", "when.model.json"]) == 1
     assert "is no experiment" in capsys.readouterr().err
+
+
+def test_a_disk_that_fills_keeps_what_is_done_and_says_how_to_go_on(file, capsys, tmp_path, monkeypatch):
+    from deodar.model import output
+
+    with monkeypatch.context() as patch:
+        patch.setattr(
+            output, "sync", lambda path: (_ for _ in ()).throw(OSError(errno.ENOSPC, "No space left on device")) if path.suffix == ".csv" else None
+        )
+        assert call("--out", "out") == 1
+    told = capsys.readouterr().err
+    assert "trials.csv: cannot be written: No space left on device" in told and "Go on with: deodar experiment when.json --out out" in told
+    assert not (tmp_path / "out" / "trials.csv").exists() and load(tmp_path / "out").sizes["trial"] == 16
+    assert call("--out", "out") == 0 and (tmp_path / "out" / "trials.csv").is_file()

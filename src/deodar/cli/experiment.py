@@ -41,8 +41,9 @@ def run(args: argparse.Namespace) -> int:
     """Status 1 if the trials were stopped."""
     import dataclasses as dc
 
+    from deodar.errors import OutputError
     from deodar.experiments.experiment import Experiment
-    from deodar.experiments.results import carry
+    from deodar.experiments.results import ROWS, carry
     from deodar.importers.opening import load
     from deodar.recording import places
 
@@ -58,11 +59,14 @@ def run(args: argparse.Namespace) -> int:
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
             data = carry(bench, out, args.workers or None, bar.show)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, OutputError) as stop:
+        if not (out / ROWS).is_file():
+            raise
         options = {"--trials": args.trials, "--seed": args.seed, "--world": args.world, "--workers": args.workers}
         again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
         again += [f"{name} {value}" for name, value in options.items() if value is not None] + (["--trust"] if args.trust else [])
-        print(f"deodar experiment: stopped; what is done is kept. Go on with: {' '.join(again)}", file=sys.stderr)
+        why = f"{stop}" if isinstance(stop, OutputError) else "stopped"
+        print(f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Go on with: {' '.join(again)}", file=sys.stderr)
         return 1
     _tell(args, out, data)
     return 0

@@ -10,7 +10,7 @@ from collections.abc import Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar.cli import _live, _long, _options
+from deodar.cli import _live, _long, _options, _rescue
 
 if TYPE_CHECKING:
     import xarray
@@ -159,28 +159,47 @@ class _Place:
         self.force: bool = args.force
         folder.claim(self.given or places.free(Path(), name), self.format, self.force)
 
-    def write(self, data: xarray.Dataset, doc: Document) -> tuple[Path, Path]:
-        """Write it; the folder and the record in it."""
+    def write(self, data: xarray.Dataset, doc: Document, ask: bool) -> tuple[Path, Path, str]:
+        """Write it, to a second place where this one fails; the folder, the record in it, and why it is not where it was asked for."""
+        from deodar.errors import OutputError, OutputExists, RecordError
         from deodar.recording import folder, places
 
         out = self.given or places.free(Path(), self.name)
-        return out, folder.write(data, doc, out, self.format, self.force)
+        try:
+            return out, folder.write(data, doc, out, self.format, self.force), ""
+        except (OutputError, OutputExists, RecordError) as error:
+            format, first = (self.format, []) if isinstance(error, OutputError) else ("zarr", [out.parent])  # there is room, but not for this
+            second = _rescue.rescue(error, lambda parent: self._elsewhere(data, doc, parent, format), first, ask)
+            return *second, str(error)
+
+    def _elsewhere(self, data: xarray.Dataset, doc: Document, parent: Path, format: str) -> tuple[Path, Path]:
+        from deodar.recording import folder, places
+
+        out = places.free(parent, self.given.name if self.given is not None else self.name)
+        return out, folder.write(data, doc, out, format)
 
 
 def _finish(args: argparse.Namespace, place: _Place, data: xarray.Dataset, doc: Document, stopped: str, done: Repetition | None) -> int:
+    from deodar.recording.files import SUFFIXES
+
     if stopped and not data.sizes.get("time", 0):
         print(f"deodar run: {_options.paragraph([stopped, 'Nothing had been recorded, so nothing was written'])}", file=sys.stderr)
         return 1
-    out, record = place.write(data, doc)
+    out, record, failed = place.write(data, doc, not args.json)
+    args.format = next(k for k, suffix in SUFFIXES.items() if suffix == record.suffix)
     good = not stopped and (done is None or done.faithful)
     if "diverged" in data.attrs:
         print(f"deodar run: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
-        print(json.dumps(_answer(out, record, data, stopped, done), indent=2, ensure_ascii=False))
+        elsewhere = {"instead_of": str(place.given) if place.given else place.name} if failed else {}
+        print(json.dumps({**_answer(out, record, data, stopped, done), **elsewhere}, indent=2, ensure_ascii=False))
     told = f"Wrote {_contents(data)} to {_options.shown(out)}"
     look = f"Look at it with: deodar plot {_options.shown(out)}" if args.format != "csv" else f"The table is {_options.shown(record)}"
     if stopped:
         print(f"deodar run: {_options.paragraph([stopped, f'{told}, marked as incomplete', look])}", file=sys.stderr)
+        return 1
+    if failed:
+        print(f"deodar run: {_options.paragraph([failed, f'{told} instead', look])}", file=sys.stderr)
         return 1
     if done is not None and (done.differences or not done.same_bits):
         print(f"deodar run: {_options.paragraph([('warning: ' if done.faithful else '') + str(done)])}", file=sys.stderr)

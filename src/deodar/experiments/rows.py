@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from deodar.errors import OutputError, OutputExists, RecordError
+from deodar.errors import OutputExists, RecordError
+from deodar.model import output
 from deodar.recording import places
 
 Row = dict[str, Any]
@@ -86,13 +88,16 @@ class Rows:
         return lines
 
     def _write(self, text: str, mode: str) -> None:
+        size = self.path.stat().st_size if mode == "a" else 0
         try:
             with self.path.open(mode, encoding="utf-8", newline="\n") as file:
                 file.write(text)
                 file.flush()
                 os.fsync(file.fileno())
         except OSError as error:
-            raise OutputError(f"cannot be written: {error.strerror or error}", where=str(self.path)) from None
+            with contextlib.suppress(OSError):
+                os.truncate(self.path, size)  # no half of a line, which the next row would continue
+            raise output.failed(self.path, error) from None
 
 
 def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:

@@ -1,14 +1,22 @@
-"""Writing files so that nothing is lost: beside and renamed, and never over what this run did not write."""
+"""Writing files so that nothing is lost: beside, on the disk and then renamed, and never over what this run did not write."""
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from deodar.errors import OutputError, OutputExists
+
+THREADS = 16
+"""Files whose way to the disk is waited for at a time (a guess)."""
+
+UNSUPPORTED = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
+"""What file systems answer that cannot be told to put something on the disk."""
 
 
 def location(path: Any) -> Path:
@@ -44,7 +52,7 @@ def claim(path: str | Path, force: bool = False) -> Path:
 
 
 def write(path: Path, content: bytes | Callable[[Path], None]) -> None:
-    """Write beside the final place and rename: the file is there whole, or not at all."""
+    """Write beside the final place, wait until it is on the disk, and rename: the file is there whole, or not at all."""
     try:
         handle, name = tempfile.mkstemp(prefix=f".{path.name[:40]}.", suffix=path.suffix, dir=path.parent)
         os.close(handle)
@@ -57,11 +65,54 @@ def write(path: Path, content: bytes | Callable[[Path], None]) -> None:
         else:
             beside.write_bytes(content)
         beside.chmod(0o666 & ~_umask())
+        sync(beside)
         beside.replace(path)
+        sync_folder(path.parent)
     except OSError as error:
-        raise OutputError(f"cannot be written: {error.strerror}", where=str(path)) from None
+        raise failed(path, error) from None
     finally:
         beside.unlink(missing_ok=True)
+
+
+def failed(path: Path, error: OSError) -> OutputError:
+    """Return the error of a write that the system refused; who asked for it still has the data."""
+    room = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+    fix = "The data are still in memory: make room, or write them to another disk" if room else ""
+    return OutputError(f"cannot be written: {error.strerror or error}", where=str(path), fix=fix)
+
+
+def sync(path: Path) -> None:
+    """Wait until the content of a file is on the disk.
+
+    Raises:
+        OSError: the disk is full or broken, which some file systems say only now.
+    """
+    _sync(path, os.O_RDWR)
+
+
+def sync_folder(path: Path) -> None:
+    """Wait until the names in a folder are on the disk; Windows has no call for this."""
+    if os.name == "posix":
+        _sync(path, os.O_RDONLY)
+
+
+def sync_tree(path: Path) -> None:
+    """Wait until a folder is on the disk with everything below it; several files at a time, which a disk does in about the time of one."""
+    found = list(os.walk(path, topdown=False))
+    with ThreadPoolExecutor(THREADS) as pool:
+        list(pool.map(sync, [Path(folder, name) for folder, _, names in found for name in names]))
+        list(pool.map(sync_folder, [Path(folder) for folder, _, _ in found]))
+
+
+def _sync(path: Path, mode: int) -> None:
+    handle = os.open(path, mode)
+    try:
+        os.fsync(handle)
+    except OSError as error:
+        if error.errno not in UNSUPPORTED:
+            raise
+    finally:
+        os.close(handle)
 
 
 def _umask() -> int:

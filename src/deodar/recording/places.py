@@ -9,7 +9,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from deodar.errors import OutputError, OutputExists
+from deodar.errors import OutputError, OutputExists, Problem
+from deodar.model import output
 
 MOST_NUMBERED = 100_000
 
@@ -35,13 +36,14 @@ def require_parent(path: Path) -> None:
 
 
 def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False) -> None:
-    """Fill a folder beside its final place, then rename it: it is there whole, or not at all."""
+    """Fill a folder beside its final place, wait until all of it is on the disk, and rename it: it is there whole, or not at all."""
     beside = old = None
     try:
         beside = Path(tempfile.mkdtemp(prefix=f".{path.name[:40]}.", dir=path.parent))
         inner = beside / "new"
         inner.mkdir()
         fill(inner)
+        output.sync_tree(inner)
         if replace and path.is_dir():
             old = beside / "old"
             path.rename(old)
@@ -49,12 +51,16 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
             raise OutputExists("has come to exist meanwhile", where=str(path), fix="Choose another name")
         try:
             inner.rename(path)
+            output.sync_folder(path.parent)
         except OSError:
             if old is not None:
                 old.rename(path)
             raise
+    except OutputError as error:
+        here = str(beside / "new") if beside is not None else str(path)
+        raise type(error)([Problem(p.where.replace(here, str(path)), p.what, p.fix) for p in error.problems]) from None
     except OSError as error:
-        raise OutputError(f"cannot be written: {error.strerror or error}", where=str(path)) from None
+        raise output.failed(path, error) from None
     finally:
         if beside is not None:
             shutil.rmtree(beside, ignore_errors=True)

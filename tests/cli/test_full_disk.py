@@ -1,0 +1,111 @@
+"""A disk that fills at the end of a run: the result is kept, and written to a second place."""
+
+from __future__ import annotations
+
+import errno
+import io
+import json
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+import deodar as dd
+from deodar.cli import main
+from deodar.model import output
+from deodar.recording import files
+from tests.recording.models import model
+
+
+class Terminal(io.StringIO):
+    """What a person types."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder on a disk that is full, beside a second place and a temporary folder on others."""
+    folder = tmp_path / "full"
+    for name in ("full", "second", "temporary", "data"):
+        (tmp_path / name).mkdir()
+    monkeypatch.chdir(folder)
+    dd.save(model(), "small.json")
+    sync = output.sync
+
+    def refuse(path: Path) -> None:
+        if folder in path.resolve().parents:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        sync(path)
+
+    monkeypatch.setattr(output, "sync", refuse)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
+    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: tmp_path / "data" / "deodar")
+    monkeypatch.setenv("DEODAR_CACHE", "off")
+    return folder
+
+
+RUN = ["run", "small.json", "--duration", "20", "--every", "5", "--record", "u.activation", "--out", "result", "--no-progress"]
+
+
+def test_without_a_terminal_the_result_goes_where_data_of_the_user_go(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(RUN) == 1
+    told = capsys.readouterr()
+    assert "No space left on device" in told.err and not told.out
+    found = sorted((here.parent / "data").rglob("record.zarr"))
+    assert len(found) == 1 and str(found[0].parent) in told.err and "deodar plot" in told.err
+    expected = dd.simulate(model(), 20, record=["u.activation"], every=5)
+    assert files.load(found[0].parent)["u.activation"].equals(expected["u.activation"])
+    assert dd.load(found[0].parent / "model.json").document == model().document
+    assert [p.name for p in here.iterdir()] == ["small.json"]
+
+
+def test_programs_are_told_where_it_is(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*RUN, "--json"]) == 1
+    answer = json.loads(capsys.readouterr().out)
+    assert Path(answer["record"]).exists() and answer["instead_of"] == "result" and answer["complete"]
+
+
+def test_the_temporary_folder_comes_next(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (here.parent / "data" / "deodar").write_text("in the way")
+    assert main(RUN) == 1
+    assert len(list((here.parent / "temporary").rglob("record.zarr"))) == 1
+    assert str(here.parent / "temporary") in capsys.readouterr().err
+
+
+def test_a_person_is_asked_for_a_folder_until_one_can_be_written(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "stdin", Terminal(f"{here}\n{here.parent / 'nowhere'}\n{here.parent / 'second'}\n"))
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    assert main(RUN) == 1
+    told = capsys.readouterr().err
+    assert told.count("Another folder") == 3 and "there is no folder" in told
+    assert (here.parent / "second" / "result-001" / "record.zarr").is_dir()
+
+
+def test_an_empty_answer_takes_the_places_of_the_user(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", Terminal("\n"))
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    assert main(RUN) == 1
+    assert len(list((here.parent / "data").rglob("record.zarr"))) == 1
+
+
+def test_where_nothing_can_be_written_every_place_is_named(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    (here.parent / "data" / "deodar").write_text("in the way")
+    monkeypatch.setattr("tempfile.tempdir", str(here))
+    assert main(RUN) == 1
+    told = capsys.readouterr().err
+    assert "result" in told and str(here.parent / "data") in told and "is lost" in told
+
+
+def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(output, "sync", lambda path: None)
+    monkeypatch.setattr(files, "LARGEST_NETCDF", 10)
+    assert main([*RUN, "--format", "netcdf"]) == 1
+    assert "NetCDF 3 holds" in capsys.readouterr().err
+    assert files.load(here / "result-001" / "record.zarr").sizes["time"] == 5

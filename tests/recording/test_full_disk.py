@@ -1,0 +1,115 @@
+"""A disk that is full: nothing half-written is left, and who asked still has the data."""
+
+from __future__ import annotations
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import deodar as dd
+from deodar.errors import OutputError
+from deodar.experiments.rows import Rows
+from deodar.model import output
+from deodar.recording import files
+from tests.recording.models import record
+
+SMALL = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+sys.path[:0] = {path!r}
+import deodar as dd
+from deodar.errors import OutputError
+from deodar.recording import files
+from tests.recording.models import record
+data = record(trials=3)
+before = data.copy(deep=True)
+try:
+    files.save(data, sys.argv[1])
+except OutputError as error:
+    print(error)
+print(data.identical(before))
+"""
+
+
+@pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
+def test_a_write_that_fails_leaves_the_data_and_no_file(suffix: str, tmp_path: Path) -> None:
+    """A real one: the system lets no file grow beyond 1000 bytes."""
+    code = SMALL.format(path=sys.path)
+    command = [sys.executable, "-B", "-c", code, str(tmp_path / f"record{suffix}")]
+    done = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"DEODAR_CACHE": "off"}, check=True)
+    told, same = done.stdout.splitlines()
+    assert f"record{suffix}: cannot be written: File too large" in told and "The data are still in memory" in told and same == "True"
+    assert list(tmp_path.iterdir()) == []
+
+
+def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
+    """A file system that says only at the end that it is full."""
+
+    def refuse(handle: int) -> None:
+        raise OSError(code, os.strerror(code))
+
+    monkeypatch.setattr(os, "fsync", refuse)
+
+
+@pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
+def test_a_disk_that_is_full_at_the_last_moment_is_noticed(suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    data = record()
+    full(monkeypatch)
+    with pytest.raises(OutputError, match="No space left"):
+        files.save(data, tmp_path / f"record{suffix}")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_document_in_place_survives_a_write_that_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    model = dd.Model("kept")
+    dd.save(model, tmp_path / "kept.json")
+    full(monkeypatch)
+    with pytest.raises(OutputError, match="No space left"):
+        dd.save(dd.Model("other"), tmp_path / "kept.json", force=True)
+    assert dd.load(tmp_path / "kept.json").name == "kept" and [p.name for p in tmp_path.iterdir()] == ["kept.json"]
+
+
+def test_a_file_system_without_the_call_is_no_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    full(monkeypatch, errno.EINVAL)
+    files.save(record(), tmp_path / "record.zarr")
+    assert files.load(tmp_path / "record.zarr").sizes["time"]
+
+
+def test_everything_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each file of a record, then its folders; the name of the record comes last."""
+    events: list[tuple[str, str]] = []
+    sync, rename = output._sync, Path.rename
+    monkeypatch.setattr(output, "_sync", lambda path, mode: (sync(path, mode), events.append(("sync", str(path))))[0])
+    monkeypatch.setattr(Path, "rename", lambda self, to: (events.append(("rename", str(to))), rename(self, to))[1])
+    files.save(record(), tmp_path / "record.zarr")
+    named = events.index(("rename", str(tmp_path / "record.zarr")))
+    assert events[named + 1 :] == [("sync", str(tmp_path))]
+    before = {Path(path).name for _, path in events[:named]}
+    assert {p.name for p in (tmp_path / "record.zarr").rglob("*")} <= before
+
+
+def test_a_document_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    events: list[str] = []
+    replace = Path.replace
+    monkeypatch.setattr(output, "_sync", lambda path, mode: events.append("folder" if path.is_dir() else "file"))
+    monkeypatch.setattr(Path, "replace", lambda self, to: (events.append("replace"), replace(self, to))[1])
+    dd.save(dd.Model("m"), tmp_path / "m.json")
+    assert events == ["file", "replace", "folder"]
+
+
+def test_rows_that_could_not_be_written_whole_are_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that the next row, once there is room, does not continue half a line."""
+    rows = Rows(tmp_path / "rows.jsonl", {"name": "e"})
+    rows.append([{"key": "1"}])
+    before = (tmp_path / "rows.jsonl").read_bytes()
+    with monkeypatch.context() as patch:
+        full(patch)
+        with pytest.raises(OutputError, match="No space left"):
+            rows.append([{"key": "2"}])
+    assert (tmp_path / "rows.jsonl").read_bytes() == before and set(rows.found) == {"1"}
+    rows.append([{"key": "2"}])
+    assert set(Rows(tmp_path / "rows.jsonl", {"name": "e"}).found) == {"1", "2"}
