@@ -217,7 +217,9 @@ class Executable:
         return self._batched(one, values, constants, state, keys)
 
     def _batched(self, one: Any, values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
-        if self.batch.trials is not None:
+        if self.batch.trials == 1:
+            one = _alone(one)
+        elif self.batch.trials is not None:
             one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials)  # also without any state or noise
         if self.batch.points is None:
             return one(values | {"swept": ()}, constants, state, keys)
@@ -307,6 +309,16 @@ class Executable:
             g, _ = self.plan.row[ident]
             out[ident] = np.zeros(shape(self.plan.groups[g].like.outs["output"]), self.program.dtype)
         return out
+
+
+def _alone(one: Any) -> Any:
+    """The function of one trial as that of a batch of one: it has the bits of a single run."""
+
+    def single(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+        out = one(values, constants, *jax.tree.map(lambda a: a[0], (state, keys)))
+        return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
+
+    return single
 
 
 def executable(

@@ -44,7 +44,7 @@ class Pieces:
     Attributes:
         dimension: which one; empty where there is none.
         total: its length.
-        length: how much of it one piece takes; the last piece may take less.
+        length: how much of it one piece takes; the last piece may take less, and is filled up to it when it is computed.
         rest: copies in each slice of it.
     """
 
@@ -73,7 +73,7 @@ class Pieces:
                 grid = {path: list(values[part] if path == self.dimension else values) for path, values in sweep.items()}
             else:
                 grid, own = {path: list(values) for path, values in sweep.items()}, own[part] if own is not None else None
-            out.append({"trials": own, "sweep": grid or None, "batch": self.batch})
+            out.append({"trials": own, "sweep": grid or None, "batch": self.batch, "width": (self.dimension, self.length)})
         return out
 
 

@@ -60,6 +60,11 @@ def simulate(
     the longest of these dimensions; `workers` runs the pieces in processes of one core each. The noise is the same bits however it is cut, and
     float64 results agree to 1e-10. A worker takes one to two seconds to start, so a short run is done sooner without.
 
+    In float32 the last digits of a copy depend on how many points and trials are computed together, because the compiler orders sums by the size
+    of arrays: results of other widths agree to 1e-4. Of the same width all bits agree, whatever the place of a copy, the number of pieces, chunks,
+    workers, restarts and the order of declaration. All pieces of a run have the same width: `batch` in the record; the last one is filled up. With
+    `batch=1` each trial has the bits of a single run. `python benchmarks/bits.py` tests this with random combinations.
+
     Args:
         model: the model, as it now is.
         duration: document time; a whole number of steps.
@@ -129,8 +134,13 @@ def compute(
     batch: int | None = None,
     device: str | None = None,
     accuracy: str = "default",
+    width: tuple[str, int] | None = None,
 ) -> pieces.Part:
-    """What `simulate` does, for a whole run or a piece of one; if all its copies diverge, the error is returned beside the record."""
+    """What `simulate` does, for a whole run or a piece of one; if all its copies diverge, the error is returned beside the record.
+
+    `width`: a dimension and its length in the other pieces. The piece is filled up to it with copies of its last one, whose results are not kept:
+    the last digits in single precision depend on how many copies are computed together.
+    """
     doc = require_model(model).document
     model.require()
     if sweep is not None and not isinstance(sweep, Mapping):
@@ -170,11 +180,14 @@ def compute(
         return pieces.Part(data, True, errors[0] if all(error is not None for error in errors) else None)
     stopped, nothing = False, None
     with stoppable() as check:
-        program = executable(model, doc, precision, copies, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
-        run = Run(program, doc, float(step), seed, numbers, world, points.values if sweep else None)
+        more_points, more_trials = _missing(width, points, len(numbers))
+        filled = Batch(points.size + more_points if sweep else None, len(numbers) + more_trials if names else None)
+        program = executable(model, doc, precision, filled, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
+        swept = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values] if sweep else None
+        run = Run(program, doc, float(step), seed, [*numbers, *[numbers[-1]] * more_trials], world, swept)
         run.tolerant = True
         found = [program.port(i, port) for i, port in ports]
-        store = _Store(program, found, copies, count)
+        store = _Store(program, found, filled, count)
         about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)
         try:
             with bar(steps, progress) as shown:
@@ -187,7 +200,7 @@ def compute(
         except KeyboardInterrupt:
             stopped = True
         except NotFinite as error:
-            if len(run.lost) < max(copies.size, 1) or not copies.shape:
+            if len(run.lost) < filled.size or not filled.shape:
                 raise
             store.fill()
             nothing = error
@@ -198,7 +211,7 @@ def compute(
     data = dataset(
         doc,
         [
-            (doc.by_id()[i], port, program.axes(p), a[..., : store.taken, *(slice(None),) * len(program.axes(p))])
+            (doc.by_id()[i], port, program.axes(p), a[*map(slice, copies.shape), : store.taken])
             for (i, port), p, a in zip(ports, found, store.arrays, strict=True)
         ],
         times,
@@ -206,11 +219,23 @@ def compute(
         points.by_path,
         about | {"complete": not stopped},
     )
-    reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in run.lost.items()}
+    kept = {copy: error for copy, error in run.lost.items() if all(k < n for k, n in zip(copy, copies.shape, strict=True))}
+    reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in kept.items()}
     data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
     if stopped:
         raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
     return pieces.Part(data, True, nothing)
+
+
+def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tuple[int, int]:
+    """Points and trials that a piece lacks to be as wide as the others."""
+    if width is None:
+        return 0, 0
+    dimension, length = width
+    if dimension in points.by_path:
+        own = len(points.by_path[dimension])
+        return points.size // own * (length - own), 0
+    return 0, length - trials
 
 
 def _in_pieces(

@@ -1,0 +1,47 @@
+"""Bits depend on the width of a batch alone: a few random combinations of those that `benchmarks/bits.py` draws a thousand of."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import deodar as dd
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+import bits
+
+
+def test_copies_of_equal_width_agree_to_the_bit_whatever_else_differs() -> None:
+    found = bits.check(10, seed=1, names=["two lines of 31"], widths=(1, 3), workers_every=0)
+    assert not found.differences and found.compared > 50
+    assert {key[1] for key in found.first} == {1, 3}
+
+
+def test_a_difference_would_be_found() -> None:
+    found = bits.Found()
+    found.take(("m", 1, 0, "u", 0), np.float32([1.0, 2.0]), "first")
+    found.take(("m", 1, 0, "u", 0), np.float32([1.0, 2.0000002]), "second")
+    assert len(found.differences) == 1 and found.compared == 1
+
+
+def test_the_last_piece_is_as_wide_as_the_others() -> None:
+    """Trials 0 to 3 in pieces of 3 and 1, of which the second is filled up; points of a sweep likewise."""
+    model = bits.MODELS["two lines of 31"](1)
+
+    def run(**others: object) -> np.ndarray:
+        return dd.simulate(model, 20, record=["u1.activation"], every=20, **others)["u1.activation"].values  # type: ignore[arg-type]
+
+    np.testing.assert_array_equal(run(trials=[0, 1, 2, 3], batch=3)[3], run(trials=[3, 5, 7], batch=3)[0])
+    sweep = {"s.amplitude": [2.0, 4.0, 6.0, 8.0]}
+    np.testing.assert_array_equal(run(sweep=sweep, batch=3)[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, batch=3)[0])
+    both = run(sweep=sweep, trials=2, batch=6)
+    assert both.shape[:2] == (4, 2)
+    np.testing.assert_array_equal(both[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, trials=2, batch=6)[0])
+
+
+def test_a_batch_of_one_has_the_bits_of_a_single_run() -> None:
+    model = bits.MODELS["a plane, a line and a node"](1)
+    alone = dd.simulate(model, 20, record=["u0.activation"])["u0.activation"].values
+    np.testing.assert_array_equal(dd.simulate(model, 20, record=["u0.activation"], trials=2, batch=1)["u0.activation"].values[0], alone)
