@@ -25,7 +25,7 @@ from typing import Any
 from deodar import papers
 from deodar.analysis.claims import Claim, results
 from deodar.figures import _files
-from deodar.papers._report import Report
+from deodar.papers._report import NOT_RUN, Report
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
@@ -88,6 +88,8 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
         sys.exit(f"{source}: not the whole design of {name}; run deodar reproduce {name} --out {source} first")
     keys = {key for job in paper.jobs(False) for key in job.keys}
     rows = [paper.kept(line) for line in lines if "key" in line]
+    if {row["key"] for row in rows} != keys:
+        sys.exit(f"{source}: {len(rows)} of {len(keys)} runs; run deodar reproduce {name} --out {source} first")
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
     about = {"paper": name, "command": f"deodar reproduce {name}", "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
     folder = into / name
@@ -116,6 +118,12 @@ def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
     }
 
 
+def unrun(paper: str) -> dict[str, str]:
+    """What a page may say of a paper whose runs are not kept: its settings, and in the place of every other number that nothing was run."""
+    names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made")
+    return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, NOT_RUN)}
+
+
 def _counted(what: str, claims: Sequence[Claim]) -> str:
     """How many hold, fail, and are undecided."""
     hold, fail = (sum(c.holds is verdict for c in claims) for verdict in (True, False))
@@ -142,7 +150,7 @@ def pages() -> list[Path]:
 
 
 def filled(text: str, known: Mapping[str, Mapping[str, str]]) -> str:
-    """The text of a page with every number as the runs have it; a name that is not known is an error."""
+    """The text of a page with every number as the runs have it; a name that they do not give is an error."""
 
     def put(found: re.Match[str]) -> str:
         paper, name, _ = found.groups()
@@ -178,7 +186,7 @@ def main() -> int:
     """Status 0."""
     words = [word for word in sys.argv[1:] if not word.startswith("-")]
     taken = [take(Path(word)).paper for word in words]
-    known = {paper: write(read(paper), paper in taken) for paper in kept()}
+    known = {paper: write(read(paper), paper in taken) if paper in kept() else unrun(paper) for paper in papers.names()}
     if "--print" in sys.argv[1:]:
         for paper, found in known.items():
             sys.stdout.writelines(f"{paper} {name}: {chr(10) if chr(10) in value else ''}{value}\n" for name, value in found.items())

@@ -30,11 +30,20 @@ def test_the_claims_that_are_kept_follow_from_the_rows(reports: dict[str, Any]) 
 
 
 def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) -> None:
-    known = {name: evidence.numbers(*found) for name, found in reports.items()}
+    known = {name: evidence.numbers(*reports[name]) if name in reports else evidence.unrun(name) for name in papers.names()}
     for page in evidence.pages():
         text = page.read_text(encoding="utf-8")
         assert evidence.filled(text, known) == text, f"{page.name} is stale: python docs/evidence.py"
         assert evidence.loose(text) == [], f"{page.name} states numbers of runs outside of a mark"
+
+
+def test_without_runs_a_page_states_settings_and_no_results() -> None:
+    none = {name: evidence.unrun(name) for name in papers.names()}
+    results = [value for name, value in none["spa"].items() if name.startswith(("success:", "ratio:", "arrival:", "weak:", "stuck", "required"))]
+    assert len(results) > 100 and set(results) == {evidence.NOT_RUN}
+    assert none["spa"]["reflection"] == "0.6" and none["spa"]["factor"] == "1.2" and none["spa"]["runs"] == "0"
+    for page in evidence.pages():
+        assert evidence.loose(evidence.filled(page.read_text(encoding="utf-8"), none)) == []
 
 
 def test_what_is_kept_names_versions_and_date_and_no_place(reports: dict[str, Any]) -> None:
@@ -111,6 +120,16 @@ def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) ->
     assert "\n\n| claim | target |" in text and text.count("| yes |") == 18
     assert evidence.filled(text, known) == text
     assert "| large/reflection-1.0-planner/low | 40 |" in known["spa"]["settings"]
+    for page in evidence.pages():  # whole runs give every name that a page asks for
+        assert evidence.NOT_RUN not in evidence.filled(page.read_text(encoding="utf-8"), known)
+
+
+def test_a_part_of_the_runs_is_not_taken(folder: Path, tmp_path: Path) -> None:
+    file = folder / "runs.jsonl"
+    file.write_text("".join(line + "\n" for line in file.read_text().splitlines()[:-2]))
+    with pytest.raises(SystemExit, match=r"\d+ of \d+ runs.*deodar reproduce spa --out"):
+        evidence.take(folder, tmp_path / "evidence")
+    assert not (tmp_path / "evidence").exists()
 
 
 def test_another_design_is_not_taken(folder: Path, tmp_path: Path) -> None:

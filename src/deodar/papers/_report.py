@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+NOT_RUN = "(not run)"
+"""What stands in the place of a number without runs."""
+
+
 @dataclass(frozen=True)
 class Report:
     """What is said of an experiment.

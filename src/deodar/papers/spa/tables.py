@@ -8,6 +8,7 @@ import numpy as np
 
 from deodar.analysis.statistics import wilson
 from deodar.architectures.spa import NOISE
+from deodar.papers._report import NOT_RUN
 from deodar.papers.spa import cases
 from deodar.papers.spa.route import NONE, NORTH, SOUTH, SWITCH
 from deodar.papers.spa.runs import METHODS, Runs, count
@@ -31,8 +32,6 @@ HEAD = (
 SHORT = 8
 """Columns of a table of conditions without an obstacle."""
 
-NOTHING = "no runs yet"
-
 
 def write(runs: Runs) -> dict[str, str]:
     """Markdown by file name."""
@@ -46,17 +45,17 @@ def numbers(runs: Runs) -> dict[str, str]:
     for name, c in found.items():
         rows, ratio = runs.of(name), runs.divergences(name)
         hits, n = count(rows, lambda r: r["success"])
-        out[f"success:{name}"] = f"{hits} of {n}" if n else NOTHING
-        out[f"ratio:{name}"] = f"{ratio.mean():.2f}" if c.many_starts and len(ratio) else NOTHING
-        out[f"arrival:{name}"] = f"{np.median(entries(rows, 'arrival')):.0f}" if len(entries(rows, "arrival")) else NOTHING
+        out[f"success:{name}"] = f"{hits} of {n}" if n else NOT_RUN
+        out[f"ratio:{name}"] = f"{ratio.mean():.2f}" if c.many_starts and len(ratio) else NOT_RUN
+        out[f"arrival:{name}"] = f"{np.median(entries(rows, 'arrival')):.0f}" if len(entries(rows, "arrival")) else NOT_RUN
     for maze in MAZE:
         weak = [count(runs.of(f"{maze}/weak-carrot/{noise}"), lambda r: r["success"]) for noise in ("none", "low", "high")]
         hits = sorted(h for h, _ in weak)
-        out[f"weak:{maze}"] = f"{hits[0]} to {hits[-1]} of {weak[0][1]}" if all(n for _, n in weak) else NOTHING
+        out[f"weak:{maze}"] = f"{hits[0]} to {hits[-1]} of {weak[0][1]}" if all(n for _, n in weak) else NOT_RUN
     stuck, n = count([r for m in MAZE for k in ("low", "high") for r in runs.of(f"{m}/planner/{k}")], lambda r: not r["success"])
     out["factor"] = f"{NOISE['high'][2]:g}"
     out["reflection"] = f"{cases.world(found['large/planner/low']).reflection:g}"
-    out["stuck"] = f"{stuck} of {n}" if n else NOTHING
+    out["stuck"] = f"{stuck} of {n}" if n else NOT_RUN
     out["main"] = _table(runs, [f"{maze}/{method}/{noise}" for maze in MAZE for method, noise in METHODS], SHORT)
     own = [f"{maze}/planner/{noise}" for maze in MAZE for noise in ("low", "high")]
     varied = [c.name for c in found.values() if c.name in own or (c.method == "planner" and c.terms)]
@@ -88,4 +87,4 @@ def _table(runs: Runs, names: Iterable[str], columns: int) -> str:
             *routes,
         ]
         lines.append(f"| {' | '.join(cells[:columns])} |")
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" if len(lines) > 2 else NOT_RUN
