@@ -169,6 +169,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
         b'{"deodar": 1, "layout": {"a": [{"b": 1, "b": 2, "b": 3}]}, "elements": {"u": {"kind": "Field"}, "u": {"kind": "Field"}}}',
         ("elements: the key 'u' occurs twice", "layout.a.0: the key 'b' occurs 3 times"),
     ),
+    "no elements": (b'{"deodar": 1, "name": "a", "axes": {}}', ("elements: is missing", '"elements": {}')),
     "half a character": (b'{"deodar": 1, "name": "\\ud800"}', ("half a character",)),
     "a list": (b"[]", ("is not a deodar document: it holds list",)),
     "a number": (b"5", ("is not a deodar document: it holds int",)),
@@ -295,3 +296,10 @@ def test_what_loads_but_cannot_run_is_told_by_check(name: str) -> None:
     assert model.check()
     for problem in model.check():
         paragraph(str(problem))
+
+
+def test_thousands_of_wrong_connections_are_not_all_listed() -> None:
+    rows = [{"source": f"absent{k}", "target": "u"} for k in range(5000)]
+    with pytest.raises(DocumentError) as caught:
+        files.from_data({"deodar": 1, "elements": {"u": {"kind": "Field"}}, "connections": rows}, {})
+    assert len(caught.value.problems) == 101 and "were not read" in caught.value.problems[-1].what

@@ -16,6 +16,9 @@ from deodar.model.paths import Names, display, split, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
 
+MOST_PROBLEMS = 100
+"""Connections with problems that are listed: each is compared with all names there are, which takes long where both are many."""
+
 
 def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
     """The document that plain data describe; raises with every problem found."""
@@ -41,6 +44,8 @@ class _Reader:
         for key in self.data:
             if key not in KEYS:
                 self.problem(key, "is no key of a document", did_you_mean(key, KEYS))
+        if "elements" not in self.data:
+            self.problem("elements", "is missing", 'A document without elements holds "elements": {}')
         doc = self.general(Document(self.text("name", "model"), foreign=True))
         axes = self.axes()
         doc = self.elements(doc, axes)
@@ -163,6 +168,9 @@ class _Reader:
     def connections(self, doc: Document) -> Document:
         for k, row in enumerate(self.rows("connections")):
             where = f"connections.{k}"
+            if len(self.problems) >= MOST_PROBLEMS:
+                self.problem(where, f"this one and those after it were not read: there are {MOST_PROBLEMS} problems before it")
+                break
             if not isinstance(row, dict) or not all(isinstance(cast(Any, row).get(key), str) for key in ("source", "target")):
                 self.problem(where, "needs a source and a target")
                 continue

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import random
-import string
 import sys
 from pathlib import Path
 
@@ -18,10 +16,10 @@ from deodar.importers.opening import Imported, read, tools
 from deodar.model.check import problems
 from tests.importers.cosivina.files import SAMPLES, element, text, written
 
+sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
+import mutations
+
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
-VALUES = [None, -1, 0, 1e308, 10**400, "", "_NaN_", "_Inf_", "../../etc/passwd", "\ud800", "\0", [], {}, [[]], [1, [2]], True, [[1, 2], [3]], -0.5]
-VALUES += [{"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}, {"_ArrayType_": "double", "_ArraySize_": [9], "_ArrayData_": [1]}]
-VALUES += ["os.system('true')", "__import__", [10**9, 10**9], [3, 3], "output", "field u", 3, 1e-300, [0.5], "a" * 100_000]
 
 
 def tried(content: bytes | str) -> Imported | None:
@@ -39,40 +37,6 @@ def tried(content: bytes | str) -> Imported | None:
     return done
 
 
-def mutated(data: object, rng: random.Random, times: int) -> object:
-    """A copy with some of its values changed, taken away, moved or doubled."""
-    data = copy.deepcopy(data)
-    for _ in range(times):
-        holder: object = data
-        for _ in range(rng.randint(1, 7)):
-            inner = list(holder.values()) if isinstance(holder, dict) else holder if isinstance(holder, list) else []
-            inner = [v for v in inner if isinstance(v, (dict, list)) and v]
-            if not inner:
-                break
-            holder = rng.choice(inner)
-        if isinstance(holder, dict) and holder:
-            key = rng.choice(list(holder))
-            what = rng.randrange(4)
-            if what == 0:
-                del holder[key]
-            elif what == 1:
-                holder[rng.choice(["label", "class", "size", "input", "".join(rng.choices(string.printable, k=5))])] = holder.pop(key)
-            else:
-                holder[key] = copy.deepcopy(rng.choice(VALUES))
-        elif isinstance(holder, list) and holder:
-            place = rng.randrange(len(holder))
-            what = rng.randrange(4)
-            if what == 0:
-                del holder[place]
-            elif what == 1:
-                holder.append(copy.deepcopy(holder[place]))
-            elif what == 2:
-                rng.shuffle(holder)
-            else:
-                holder[place] = copy.deepcopy(rng.choice(VALUES))
-    return data
-
-
 def fuzz(path: Path, count: int, seed: int = 0) -> tuple[int, int]:
     """So many mutations of a file, of its text and of its content: how many were read, how many refused."""
     rng = random.Random(f"{path.stem} {seed}")
@@ -86,7 +50,7 @@ def fuzz(path: Path, count: int, seed: int = 0) -> tuple[int, int]:
                 cut[rng.randrange(len(cut))] = rng.randrange(256)
             content: bytes | str = bytes(cut[: rng.randrange(len(cut))] if rng.random() < 0.3 else cut)
         else:
-            content = json.dumps(mutated(data, rng, rng.randint(1, 12)))
+            content = json.dumps(mutations.mutated(data, rng, rng.randint(1, 12)))
         found[tried(content) is None] += 1
     return found[0], found[1]
 
@@ -102,7 +66,7 @@ def test_mutations_that_are_good_run():
     data = json.loads(next(p for p in SAMPLES if "OneLayer" in p.stem).read_text())
     ran = 0
     for _ in range(8):
-        done = tried(json.dumps(mutated(data, rng, 4)))
+        done = tried(json.dumps(mutations.mutated(data, rng, 4)))
         if done is not None and not problems(done.model.document):
             try:
                 dd.simulate(done.model, done.model.document.step * 2, every=done.model.document.step * 2)
@@ -298,9 +262,3 @@ def test_connections_that_cannot_be_are_told(tmp_path):
         "nothing is connected to it; zero arrives",
     ]
     dd.simulate(done.model, 2)
-
-
-if __name__ == "__main__":  # the long form: python -m tests.importers.cosivina.test_hostile 1000
-    for sample in SAMPLES:
-        read_, refused = fuzz(sample, int(sys.argv[1]) if len(sys.argv) > 1 else 1000, seed=1)
-        sys.stdout.write(f"{sample.stem}: {read_} read, {refused} refused\n")
