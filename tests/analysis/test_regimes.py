@@ -18,6 +18,7 @@ from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
 from deodar.analysis.selection import selects
 from deodar.analysis.settle import settle
+from deodar.analysis.thresholds import thresholds
 from deodar.cli import main
 
 x = dd.Axis("x", 0, 60, samples=61)
@@ -164,3 +165,21 @@ def test_what_cannot_be_measured(here: Path, element: str, says: str, capsys: py
     assert main(["regimes", "m.json", element]) == 1
     error = capsys.readouterr().err
     assert (says in error or "there is no element" in error) and "Traceback" not in error and sorted(here.iterdir()) == before
+
+
+def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -> None:
+    def fold(low: float, high: float) -> float:
+        """Input at which a node with self-excitation 3 and steepness 4 loses a stable state: u = -2 + 3 g(u) + s, 3 g'(u) = 1."""
+        u = optimize.brentq(lambda u: 12 / (2 * np.cosh(2 * u)) ** 2 - 1, low, high)
+        return u + 2 - 3 / (1 + np.exp(-4 * u))
+
+    node = dd.Field("n", [], tau=10, resting_level=-2, sigmoid=dd.Logistic(4), kernel=[dd.Gaussian(3.0)])
+    exact = {"detection": fold(-3.0, 0.0), "reverse": fold(0.0, 3.0)}
+    for precision, accuracies in (("float64", (1e-2, 1e-3, 1e-4, 1e-5)), ("float32", (1e-2, 1e-4))):
+        one = isolate(node, precision=precision)
+        for accuracy in accuracies:
+            found = thresholds(one, accuracy=accuracy)
+            for name, value in exact.items():
+                low, high = getattr(found, name).interval
+                assert low <= value <= high, (precision, accuracy, name, low - value, high - value)
+                assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * one.scale) + (2e-3 if precision == "float32" else 1.1e-5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -14,6 +15,13 @@ from deodar.runtime.session import Snapshot
 MOST_DOUBLINGS = 8
 JUMP = 20.0
 """A change of activation this many times larger than the change of input that caused it is a jump, not a graded response."""
+UNTOLD = 4.0
+"""Inputs that lie this many settling tolerances beyond an instability may still pass for settled: an input counts at its centre, and less where the
+activation changes slowest (a guess; in the cases that are known exactly the factor is 1 to 2)."""
+FINE = 0.01
+"""Tolerance of settling relative to the accuracy that is asked for."""
+SINGLE = 2e-6
+"""Least tolerance of settling in single precision, relative to the scale: below it activation moves in whole units of its last digit."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +32,7 @@ class Transition:
         value: the input at which it happens, the middle of the bracket.
         before: the last input at which the field still settled on the old branch.
         after: the first at which it did not.
+        interval: lowest and highest input at which it may happen: the bracket, and on both sides what settling could not tell.
         jump: whether activation jumps there (an instability), or grows gradually through the threshold.
         state: the field settled just after.
     """
@@ -31,11 +40,12 @@ class Transition:
     value: float
     before: float
     after: float
+    interval: tuple[float, float]
     jump: bool
     state: Snapshot
 
     def __repr__(self) -> str:
-        return f"Transition({self.value:.4g} +- {abs(self.after - self.before) / 2:.2g}, {'jump' if self.jump else 'gradual'})"
+        return f"Transition({self.value:.4g} +- {abs(self.interval[1] - self.interval[0]) / 2:.2g}, {'jump' if self.jump else 'gradual'})"
 
 
 @dataclass(frozen=True)
@@ -84,14 +94,30 @@ def thresholds(isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, l
     return Thresholds(up, down, False, searched)
 
 
+def tolerance(isolated: Isolated, accuracy: float) -> float:
+    """Change of activation per time constant that counts as settled where a threshold is wanted to `accuracy`.
+
+    Just beyond an instability activation moves as slowly as the input is near to it. What settles to a tolerance cannot tell nearer inputs from
+    the threshold, so that the tolerance has to be far below the width of the bracket.
+    """
+    least = SINGLE if isolated.session.precision == "float32" else 0.0
+    return max(min(2e-4, FINE * accuracy), least) * isolated.scale
+
+
+def _stuck(isolated: Isolated, most: float) -> float:
+    """Change of activation per time constant that is lost to rounding, since single steps add less than half of the last digit."""
+    return 0.5 * float(np.finfo(isolated.session.precision).eps) * most * isolated.field.tau / isolated.session.dt
+
+
 def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
     """From a settled field without a peak, `by` at 0, upwards: where a peak appears, or None where none does."""
+    fine = tolerance(isolated, accuracy)
     low, high, rest = 0.0, isolated.scale, isolated.snapshot()
     searched = isolated.scale * 2.0**MOST_DOUBLINGS
     while True:
         isolated.restore(rest)
         isolated.put(**{by: high})
-        isolated.settle(limit=limit)
+        isolated.settle(fine, limit)
         if isolated.peaks():
             return bisect(isolated, by, low, high, rest, lambda: bool(isolated.peaks()), accuracy, limit)
         low, rest = high, isolated.snapshot()
@@ -102,12 +128,13 @@ def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = 
 
 def descend(isolated: Isolated, by: Knob, start: float, floor: float, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
     """From a settled peak at `start` downwards: where it vanishes, or None where it is still there at `floor`."""
+    fine = tolerance(isolated, accuracy)
     held, state, reach = start, isolated.snapshot(), isolated.scale / 2
     while True:
         trial = max(floor, held - reach)
         isolated.restore(state)
         isolated.put(**{by: trial})
-        isolated.settle(limit=limit)
+        isolated.settle(fine, limit)
         if not isolated.peaks():
             return bisect(isolated, by, held, trial, state, lambda: not isolated.peaks(), accuracy, limit)
         if trial <= floor:
@@ -126,6 +153,7 @@ def bisect(
     limit: float = LIMIT,
 ) -> Transition:
     """The input between `before` (settled at `state`, unchanged) and `after` (changed) at which the field changes."""
+    fine = tolerance(isolated, accuracy)
     least = 0.01 * isolated.scale  # below this the bracket is measured against the scale: a threshold may be 0
     isolated.restore(state)
     last = isolated.activation()
@@ -134,10 +162,13 @@ def bisect(
         trial = (before + after) / 2 if settled is not None else after
         isolated.restore(state)
         isolated.put(**{by: trial})
-        isolated.settle(limit=limit)
+        isolated.settle(fine, limit)
         if changed() or settled is None:
             after, settled = trial, (isolated.snapshot(), isolated.activation())
         else:
             before, state, last = trial, isolated.snapshot(), isolated.activation()
     moved = float(np.max(np.abs(settled[1] - last)))
-    return Transition((before + after) / 2, before, after, moved > JUMP * abs(after - before), settled[0])
+    most = max(float(np.max(np.abs(last))), float(np.max(np.abs(settled[1]))))
+    untold = UNTOLD * (fine + _stuck(isolated, most)) + isolated.scale * (math.pi / limit) ** 2  # a passage takes about pi / sqrt(distance)
+    interval = (min(before, after) - untold, max(before, after) + untold)
+    return Transition((before + after) / 2, before, after, interval, moved > JUMP * abs(after - before), settled[0])

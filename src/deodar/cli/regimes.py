@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from deodar.analysis.peaks import Peak
     from deodar.analysis.preshape import Boosted
     from deodar.analysis.regimes import Regimes
+    from deodar.analysis.thresholds import Transition
 
 HELP = "measure the instabilities of one field or node: detection, reverse detection, working memory, selection"
 
@@ -88,10 +89,10 @@ def _table(found: Regimes) -> str:
     what = "peak" if isolated.axes else "activation above threshold"
     if up is not None:
         kind = "the activation jumps: an instability" if up.jump else "the activation grows gradually: no instability"
-        rows.append(("detection threshold", f"{_bracket(up.before, up.after)}  ({kind})"))
+        rows.append(("detection threshold", f"{_bracket(up)}  ({kind})"))
         low = "0" if isolated.axes else f"-{found.thresholds.searched:g}"
         stays = f"none: the {what} stays down to an input of {low}"
-        rows.append(("reverse detection", _bracket(down.before, down.after) if down is not None else stays))
+        rows.append(("reverse detection", _bracket(down) if down is not None else stays))
         both = found.bistable
         rows.append(("bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none"))
     if found.peak is not None:
@@ -121,8 +122,8 @@ def _table(found: Regimes) -> str:
     return "\n".join([*lines, "", *(f"  {label:26}{text}" for label, text in rows)])
 
 
-def _bracket(before: float, after: float) -> str:
-    return f"{(before + after) / 2:.4g} ± {abs(after - before) / 2:.1g}"
+def _bracket(t: Transition) -> str:
+    return f"{t.value:.4g} ± {(t.interval[1] - t.interval[0]) / 2:.1g}"
 
 
 def _peak(found: Regimes, peak: Peak) -> str:
