@@ -6,7 +6,7 @@ ifeq ($(OS),Windows_NT)
   BIN := .venv/Scripts
 endif
 
-.PHONY: demo test lint types studio docs schema bench clean
+.PHONY: demo test lint types studio docs schema bench lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
@@ -34,6 +34,20 @@ schema: .venv/installed
 
 bench: .venv/installed
 	$(BIN)/python benchmarks/run.py
+
+# the lower bounds of dependencies, in an environment of its own
+lowest:
+	.ci/lowest
+
+# the versions of Python packages that are known to work together
+lock: .venv/installed
+	$(BIN)/python -m pip install -q uv
+	$(BIN)/python -m uv pip compile --quiet --upgrade --universal --generate-hashes --all-extras --custom-compile-command "make lock" pyproject.toml -o requirements.lock
+
+# known vulnerabilities, where a registry answers
+audit: .venv/installed-test
+	$(BIN)/python -m pip install -q pip-audit
+	$(BIN)/python .ci/audit.py
 
 clean:
 	$(PYTHON) -c "import shutil; [shutil.rmtree(p, ignore_errors=True) for p in ('.venv', 'site', 'dist')]"

@@ -17,11 +17,19 @@ GIB = 2**30
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.add_argument(
+        "--sbom", action="store_true", help="print the bill of materials as CycloneDX 1.5: every package and library, with its licence"
+    )
     parser.add_argument("--plans", action="store_true", help="measure every way of convolving beside what it should cost (about a minute)")
 
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if something that deodar needs is missing."""
+    if args.sbom:
+        from deodar.cli import _sbom
+
+        print(json.dumps(_sbom.bill(), indent=2, ensure_ascii=False))
+        return 0
     if args.plans:
         return _plans(args.json)
     found = examine()
