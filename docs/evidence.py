@@ -85,7 +85,7 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     name = made["paper"]
     paper = papers.paper(name)
     if made["quick"] or any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(False))).items()):
-        sys.exit(f"{source}: not the whole design of {name}; run deodar reproduce {name} --out {source} first")
+        sys.exit(f"{source}: not the whole design of {name}, or another one; run deodar reproduce {name} into a new folder first")
     keys = {key for job in paper.jobs(False) for key in job.keys}
     rows = [paper.kept(line) for line in lines if "key" in line]
     if {row["key"] for row in rows} != keys:
