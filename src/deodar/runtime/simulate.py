@@ -33,6 +33,9 @@ from deodar.worlds._base import World
 if TYPE_CHECKING:
     import xarray
 
+TICKS = 2**32
+"""Steps that the counter of the noise tells apart."""
+
 LONG_STEPS = 10**9
 """Steps from which on a run is announced: the fastest models take an hour for them, most a day."""
 
@@ -99,7 +102,8 @@ def simulate(
     steps = expected_steps(duration, model.document.step if dt is None else dt)
     if steps >= LONG_STEPS:
         step = model.document.step if dt is None else dt
-        warnings.warn(f"{steps:.3g} steps of dt = {step:g}: a smaller number may be meant", RunWarning, stacklevel=2)
+        again = "" if steps <= TICKS else f"; the noise of an element repeats after {TICKS:.3g} steps"
+        warnings.warn(f"{steps:.3g} steps of dt = {step:g}: a smaller number may be meant{again}", RunWarning, stacklevel=2)
         progress = True if progress is None else progress
     data, _, lost = compute(
         model, duration, dt, seed, record, every, trials, sweep, precision, world, progress, workers, batch, device, accuracy
