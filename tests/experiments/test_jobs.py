@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -66,3 +67,18 @@ def test_a_run_that_is_killed_goes_on_with_the_same_rows(tmp_path, rows):
     kept = Rows(file, {})
     carry_out(jobs(), kept)
     assert list(kept.found.values()) == rows
+
+
+def test_ctrl_c_keeps_the_rows_of_the_jobs_that_run(tmp_path, rows):
+    kept, pressed = Rows(tmp_path / "runs.jsonl", {}), []
+
+    def told(standing):
+        if standing.rows and not pressed:
+            pressed.append(standing.rows)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        carry_out(jobs()[:3], kept, told, workers=2)
+    assert len(kept.found) > pressed[0], "the other worker's job was ended, and its rows were kept"
+    carry_out(jobs(), kept)
+    assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows

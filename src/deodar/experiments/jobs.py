@@ -98,8 +98,9 @@ def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequen
         waiting = list(reversed(jobs))
         while waiting or pool.busy:
             while waiting and pool.idle:  # one for each worker: after Ctrl-C no more than those are waited for
-                pool.give(waiting[-1].keys, Job.run, waiting[-1])
-                running[waiting[-1].keys] = waiting.pop()
+                job = waiting.pop()
+                pool.give(job.keys, Job.run, job)
+                running[job.keys] = job
             for keys, rows in pool.wait(0.2):
                 yield running.pop(keys), rows
             try:
