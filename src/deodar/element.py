@@ -25,6 +25,7 @@ from deodar.errors import ModelError
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.choice import Choice
 from deodar.numerics.exact import Exact, exact, split, wide
+from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.waves import Waves
 from deodar.parameters import Part, Recompile
@@ -199,6 +200,13 @@ class Element(Part):
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         """What is probably a mistake, although it runs: (what is wrong and why, what to type). Called only where nothing is a misfit."""
         return iter(())
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        """Between which values its ports lie, given the bounds of what arrives and what it returned `before` (empty at first).
+
+        For checks: an output that is not named may have any value. A strength of 0 counts as one that is set later.
+        """
+        return {}
 
     def kernels(self) -> Sequence[Kernel]:
         """The kernels it convolves with, whose way of being applied is chosen before it is compiled."""

@@ -15,7 +15,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 def _good(path: Path) -> Path:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("left", [X])) >> dd.Gain(2) >> model.add(dd.Field("u", [X]))
+    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4)) >> dd.Gain(2) >> model.add(dd.Field("u", [X]))
     dd.save(model, path)
     return path
 

@@ -18,7 +18,7 @@ from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.noise import Noise
 from deodar.leaves import leaves
-from deodar.model.check import check
+from deodar.model.check import problems as structural
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import Part, parameters
@@ -67,7 +67,7 @@ def around(element: Element, every: int = 1, noisy: bool = False) -> dd.Model:
             model.connect(model.add(source(f"to {port}", axes)), handle[port])
             if noisy:
                 model.connect(model.add(Noise(f"noise to {port}", axes, 0.02)), handle[port])
-        problems = check(model.document)
+        problems = structural(model.document)
         if not problems:
             return model
         if not element.ports():

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from deodar.model.check import check
 from deodar.model.document import Document
 from deodar.model.reader import from_data
 from deodar.parameters import FrozenArray
@@ -25,7 +26,8 @@ def document(case: dict[str, Any]) -> Document:
 def test_a_hundred_documents_of_at_least_forty_kinds_of_mistake() -> None:
     assert len(CASES) == 100 and len(KINDS) >= 40
     assert all(1 <= len(group["cases"]) <= 5 and group["mistake"] for group in KINDS.values())
-    assert len({case.values[0]["document"]["name"] for case in CASES}) == 100, "every document says in its name what is wrong with it"
+    names = {case["document"]["name"] for group in KINDS.values() for case in group["cases"]}
+    assert len(names) == 100, "every document says in its name what is wrong with it"
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -33,3 +35,16 @@ def test_every_document_loads_and_says_what_is_expected(case: dict[str, Any]) ->
     doc = document(case)
     assert case["where"] in [*(e.path for e in doc.entries), *(k.name for k in doc.knobs)]
     assert case["severity"] in ("problem", "warning") and case["words"]
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_mistake_is_caught_where_it_is_with_the_sentence(case: dict[str, Any]) -> None:
+    found = check(document(case))
+    said = [p for p in found if p.where == case["where"] and p.severity == case["severity"]]
+    assert any(all(word in f"{p.what} {p.fix}" for word in case["words"]) and (p.fix or "Give " in p.what) for p in said), found
+
+
+def test_the_manual_lists_every_kind_of_mistake() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "check.md").read_text(encoding="utf-8")
+    assert [group["mistake"] for group in KINDS.values() if f"- {group['mistake']}.\n" not in page] == []
+    assert page.count("\n- ") == len(KINDS)

@@ -33,7 +33,7 @@ def _line() -> int:
 
 def test_a_good_model_has_no_problems() -> None:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("left", [X])) >> dd.Gain(2) >> model.add(dd.Field("u", [X], kernel=[dd.Gaussian()]))
+    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4)) >> dd.Gain(2) >> model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2)]))
     assert model.check() == []
     model.require()
 
@@ -115,7 +115,7 @@ def test_units_that_differ_are_named() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [dd.Axis("x", 0, 10, samples=11, unit="deg")]))
     (problem,) = model.check()
-    assert problem.fix.startswith("Give both the same axis 'x'") and "only the units '' and 'deg' differ" in problem.fix
+    assert problem.fix.startswith("Write: one axis 'x' for both") and "only the units '' and 'deg' differ" in problem.fix
 
 
 def test_axes_of_other_bounds_print_both_and_the_resample_to_write() -> None:
@@ -295,6 +295,6 @@ def test_a_kernel_beyond_any_axis_is_a_problem(kernel: Kernel) -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X], kernel=[kernel]))
     (problem,) = model.check()
-    assert "kernel.0: " in problem.what and "is 1e+30, more than 1e+06 times the axis 'x' (10)" in problem.what and "at most 1e+07" in problem.what
+    assert "kernel.0: " in problem.what and "is 1e+30, more than 1e+12 times the axis 'x' (10)" in problem.what and "at most 1e+13" in problem.what
     with pytest.raises(ModelError):
         dd.simulate(model, duration=1, dt=1)

@@ -70,7 +70,7 @@ def test_a_document_with_problems_is_shown_with_them() -> None:
 
 def test_a_warning_is_shown_as_one() -> None:
     made = dd.Model("m")
-    made.add(dd.GaussianStimulus("s", [X], center=5, windows=[(100, 100)])) >> made.add(dd.Field("u", [X]))
+    made.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> made.add(dd.Field("u", [X]))
     (found,) = shown(made).problems
     assert found.severity == "warning" and found.element == made["s"].id
 

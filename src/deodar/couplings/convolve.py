@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from deodar.element import REST, WAVES, Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, times, total
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.parameters import Recompile
@@ -45,6 +46,11 @@ class Convolve(Coupling):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         for i, kernel in enumerate(self.kernel):
             yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        x = inputs["input"]
+        parts = [kernel.bounds(ins["input"]) for kernel in self.kernel]
+        return {"output": total(*(times((0.0, k[1]), x) for k in parts), *(times((k[0], 0.0), x) for k in parts))}
 
     def prepare(self, at: Setting) -> Any:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype, at.choices)}

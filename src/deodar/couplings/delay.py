@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.intervals import Interval, hull
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -39,6 +40,9 @@ class Delay(Element):
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         return {"held": at.full(tuple(self.axes), self.initial)}

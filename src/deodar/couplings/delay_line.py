@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.intervals import Interval, hull
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -56,6 +57,9 @@ class DelayLine(Element):
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         # one slot more on either side of the delay: the moments around it are both there

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
 from deodar.element import WAVES, Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, times
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -34,6 +37,9 @@ class Gain(Coupling):
 
     linear: ClassVar[bool] = True
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "scales"
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         if not at.shared:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, times
 from deodar.registry import register
 
 
@@ -32,6 +34,9 @@ class Product(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "factor")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "factor")}
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": times(inputs["input"], inputs["factor"])}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         return {"output": inputs["input"] * inputs["factor"]}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -12,6 +13,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import along
+from deodar.numerics.intervals import Interval, times
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -66,6 +68,20 @@ class Project(Coupling):
         for name, axis in zip(source, ins["input"], strict=True):
             if name in here and not self._same(here[name], axis, name):
                 yield f"axis {name!r} is {axis} at the source and {here[name]} here; bounds, unit or periodicity differ"
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        here, there = [a.name for a in self.axes], self._source(ins["input"])
+        if here and there and not set(here) & set(there) and self.reduce in ("integral", "sum", "mean"):
+            yield (
+                f"shares no axis with its source: it keeps the {self.reduce} over {', '.join(there)} alone, and is uniform along {', '.join(here)}",
+                "Rename the axis that is meant (rename={...}), or take Weights; for one number for all places write Project([])",
+            )
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        here = {a.name for a in self.axes}
+        gone = [a for name, a in zip(self._source(ins["input"]), ins["input"], strict=True) if name not in here]
+        size = math.prod(a.step * a.samples for a in gone) if self.reduce == "integral" else math.prod(a.samples for a in gone)
+        return {"output": times((size, size), inputs["input"]) if self.reduce in ("integral", "sum") else inputs["input"]}
 
     def prepare(self, at: Setting) -> Any:
         here = {a.name: a for a in self.axes}

@@ -10,6 +10,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.convolution import along
+from deodar.numerics.intervals import ZERO, Interval, hull
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -53,6 +54,20 @@ class Resample(Coupling):
         for a, b in zip(ins["input"], self.axes, strict=True):
             if a.periodic and not (b.periodic and a.fits(b)):
                 yield f"the periodic axis {a.name!r} has other bounds here: {a} at the source, {b} here"
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        for a, b in zip(ins["input"], self.axes, strict=True):
+            if a.unit != b.unit:
+                yield (
+                    f"the axis {a.name!r} is in {a.unit!r} at the source and in {b.unit!r} here, and numbers are taken as they are, not converted",
+                    "Give both axes one unit",
+                )
+            if not a.periodic and (b.lower > a.upper or b.upper < a.lower):
+                what = f"its axis {b.name!r} ({b.lower:g}..{b.upper:g}) and the source's ({a.lower:g}..{a.upper:g}) share nothing, so it gives 0"
+                yield what, "Give both axes bounds that overlap"
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> Any:
         pairs = zip(at.ins["input"], self.axes, strict=True)

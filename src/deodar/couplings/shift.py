@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics import resampling
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import ZERO, Interval, hull
 from deodar.parameters import PerAxis, Rebuild
 from deodar.registry import register
 
@@ -35,6 +38,15 @@ class Shift(Coupling):
     amount: Annotated[PerAxis, Rebuild("axis", meaning="how far")] = 0.0
 
     linear: ClassVar[bool] = True
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        for a, amount in zip(ins["input"], per_axis(self.amount, ins["input"]), strict=True):
+            if not a.periodic and abs(float(amount)) > a.range:
+                what = f"its amount {float(amount):g} is longer than the axis {a.name!r} ({a.range:g}), so everything is shifted out and it gives 0"
+                yield what, f"Take an amount below {a.range:g}, or a periodic axis"
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> Any:
         axes = at.ins["input"]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids import _base
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.parameters import Recompile
@@ -32,6 +35,9 @@ class Sigmoid(Coupling):
     """
 
     sigmoid: Annotated[_base.Sigmoid, Recompile(meaning="g")] = Logistic()
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": self.sigmoid.bounds(inputs["input"])}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         return {"output": self.sigmoid(inputs["input"])}

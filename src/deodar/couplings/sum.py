@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval
 from deodar.registry import register
 
 
@@ -29,6 +32,9 @@ class Sum(Coupling):
     """
 
     linear: ClassVar[bool] = True
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": inputs["input"]}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         return {"output": inputs["input"]}

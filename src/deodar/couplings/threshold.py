@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import ZERO, Interval, hull
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -32,6 +35,10 @@ class Threshold(Coupling):
     """
 
     level: Annotated[float, Live(meaning="the threshold")] = 0.5
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        low, high = inputs["input"]
+        return {"output": ZERO if high <= self.level else hull(ZERO, (max(low, self.level), high))}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         x = inputs["input"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -11,6 +12,7 @@ import numpy as np
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, cell, shape
+from deodar.numerics.intervals import Interval, times, total
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
 from deodar.registry import register
 
@@ -54,6 +56,17 @@ class Weights(Coupling):
         needed = shape(self.axes) + shape(ins["input"])
         if given != needed:
             yield f"weights has shape {list(given)}; target and source samples make {list(needed)}", "Give weights of that shape"
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        if isinstance(self.weights, FrozenArray) and not self.weights.data.any():
+            yield "its weights are all zero, so nothing passes", "Give it the weights of the map, or remove it"
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        if not isinstance(self.weights, FrozenArray):
+            return {}
+        rows = self.weights.data.reshape(math.prod(shape(self.axes)), -1) * cell(ins["input"])
+        up, down = float(np.maximum(rows, 0).sum(axis=1).max()), float(np.minimum(rows, 0).sum(axis=1).min())
+        return {"output": total(times((0.0, up), inputs["input"]), times((down, 0.0), inputs["input"]))}
 
     def prepare(self, at: Setting) -> Any:
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}

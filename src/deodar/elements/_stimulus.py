@@ -8,9 +8,14 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from deodar.element import Arrays, Element, Setting, Time
+from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.intervals import ANY, ZERO, Interval, hull
 from deodar.numerics.windows import Window, gate
 from deodar.parameters import Recompile
+
+NOTHING = 3.0
+"""Widths beyond the end of an axis from which a Gaussian counts as absent (1 % of its height at the end)."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +45,36 @@ class Stimulus(Element):
         for k, w in enumerate(self.windows):
             if w.stop == w.start:
                 yield f"windows.{k} begins and ends at {w.start:g}, so it is never on", "Give it a stop after its start, or leave it out"
+
+    def strength(self) -> Interval:
+        """Between which values the pattern lies; one whose amplitude is 0 waits to be set, and may have any."""
+        return ANY
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        found = self.strength()
+        return {"output": ANY if found == ZERO else hull(ZERO, found) if self.windows else found}
+
+    def placed(self, width: str, ends: Sequence[str]) -> Iterator[tuple[str, str]]:
+        """Warnings about a place beyond the axes, and a width that is too small or too large for them."""
+        sizes: Any = getattr(self, width)
+        for axis, center, size, end in zip(self.axes, per_axis(self.center, self.axes), per_axis(sizes, self.axes), ends, strict=True):  # type: ignore[attr-defined]
+            c, s = float(center), float(size)
+            far = NOTHING * s if width == "sigma" else s / 2
+            if end != "periodic" and not axis.lower - far - axis.step / 2 <= c <= axis.upper + far + axis.step / 2:
+                yield (
+                    f"its center {c:g} lies outside the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}), so nothing of it arrives",
+                    f"Take a center between {axis.lower:g} and {axis.upper:g}; it is in units of the axis",
+                )
+            elif s < (0.5 if width == "sigma" else 1) * axis.step:
+                yield (
+                    f"its {width} {s:g} is smaller than the step {axis.step:g} of the axis {axis.name!r}: how strong it is depends on where it lies",
+                    f"Take a {width} of {axis.step:g} or more, or more samples",
+                )
+            elif width == "sigma" and s > axis.range:
+                yield (
+                    f"its sigma {s:g} is larger than the axis {axis.name!r} ({axis.range:g}), so it is nearly the same everywhere",
+                    f"Take a sigma far below {axis.range:g}, or a Boost",
+                )
 
     def steady(self) -> bool:
         return not self.windows

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.numerics.axes import shape
+from deodar.numerics.intervals import Interval
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -35,6 +36,9 @@ class Boost(Stimulus):
     """
 
     amplitude: Annotated[float, Live("activation", meaning="value everywhere")] = 1.0
+
+    def strength(self) -> Interval:
+        return self.amplitude, self.amplitude
 
     def pattern(self, at: Setting) -> Any:
         return jnp.broadcast_to(jnp.asarray(self.amplitude, at.dtype), shape(self.axes))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -10,6 +11,9 @@ import jax.numpy as jnp
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
+from deodar.numerics.axes import Axes
+from deodar.numerics.convolution import boundaries
+from deodar.numerics.intervals import Interval, signed
 from deodar.parameters import Live, PerAxis
 from deodar.registry import register
 
@@ -39,6 +43,13 @@ class BoxStimulus(Stimulus):
     center: Annotated[PerAxis, Live("axis", meaning="middle of the region")] = 0.0
     width: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="full width")] = 10.0
     amplitude: Annotated[float, Live("activation", meaning="value inside")] = 1.0
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        yield from super().warnings(ins)
+        yield from self.placed("width", boundaries(None, tuple(self.axes)))
+
+    def strength(self) -> Interval:
+        return signed(self.amplitude)
 
     def pattern(self, at: Setting) -> Any:
         y = self.amplitude * jnp.ones((), at.dtype)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
@@ -14,6 +15,7 @@ from deodar.numerics import interaction, quadrature
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
+from deodar.numerics.intervals import Interval, hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.logistic import Logistic
@@ -22,6 +24,8 @@ from deodar.registry import register
 
 MOST_AXES = 4
 QUADRATURES = ("cell", "point")
+MARGIN = 6.0
+"""Standard deviations of noise beyond which activation is taken never to get (once in 10^9 independent moments)."""
 
 
 @register
@@ -88,6 +92,34 @@ class Field(Element):
         lengths = [float(v) for v in per_axis(self.noise_length, self.axes)]
         if any(lengths) and not all(lengths):
             yield "noise_length is 0 on one axis and not on another; give all of them or none"
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        for axis, length in zip(self.axes, per_axis(self.noise_length, self.axes), strict=True):
+            if 0 < float(length) < 0.5 * axis.step:
+                yield (
+                    f"its noise_length {float(length):g} is below the step {axis.step:g} of the axis {axis.name!r}: the noise is white all the same",
+                    f"Take {axis.step:g} or more, or 0 for white noise",
+                )
+            elif float(length) > axis.range:
+                yield (
+                    f"its noise_length {float(length):g} is longer than the axis {axis.name!r} ({axis.range:g}): the noise is the same everywhere",
+                    f"Take a length far below {axis.range:g}",
+                )
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
+        spread = MARGIN * self.noise / math.sqrt(2 * self.tau * (1.0 if any(map(float, per_axis(self.noise_length, self.axes))) else cell(self.axes)))
+        own = self.sigmoid.bounds(u)
+        parts = [kernel.bounds(tuple(self.axes)) for kernel in self.kernel]
+        all_over = self.global_inhibition * math.prod(a.step * a.samples for a in self.axes)
+        interaction = total(
+            *(times((0.0, k[1]), own) for k in parts),
+            *(times((k[0], 0.0), own) for k in parts),
+            times(signed(-all_over), own),
+        )
+        drawn = total((h - spread, h + spread), inputs["input"], interaction)
+        u = hull(u, drawn)
+        return {"activation": u, "output": self.sigmoid.bounds(u), "interaction": interaction}
 
     def init(self, at: Setting) -> Arrays:
         return {"activation": at.full(tuple(self.axes), self.resting_level)}

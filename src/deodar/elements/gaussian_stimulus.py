@@ -14,6 +14,7 @@ from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import boundaries
+from deodar.numerics.intervals import ANY, Interval, signed
 from deodar.parameters import Live, PerAxis, Recompile
 from deodar.registry import register
 
@@ -56,6 +57,13 @@ class GaussianStimulus(Stimulus):
         yield from super().misfits(ins)
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes"
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        yield from super().warnings(ins)
+        yield from self.placed("sigma", boundaries(self.boundary, tuple(self.axes)))
+
+    def strength(self) -> Interval:
+        return ANY if self.normalized else signed(self.amplitude)
 
     def pattern(self, at: Setting) -> Any:
         y = self.amplitude * jnp.ones((), at.dtype)

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.exact import exact, wide
+from deodar.numerics.intervals import ZERO, Interval, hull
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -56,6 +57,9 @@ class History(Element):
 
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        return {"output": hull(ZERO, inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         state = {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}

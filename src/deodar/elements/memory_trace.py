@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.intervals import ZERO, Interval, hull
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -77,6 +78,10 @@ class MemoryTrace(Element):
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        first = ZERO if not isinstance(self.start, FrozenArray) else (float(self.start.data.min()), float(self.start.data.max()))
+        return {"output": hull(first, inputs["input"]), "active": (0.0, 1.0)}
 
     def init(self, at: Setting) -> Arrays:
         trace = at.full(tuple(self.axes), 0.0) if self.start is None else at.array(self.start)

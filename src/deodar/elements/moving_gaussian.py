@@ -13,6 +13,7 @@ from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
 from deodar.numerics.exact import exact, wide
+from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild
 from deodar.registry import register
@@ -62,6 +63,9 @@ class MovingGaussian(Stimulus):
                 yield "path", f"has shape {list(rows.shape)}; it has rows of {columns} numbers: the time, then one place for each axis"
             elif (np.diff(rows[:, 0]) <= 0).any():
                 yield "path", "goes back in time; each row is later than the one before"
+
+    def strength(self) -> Interval:
+        return signed(self.amplitude)
 
     def steady(self) -> bool:
         return False

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.intervals import ANY, Interval, times
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -48,6 +49,17 @@ class Pattern(Stimulus):
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         if given != shape(self.axes):
             yield f"values has shape {list(given)}, its axes have {list(shape(self.axes))} samples", "Give values of that shape"
+
+    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        yield from super().warnings(ins)
+        if isinstance(self.values, FrozenArray) and not self.values.data.any():
+            yield "its values are all zero, so it gives nothing", "Give it the values that it should show, or remove it"
+
+    def strength(self) -> Interval:
+        values = self.values.data if isinstance(self.values, FrozenArray) else None
+        if values is None or not values.size:
+            return ANY
+        return times((self.amplitude, self.amplitude), (float(values.min()), float(values.max())))
 
     def pattern(self, at: Setting) -> Any:
         return self.amplitude * jnp.broadcast_to(at.array(self.values), shape(self.axes))

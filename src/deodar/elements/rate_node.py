@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -11,6 +12,7 @@ import jax.numpy as jnp
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, hull, times, total
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.parameters import Live, Recompile
@@ -60,6 +62,13 @@ class RateNode(Element):
 
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else ()
+
+    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+        h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
+        spread = 6.0 * self.noise * math.sqrt(self.tau / 2)
+        own = times((self.self_excitation, self.self_excitation), self.sigmoid.bounds(u))
+        u = hull(u, total((h - spread, h + spread), inputs["input"], own))
+        return {"activation": u, "output": self.sigmoid.bounds(u)}
 
     def init(self, at: Setting) -> Arrays:
         u = at.full((), self.resting_level)

@@ -14,6 +14,7 @@ from deodar.elements._stimulus import Stimulus
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.exact import exact, wide
+from deodar.numerics.intervals import ANY, Interval, times
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -74,6 +75,12 @@ class TimeSeries(Stimulus):
         needed = (*(self.times.shape if isinstance(self.times, FrozenArray) else ()), *shape(self.axes))
         if given != needed:
             yield f"values has shape {list(given)}, its times and axes make {list(needed)}", "Give values of that shape"
+
+    def strength(self) -> Interval:
+        values = self.values.data if isinstance(self.values, FrozenArray) else None
+        if values is None or not values.size:
+            return ANY
+        return times((self.amplitude, self.amplitude), (float(values.min()), float(values.max())))
 
     def steady(self) -> bool:
         return False

@@ -259,7 +259,7 @@ class _Resolver:
             self.problem(
                 node.id,
                 f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}: {reason}",
-                _written(_remedy(source.path, node.path, axes, want, bool(bad))),
+                f"Write: {_remedy(source.path, node.path, axes, want, bool(bad))}",
             )
             return None
         key = ",".join(f"{a.name}:{a.samples}" for a in want)
@@ -294,7 +294,7 @@ class _Resolver:
                 names = ", ".join(a.name for a in getattr(node.element, "axes", node.ins[port]))
                 ends = f"{source}.{c.source_port} {describe(node.ins[port])} does not fit {node.path}.{port} {own}: {what}"
                 return ends, (
-                    f"Give both the same axes. {source} >> Resample([{names}]) >> {node.path} keeps the part they share and loses the rest;"
+                    f"Give both the same axes, or write: {source} >> Resample([{names}]) >> {node.path} keeps the part they share and loses the rest;"
                     f" {source} >> Project([{names}]) >> {node.path} loses the places along every axis that is missing in it: it integrates over them"
                 )
         return what, ""
@@ -365,7 +365,7 @@ def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> 
     here = {a.name: a for a in want}
     pairs = [(a, here[a.name]) for a in axes if a.name in here and not a.fits(here[a.name])]
     units = [(a, b) for a, b in pairs if a.unit != b.unit]
-    same = f"give both the same axis {pairs[0][0].name!r}"
+    same = f"one axis {pairs[0][0].name!r} for both"
     if units and all(dc.replace(a, unit=b.unit).fits(b) for a, b in units):
         same = f"{same}: the numbers agree, only the units {units[0][0].unit!r} and {units[0][1].unit!r} differ, and one of them is probably wrong"
     elif units:
@@ -374,7 +374,3 @@ def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> 
     if units or [a.name for a in axes] != [a.name for a in want] or any(a.periodic and not b.periodic for a, b in pairs):
         return f"{same}; or {chain(f'Weights(w, [{names}])')} with an array w that says which place goes where. {lose}"
     return f"{same}; or {chain(f'Resample([{names}])')}, which keeps the part they share and loses what lies outside it. {lose}"
-
-
-def _written(remedy: str) -> str:
-    return remedy[0].upper() + remedy[1:] if remedy.startswith("give") else f"Write: {remedy}"

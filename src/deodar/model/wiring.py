@@ -5,12 +5,18 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 
+from deodar.element import Element
+from deodar.errors import Problem
 from deodar.model.document import Document
 from deodar.model.resolve import Node
+from deodar.numerics.intervals import ANY, ZERO, Interval, total
+
+MOST_PASSES = 200
+"""Passes over the graph after which bounds that still widen count as unknown."""
 
 
 class Wiring:
-    """A document, its resolved nodes, and who reads whom.
+    """A document, its resolved nodes, who reads whom, and between which values signals lie.
 
     Attributes:
         doc: the document.
@@ -32,3 +38,70 @@ class Wiring:
                 for source, _, _ in slots:
                     found[source].add(n.id)
         return found
+
+    def sources(self, node: Node, port: str = "input") -> list[Node]:
+        """The document's own elements that a port reads, through implicit projections and delays."""
+        found: list[Node] = []
+        for source, _, _ in node.reads.get(port, ()):
+            n = self.nodes[source]
+            found += [n] if n.declared else self.sources(n)
+        return found
+
+    @functools.cached_property
+    def driven(self) -> set[str]:
+        """The ids of what signals from outside can reach: stimuli, sensors and other elements without inputs, and all behind them.
+
+        Where there are none, the model is a template, which gets its inputs where it is used.
+        """
+        found = {n.id for n in self.declared if not n.element.ports()}
+        ahead = list(found)
+        while ahead:
+            new = self.readers[ahead.pop()] - found
+            found |= new
+            ahead += new
+        return found
+
+    def arriving(self, node: Node, port: str = "input") -> Interval:
+        """Bounds of the sum that arrives at an input port."""
+        return total(*(self.bounds[i].get(p, ANY) for i, p, _ in node.reads.get(port, ())))
+
+    @functools.cached_property
+    def bounds(self) -> dict[str, dict[str, Interval]]:
+        """For each node the bounds of its ports: the smallest intervals that hold all that can happen from the initial values on."""
+        found: dict[str, dict[str, Interval] | None] = dict.fromkeys(self.nodes)
+        growing: set[str] = set(self.nodes)
+        for k in range(MOST_PASSES):
+            moved: set[str] = set()
+            for i in growing:
+                n = self.nodes[i]
+                inputs = {port: total(*(_known(found, source, p) for source, p, _ in slots)) for port, slots in n.reads.items()}
+                before = found[i]
+                found[i] = new = dict(n.element.bounds(n.ins, inputs, before or {}))
+                if before is None or any(_apart(v, before.get(port, ANY)) for port, v in new.items()):
+                    moved.add(i)
+            if not moved:
+                break
+            if k >= MOST_PASSES // 2:  # what still widens has no bounds
+                growing -= moved
+                found |= {i: {} for i in moved}
+        return {i: values or {} for i, values in found.items()}
+
+
+def warning(node: Node, what: str, fix: str) -> Problem:
+    """A warning about one element."""
+    return Problem(node.path, what, fix, "warning")
+
+
+def overrides(element: Element, method: str) -> bool:
+    """Whether the element's class has its own version of a method of the contract."""
+    return getattr(type(element), method) is not getattr(Element, method)
+
+
+def _known(found: dict[str, dict[str, Interval] | None], source: str, port: str) -> Interval:
+    """Bounds of an output: nothing yet for what was not visited, any value for what says nothing."""
+    values = found[source]
+    return ZERO if values is None else values.get(port, ANY)
+
+
+def _apart(a: Interval, b: Interval) -> bool:
+    return any(x != y and abs(x - y) > 1e-6 for x, y in zip(a, b, strict=True))

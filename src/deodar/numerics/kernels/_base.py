@@ -9,9 +9,10 @@ from typing import Annotated, Any
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
+from deodar.numerics.intervals import ANY, Interval
 from deodar.parameters import Part, Recompile, parameters
 
-WIDEST = 1e6
+WIDEST = 1e12
 """Widths and shifts beyond this multiple of an axis are a problem: single precision cannot square much larger ones (a guess, far above any use)."""
 
 
@@ -52,6 +53,10 @@ class Kernel(Part):
     def samples(self, axes: Axes, dtype: Any) -> Any | None:
         """The kernel as an array around lag zero on the grid of `axes`, or None where `terms` say it all."""
         return None
+
+    def bounds(self, axes: Axes) -> Interval:
+        """Its integral at most: of its negative weights, of its positive ones."""
+        return ANY
 
     def misfits(self, axes: Axes) -> Iterator[str]:
         """What does not fit between this kernel and the axes of its field."""

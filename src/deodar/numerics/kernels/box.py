@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar.leaves import per_axis
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
@@ -38,6 +42,9 @@ class Box(Kernel):
     amplitude: Annotated[float, Live("activation", meaning="weight inside, or the integral if normalized")] = 1.0
     width: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="full width")] = 10.0
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+
+    def bounds(self, axes: Axes) -> Interval:
+        return signed(self.amplitude * (1.0 if self.normalized else math.prod(float(w) for w in per_axis(self.width, axes))))
 
     def terms(self) -> Sequence[Term]:
         def along(d: int, lag: Any, period: float | None, step: float) -> Any:

@@ -11,8 +11,9 @@ import numpy as np
 
 from deodar.leaves import per_axis
 from deodar.numerics import resampling
-from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.convolution import along
+from deodar.numerics.intervals import ANY, Interval, hull, signed
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
@@ -43,6 +44,12 @@ class Custom(Kernel):
     weights: Annotated[ArrayLike, Rebuild("activation", meaning="weights around distance zero")] = FrozenArray([0.25, 0.5, 0.25])
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
     spacing: Annotated[PerAxis | None, Recompile("axis", lower=1e-9, meaning="distance of neighbouring samples")] = None
+
+    def bounds(self, axes: Axes) -> Interval:
+        if self.spacing is not None or not isinstance(self.weights, FrozenArray):
+            return ANY
+        up, down = (float(part.sum()) * cell(axes) for part in (np.maximum(self.weights.data, 0), np.minimum(self.weights.data, 0)))
+        return hull(signed(self.amplitude * up), signed(self.amplitude * down))
 
     def terms(self) -> Sequence[Term]:
         return ()

@@ -9,6 +9,9 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar.leaves import per_axis
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
@@ -43,6 +46,9 @@ class Gaussian(Kernel):
     amplitude: Annotated[float, Live("activation", meaning="weight at the centre, or the integral if normalized")] = 1.0
     sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width")] = 5.0
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+
+    def bounds(self, axes: Axes) -> Interval:
+        return signed(self.amplitude * (1.0 if self.normalized else volume(self.sigma, axes)))
 
     def terms(self) -> Sequence[Term]:
         return (gaussian_term(self.amplitude, self.sigma, self.normalized),)
@@ -86,3 +92,8 @@ def integral(sigma: Any, step: float) -> Any:
 def unresolved(sigma: Any, step: float) -> Any:
     """What brings the samples of a Gaussian to its true integral: 1 where the grid resolves it, from one step per sigma (to 5e-9)."""
     return jnp.where(sigma < step, math.sqrt(2 * math.pi) * sigma / integral(sigma, step), 1.0)
+
+
+def volume(sigma: Any, axes: Axes) -> float:
+    """The integral of a Gaussian of height 1 over the axes; 1 on a node."""
+    return math.prod(math.sqrt(2 * math.pi) * float(s) for s in per_axis(sigma, axes))

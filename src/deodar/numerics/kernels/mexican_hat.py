@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, hull, signed
 from deodar.numerics.kernels._base import Kernel, Term
-from deodar.numerics.kernels.gaussian import NARROWEST, gaussian_term
+from deodar.numerics.kernels.gaussian import NARROWEST, gaussian_term, volume
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -41,6 +43,10 @@ class MexicanHat(Kernel):
     inhibition: Annotated[float, Live("activation", meaning="weight of the inhibition")] = 8.0
     sigma_inhibition: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the inhibition")] = 10.0
     normalized: Annotated[bool, Recompile(meaning="whether the weights are integrals")] = False
+
+    def bounds(self, axes: Axes) -> Interval:
+        up, down = (1.0 if self.normalized else volume(s, axes) for s in (self.sigma_excitation, self.sigma_inhibition))
+        return hull(signed(self.excitation * up), signed(-self.inhibition * down))
 
     def terms(self) -> Sequence[Term]:
         return (

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.parameters import PerAxis, Rebuild, Recompile
@@ -37,6 +38,9 @@ class Shifted(Kernel):
 
     kernel: Annotated[Kernel, Recompile(meaning="the inner kernel")] = Gaussian()
     shift: Annotated[PerAxis, Rebuild("axis", meaning="how far the kernel is moved")] = 0.0
+
+    def bounds(self, axes: Axes) -> Interval:
+        return self.kernel.bounds(axes)
 
     def terms(self) -> Sequence[Term]:
         return [Term(t.amplitude, self._moved(t)) for t in self.kernel.terms()]

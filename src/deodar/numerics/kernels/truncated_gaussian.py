@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -9,7 +10,9 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 import numpy as np
 
-from deodar.leaves import is_neutral
+from deodar.leaves import is_neutral, per_axis
+from deodar.numerics.axes import Axes
+from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
@@ -50,6 +53,10 @@ class TruncatedGaussian(Kernel):
     cutoff: Annotated[float, Rebuild(lower=0, meaning="reach as a multiple of the width")] = 5.0
     least: Annotated[PerAxis, Rebuild("axis", lower=0, meaning="reach at the least")] = 0.0
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+
+    def bounds(self, axes: Axes) -> Interval:
+        wide = math.prod(math.sqrt(2 * math.pi) * float(s) + a.step for s, a in zip(per_axis(self.sigma, axes), axes, strict=True))
+        return signed(self.amplitude * (1.0 if self.normalized else wide))
 
     def terms(self) -> Sequence[Term]:
         return () if is_neutral(self.amplitude) else (Term(self.amplitude, self._along),)

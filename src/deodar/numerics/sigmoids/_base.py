@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar.numerics.intervals import ANY, Interval
 from deodar.parameters import Part
 
 POINTS = 5
@@ -43,3 +44,7 @@ class Sigmoid(Part):
         """The mean of g over the activations between a and b, g(a) where they are equal; same shape."""
         above, below = self.fraction(a, b, self.ends(a), self.ends(b))
         return above / below
+
+    def bounds(self, u: Interval) -> Interval:
+        """Between which values the output lies for activation in an interval."""
+        return ANY

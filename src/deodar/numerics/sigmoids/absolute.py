@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
 from deodar.registry import register
@@ -50,3 +51,7 @@ class Absolute(Sigmoid):
         signed = (vb - jnp.sign(vb) * jnp.log1p(wb)) * jnp.sign(vb) - (va - jnp.sign(va) * jnp.log1p(wa)) * jnp.sign(va)
         over = signed / jnp.where(crosses, vb - va, 1.0)
         return 0.5 * (1.0 + jnp.where(crosses, over, jnp.where(va + vb > 0, one_side, -one_side))), 1.0
+
+    def bounds(self, u: Interval) -> Interval:
+        low, high = (max(min(self.beta * (v - self.threshold), 1e300), -1e300) for v in u)
+        return 0.5 * (1 + low / (1 + abs(low))), 0.5 * (1 + high / (1 + abs(high)))

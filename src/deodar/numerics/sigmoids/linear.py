@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
+from deodar.numerics.intervals import Interval, times
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
 from deodar.registry import register
@@ -38,3 +39,6 @@ class Linear(Sigmoid):
     def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
         """The output in the middle."""
         return self(0.5 * (a + b)), 1.0
+
+    def bounds(self, u: Interval) -> Interval:
+        return times((self.slope, self.slope), (u[0] - self.threshold, u[1] - self.threshold))

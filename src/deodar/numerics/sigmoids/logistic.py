@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax
 import jax.numpy as jnp
 
+from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
 from deodar.registry import register
@@ -67,3 +69,7 @@ class Logistic(Sigmoid):
         near = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
         series = g + 0.5 * g * (1.0 - g) * d
         return jnp.where(near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)), jnp.where(near, 1.0, d)
+
+    def bounds(self, u: Interval) -> Interval:
+        low, high = (self.beta * (v - self.threshold) for v in u)
+        return 1 / (1 + math.exp(min(-low, 700.0))), 1 / (1 + math.exp(min(-high, 700.0)))

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar.numerics.intervals import Interval, times
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
 from deodar.registry import register
@@ -45,3 +46,7 @@ class SemiLinear(Sigmoid):
         top = jnp.maximum(va, vb)
         inside = jnp.maximum(0.5 * (va + vb), 0.0)
         return self.slope * jnp.where(crosses, 0.5 * top * top, inside), jnp.where(crosses, jnp.abs(vb - va), 1.0)
+
+    def bounds(self, u: Interval) -> Interval:
+        low, high = times((self.slope, self.slope), (u[0] - self.threshold, u[1] - self.threshold))
+        return max(0.0, low), max(0.0, high)

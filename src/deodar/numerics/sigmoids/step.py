@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.parameters import Live
 from deodar.registry import register
@@ -40,3 +41,6 @@ class Step(Sigmoid):
         va, vb = a - self.threshold, b - self.threshold
         d = vb - va
         return jnp.where(d == 0, self(a), jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0)), jnp.where(d == 0, 1.0, d)
+
+    def bounds(self, u: Interval) -> Interval:
+        return float(u[0] > self.threshold), float(u[1] > self.threshold)

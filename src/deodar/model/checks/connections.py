@@ -1,0 +1,63 @@
+"""Connections that are missing, or there twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from deodar.couplings.gain import Gain
+from deodar.elements.motor import Motor
+from deodar.elements.placeholder import Placeholder
+from deodar.elements.sensor import Sensor
+from deodar.errors import Problem
+from deodar.model.resolve import Node
+from deodar.model.wiring import Wiring, warning
+
+NEEDED = {"gate": "it never learns", "factor": "its output is always 0", "post": "it never learns anything", "error": "its gains never change"}
+"""Ports whose silence makes an element useless, and how."""
+
+IDLE = ("Motor", "MemoryTrace", "Attractor", "DelayLine", "History", "TransientDetector", "Delay")
+"""Kinds that do nothing without an input."""
+
+
+def check(wiring: Wiring) -> Iterator[Problem]:
+    """Ports that nothing reaches, sources that nothing reads, signals and motors that occur twice, parameters that drive nothing."""
+    for n in wiring.declared:
+        yield from _ports(wiring, n)
+        yield from _twice(wiring, n)
+    motors: dict[str, Node] = {}
+    for n in wiring.declared:
+        if isinstance(n.element, Motor) and (first := motors.setdefault(n.element.motor, n)) is not n:
+            what = f"tells the motor {n.element.motor!r}, which {first.path} tells as well: only one of them can"
+            yield warning(n, what, "Name another motor, or connect both signals to one element")
+    for knob in wiring.doc.knobs:
+        if not knob.links and wiring.driven:
+            fix = f"Link it: model.link('element.parameter', {knob.name!r}); or remove it"
+            yield Problem(knob.name, "the document parameter drives nothing", fix, "warning")
+
+
+def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
+    e = n.element
+    for port in e.ports():
+        if port in NEEDED and not n.reads.get(port) and n.id in wiring.driven:
+            yield warning(n, f"nothing is connected to its port {port!r}, so {NEEDED[port]}", f"Connect it: model.connect(..., '{n.path}.{port}')")
+    if type(e).__name__ in IDLE and not n.reads.get("input"):
+        yield warning(n, "nothing is connected to it, so it does nothing", f"Connect it: model.connect(..., {n.path!r}); or remove it")
+    if not e.ports() and not isinstance(e, Sensor) and not wiring.readers[n.id]:  # what a sensor reads may be wanted for the record alone
+        yield warning(n, "nothing reads it", f"Connect it: model.connect({n.path!r}, ...); or remove it")
+    if isinstance(e, Placeholder) and wiring.readers[n.id]:
+        yield warning(n, f"stands in for {e.missing or 'what is missing'} and gives 0 to what reads it", "Put an element in its place that does it")
+
+
+def _twice(wiring: Wiring, n: Node) -> Iterator[Problem]:
+    for port in n.reads:
+        direct = wiring.sources(n, port)
+        for g in direct:
+            if (
+                isinstance(g.element, Gain)
+                and (source := wiring.sources(g))
+                and len(source) == 1
+                and source[0] in direct
+                and not source[0].element.stateful
+            ):
+                what = f"gets {source[0].path} twice: directly, and through {g.path}"
+                yield warning(n, what, f"Disconnect one: model.disconnect({source[0].path!r}, {n.path!r})")

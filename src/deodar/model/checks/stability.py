@@ -1,0 +1,100 @@
+"""Loops that grow or spread, and competitions that nothing decides."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Iterator
+
+from deodar.couplings.gain import Gain
+from deodar.couplings.sum import Sum
+from deodar.elements.box_stimulus import BoxStimulus
+from deodar.elements.field import Field
+from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.errors import Problem
+from deodar.model.resolve import Node
+from deodar.model.wiring import Wiring, warning
+from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids.semilinear import SemiLinear
+
+LONGEST = 12
+"""Elements of a linear loop at most."""
+
+
+def check(wiring: Wiring) -> Iterator[Problem]:
+    """Growth of linear loops, fronts that nothing stops, ties without noise."""
+    reported: set[str] = set()
+    for n in wiring.declared:
+        e = n.element
+        if _slope(n) and n.id not in reported:
+            loop = _growing(wiring, n)
+            if loop:
+                reported |= {m.id for m, _ in loop}
+                gain = math.prod(g for _, g in loop)
+                names = " -> ".join([m.path for m, _ in loop] + [n.path])
+                what = f"grows without bound: once round the loop {names} a signal is multiplied by {gain:.3g}"
+                yield warning(n, what, "Make the product of its gains smaller than 1, or take a sigmoid that saturates: Logistic()")
+        if isinstance(e, Field) and e.axes:
+            yield from _spread(wiring, n, e)
+            yield from _tie(wiring, n, e)
+
+
+def _slope(n: Node) -> float:
+    """By how much an element multiplies a steady signal, if it is linear; else 0."""
+    e = n.element
+    if isinstance(e, Gain):
+        return e.factor
+    if isinstance(e, Sum) or not n.declared:
+        return 1.0 if len(n.ins.get("input", ())) == len(n.outs.get("output", ())) else 0.0
+    if isinstance(e, Field) and isinstance(e.sigmoid, (Linear, SemiLinear)):
+        return e.sigmoid.slope
+    return 0.0
+
+
+def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
+    """A loop from a node back to itself whose gain is above 1: its own kernel, or through others."""
+    e = start.element
+    if isinstance(e, Field) and isinstance(e.sigmoid, (Linear, SemiLinear)):
+        parts = [kernel.bounds(tuple(e.axes)) for kernel in e.kernel]
+        gain = e.sigmoid.slope * (sum(a + b for a, b in parts) - e.global_inhibition * math.prod(a.step * a.samples for a in e.axes))
+        border = 1.2 if e.axes else 1.0  # near a border a part of the kernel is lost
+        if border < gain < math.inf:
+            return [(start, gain)]
+    paths: list[tuple[list[tuple[Node, float]], float]] = [([(start, _slope(start))], _slope(start))]
+    while paths:
+        path, gain = paths.pop()
+        for i in wiring.readers[path[-1][0].id]:
+            n = wiring.nodes[i]
+            if n is start and gain > 1:
+                return [(m, g) for m, g in path if m.declared]
+            if _slope(n) > 0 and n not in [m for m, _ in path] and len(path) < LONGEST:
+                paths.append(([*path, (n, _slope(n))], gain * _slope(n)))
+    return []
+
+
+def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
+    """The edge of a wide peak gets half the kernel: where that lifts it over its threshold, and nothing inhibits, the peak widens to the ends."""
+    if isinstance(e.sigmoid, (Linear, SemiLinear)) or wiring.arriving(n)[0] < 0:
+        return
+    parts = [kernel.bounds(tuple(e.axes)) for kernel in e.kernel]
+    threshold: float = getattr(e.sigmoid, "threshold", 0.0)
+    whole = math.prod(a.step * a.samples for a in e.axes)
+    edge = e.resting_level + sum(b for _, b in parts) / 2 - threshold
+    if any(a for a, _ in parts) or not 0 < edge < math.inf or e.global_inhibition * whole > 0.5 * edge:
+        return
+    what = (
+        f"a peak in it spreads over the whole field: half of its kernel's integral ({sum(b for _, b in parts) / 2:.3g}) exceeds the resting level"
+        f" {e.resting_level:g}, and nothing inhibits what lies further off"
+    )
+    yield warning(n, what, f"Give it global_inhibition (about {edge / (0.2 * whole):.2g}), a MexicanHat, or a weaker kernel")
+
+
+def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
+    """Selection between equal inputs is decided by noise; without any, by the rounding of the last digit."""
+    found = sorted(wiring.sources(n), key=wiring.declared.index)
+    if e.noise > 0 or e.global_inhibition <= 0 or len(found) < 2:
+        return
+    same = {dc.replace(m.element, name="", center=0.0) for m in found if isinstance(m.element, (GaussianStimulus, BoxStimulus))}
+    if len(same) == 1 and all(isinstance(m.element, (GaussianStimulus, BoxStimulus)) for m in found):
+        what = f"its inputs {' and '.join(m.path for m in found)} are equal, they compete, and noise is 0: rounding decides which one wins"
+        yield warning(n, what, "Give it noise, such as noise=0.1, or make one input stronger")

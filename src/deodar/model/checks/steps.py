@@ -1,0 +1,102 @@
+"""Time constants, windows and delays that do not suit the step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from deodar.couplings.adaptive_weights import AdaptiveWeights
+from deodar.couplings.hebbian import Hebbian
+from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.elements.time_series import TimeSeries
+from deodar.errors import Problem
+from deodar.leaves import per_axis
+from deodar.model.resolve import Node
+from deodar.model.wiring import Wiring, warning
+from deodar.numerics.windows import Window
+from deodar.parameters import FrozenArray, parameters
+
+COARSE = 0.4
+"""Share of a time constant from which a step is called long: the Euler method then relaxes by a quarter too fast. A step of just the time constant
+is left alone: it copies the input, and is written on purpose."""
+
+
+def check(wiring: Wiring) -> Iterator[Problem]:
+    """Every element, with the step of the document and its own rate."""
+    for n in wiring.declared:
+        step = wiring.doc.step * n.every
+        yield from _constants(wiring, n, step)
+        yield from _windows(wiring, n, step)
+        yield from _learning(n, step)
+        yield from _series(n, step)
+
+
+def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
+    unit, stated = wiring.doc.time_unit, "" if wiring.doc.dt is not None else " (the default; the document states none)"
+    for p in parameters(type(n.element)):
+        value: Any = getattr(n.element, p.name)
+        if p.unit != "time" or p.form != "number":
+            continue
+        if p.name.startswith("tau"):
+            if step > value * (1 + 1e-9):
+                what = f"{p.name} = {value:g} {unit} is shorter than the step of {step:g} {unit}{stated}: the equation cannot be followed"
+                yield Problem(n.path, what, f"Write dt={value / n.every / 10:g} in the document, or a larger {p.name}; both are in {unit}")
+            elif COARSE * value < step < value * (1 - 1e-9):
+                what = f"the step of {step:g} {unit} is long for {p.name} = {value:g}: the Euler method is inaccurate from {COARSE:g} of it"
+                yield warning(n, what, f"Write dt={value / n.every / 10:g}, a tenth of {p.name}")
+        elif p.name in ("delay", "interval") and value < step * (1 - 1e-9):
+            what = f"{p.name} = {value:g} {unit} is shorter than the step of {step:g}, and counts as one step"
+            yield warning(n, what, f"Give it in {unit}, or take a smaller step")
+    if isinstance(n.element, MemoryTrace) and n.element.tau_build > n.element.tau_decay:
+        what = f"tau_build = {n.element.tau_build:g} is longer than tau_decay = {n.element.tau_decay:g}: it forgets faster than it learns"
+        yield warning(n, what, "Exchange the two")
+
+
+def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
+    windows: Any = getattr(n.element, "windows", ())
+    for k, w in enumerate(windows if isinstance(windows, tuple) else ()):
+        if not isinstance(w, Window) or w.stop <= w.start:
+            continue
+        if w.stop <= wiring.doc.t0:
+            what = f"windows.{k} ends at {w.stop:g}: it is over before the run begins at {wiring.doc.t0:g}"
+            yield warning(n, what, f"Windows are times on the document's clock: begin at {wiring.doc.t0:g} or later")
+        elif w.stop - w.start < step * (1 - 1e-9):
+            what = f"windows.{k} is {w.stop - w.start:g} {wiring.doc.time_unit} long, shorter than the step of {step:g}: it may never be on"
+            yield warning(n, what, f"Give start and stop in {wiring.doc.time_unit}, or take a smaller step")
+
+
+def _learning(n: Node, step: float) -> Iterator[Problem]:
+    e = n.element
+    if not isinstance(e, (Hebbian, AdaptiveWeights)):
+        return
+    if e.rate == 0 and e.start is None and e.initial == 0:
+        what = "its rate is 0 and its weights begin at 0: it learns nothing, and gives 0"
+        yield warning(n, what, "Give it a rate, such as 0.01, or weights: start=...")
+    elif e.rate * step > 1:
+        what = f"with a rate of {e.rate:g} its weights overshoot: in one step of {step:g} they move by more than the whole way"
+        yield warning(n, what, f"Take a rate below {1 / step:g}, better a tenth of it")
+    if isinstance(e, Hebbian) and 0 < e.saturation < e.initial and e.start is None:
+        what = f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first thing learned makes them smaller"
+        yield warning(n, what, f"Write initial={e.saturation:g} or less, or a larger saturation")
+
+
+def _series(n: Node, step: float) -> Iterator[Problem]:
+    e = n.element
+    if isinstance(e, TimeSeries) and isinstance(e.times, FrozenArray) and len(e.times.data) > 1:
+        first, last = float(e.times.data[0]), float(e.times.data[-1])
+        if last - first < step:
+            what = f"its times from {first:g} to {last:g} all lie inside one step of {step:g}"
+            yield warning(n, what, "Give times in the document's time unit")
+        elif 0 < e.period < last:
+            yield warning(n, f"its period is {e.period:g}, so its moments from there to {last:g} are never reached", f"Write period={last:g}, or 0")
+    if isinstance(e, MovingGaussian):
+        every = zip(e.axes, *(per_axis(v, e.axes) for v in (e.center, e.sigma, e.velocity)), strict=True)
+        for axis, center, sigma, velocity in every:
+            c, s, v = float(center), float(sigma), float(velocity)
+            if abs(v) * step > 2 * s:
+                what = f"its velocity of {v:g} carries it {abs(v) * step:g} in one step of {step:g}, further than its width: it jumps"
+                yield warning(n, what, f"Give the velocity in units of the axis {axis.name!r} per unit of the document's time")
+            elif e.path is None and not axis.periodic and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0)):
+                what = f"begins at {c:g}, beyond the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its velocity {v:g} never brings it there"
+                yield warning(n, what, f"Take a center between {axis.lower:g} and {axis.upper:g}, or another sign of the velocity")
