@@ -1,0 +1,76 @@
+"""Attacks the studio and prints what became of it: `python benchmarks/attacks.py [edits|documents|messages|kills|soak ...] [--size N] [--seed N]`.
+
+`edits`: 8 pages edit one document at once, 10,000 edits. `documents`: 2,090 mutated documents. `messages`: 3,614 hostile messages. `kills`: 50 kills
+while a page saves. `soak`: pages come and go for 600 seconds. `--size` sets another number. The attacks are in `tests/attacks`; the tests run them
+in a quick form. Ends with 1 if an attack found something.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from tests.attacks import documents, edits, kills, messages, soak
+
+
+def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = edits.run(folder, 8, size, seed)
+    return f"{found.accepted} accepted, {found.refused} refused, {found.versions} versions", [*found.errors, *found.differ]
+
+
+def _documents(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = documents.attack(size, seed)
+    return f"{found.read} read, {found.refused} refused", found.errors
+
+
+def _messages(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = messages.run(folder, size, seed)
+    return f"{found.sent} sent over {found.connections} connections, {found.refused} refused", found.errors
+
+
+def _kills(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = kills.attack(folder, size, seed)
+    return f"{found.kills} kills, {found.saves} saves", found.errors
+
+
+def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = soak.attack(folder, size, seed)
+    return f"{found.visits} visits; after a quarter {found.early}, at the end {found.late}", []
+
+
+ATTACKS: dict[str, tuple[Callable[[Path, int, int], tuple[str, list[str]]], int]] = {
+    "edits": (_edits, 10_000), "documents": (_documents, 2090), "messages": (_messages, 3614), "kills": (_kills, 50), "soak": (_soak, 600),
+}  # fmt: skip
+
+
+def main() -> int:
+    """Run the attacks that are named, or all."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("attack", nargs="*", choices=[*ATTACKS, []], metavar="ATTACK", help=", ".join(ATTACKS))
+    parser.add_argument("--size", type=int, help="how many edits, documents, messages, kills or seconds")
+    parser.add_argument("--seed", type=int, default=0)
+    args = parser.parse_args()
+    errors = 0
+    for name in args.attack or ATTACKS:
+        run, usual = ATTACKS[name]
+        with tempfile.TemporaryDirectory() as home:
+            folder = Path(home) / "folder"
+            folder.mkdir()
+            os.environ["DEODAR_STATE"] = str(Path(home) / "state")
+            began = time.perf_counter()
+            said, found = run(folder, args.size or usual, args.seed)
+        print(f"{name:10} {said}; {len(found)} errors; {time.perf_counter() - began:.0f} s", flush=True)
+        for error in found[:20]:
+            print(f"  {error[:1000]}", flush=True)
+        errors += len(found)
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

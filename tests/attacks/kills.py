@@ -1,0 +1,81 @@
+"""A studio that is killed while pages edit and save: the file is whole, and edits that were kept are offered at the next start."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses as dc
+import os
+import random
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import deodar as dd
+from tests.attacks.edits import small
+from tests.server.page import page
+
+
+@dc.dataclass
+class Outcome:
+    """What was found after the kills."""
+
+    kills: int = 0
+    saves: int = 0
+    errors: list[str] = dc.field(default_factory=list[str])
+
+
+def start(folder: Path) -> tuple[subprocess.Popen[str], str]:
+    """A studio in a process of its own, and its address."""
+    command = [sys.executable, "-m", "deodar", "studio", "m.json", "--no-browser", "--port", "0"]
+    environment = os.environ | {"DEODAR_STATE": str(folder / "state")}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment)
+    assert process.stdout is not None
+    return process, process.stdout.readline().split()[-1]
+
+
+def stop(process: subprocess.Popen[str]) -> None:
+    """Kill a process and read what it left to be read."""
+    process.kill()
+    process.communicate(timeout=30)
+
+
+async def edit_and_save(address: str, process: subprocess.Popen[str], after: int, outcome: Outcome) -> float:
+    """Save without a pause, and kill the process while a save is under way; the value that was answered as saved last."""
+    saved = 0.0
+    async with page(address) as one:
+        await one.until(lambda: one.document)
+        u = one.element("u")
+        closed = asyncio.create_task(one.socket.wait_closed())
+        for k in range(after + 1):
+            await one.do("set", element=u, parameter="tau", value=100 + k)
+            saving = asyncio.create_task(one.do("save", replace=True))
+            if k == after:
+                await asyncio.sleep(0.02 * random.random())
+                process.send_signal(signal.SIGKILL)
+            await asyncio.wait({saving, closed}, return_when=asyncio.FIRST_COMPLETED)
+            if saving.done():
+                saved, outcome.saves = 100.0 + k, outcome.saves + 1
+            else:
+                saving.cancel()
+    return saved
+
+
+def attack(folder: Path, count: int, seed: int = 0) -> Outcome:
+    """Kill a studio so many times."""
+    outcome, random_ = Outcome(), random.Random(seed)
+    dd.save(small(), folder / "m.json", force=True)
+    for k in range(count):
+        process, address = start(folder)
+        try:
+            saved = asyncio.run(edit_and_save(address, process, random_.randrange(12), outcome))
+        finally:
+            stop(process)
+        outcome.kills += 1
+        try:
+            found = dd.load(folder / "m.json").get("u.tau")
+            if saved and found not in (saved, saved + 1):
+                outcome.errors.append(f"{k}: {saved} was answered as saved, and the file holds {found}")
+        except dd.errors.DeodarError as error:
+            outcome.errors.append(f"{k}: {error}")
+    return outcome
