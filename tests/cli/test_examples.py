@@ -153,5 +153,5 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(here: Path, monkey
 
 def test_a_missing_document_is_reported_before_a_port_is_taken(here: Path) -> None:
     command = [sys.executable, "-m", "deodar", "studio", "nope.json", "--no-browser", "--port", "0"]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=here, env=os.environ | {"DEODAR_STATE": str(here)}, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, cwd=here, env=os.environ | {"DEODAR_STATE": str(here)}, timeout=600)
     assert done.returncode == 1 and not done.stdout and "nope.json: there is no such file" in done.stderr

@@ -25,7 +25,7 @@ DOCUMENT = """{"deodar": 1, "axes": {"x": {"lower": 0, "upper": 9, "samples": 10
 
 
 def call(here: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "deodar", *arguments], cwd=here, capture_output=True, text=True, timeout=60)
+    return subprocess.run([sys.executable, "-m", "deodar", *arguments], cwd=here, capture_output=True, text=True, timeout=600)
 
 
 def test_an_element_of_ones_own_runs_from_the_shell(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ from tests.server.page import play, studio
 
 def fetch(address: str) -> tuple[int, bytes]:
     """Status and content of the page at an address."""
-    connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=30)
+    connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=600)
     try:
         there = urlsplit(address)
         connection.request("GET", "/", headers={"Cookie": f"deodar_token_{there.port}={there.query.removeprefix('token=')}"})
@@ -49,7 +49,7 @@ def test_it_prints_an_address_answers_there_and_ends_with_ctrl_c(tmp_path: Path)
         assert b"<title>" in fetch(address)[1]
     finally:
         process.send_signal(signal.SIGINT)
-        _, told = process.communicate(timeout=60)
+        _, told = process.communicate(timeout=600)
     assert process.returncode == 0 and told == ""
 
 
@@ -63,7 +63,7 @@ def test_a_file_is_opened_by_a_relative_path_and_through_a_link(tmp_path: Path) 
             play(address, lambda p: p.until(lambda: p.document and p.document["file"] == "node.json"))
         finally:
             process.send_signal(signal.SIGINT)
-            process.communicate(timeout=60)
+            process.communicate(timeout=600)
 
 
 def test_it_may_be_started_without_a_token(tmp_path: Path) -> None:
@@ -72,7 +72,7 @@ def test_it_may_be_started_without_a_token(tmp_path: Path) -> None:
         assert urlsplit(address).query == "" and b"<title>" in fetch(address)[1]
     finally:
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
+        process.communicate(timeout=600)
 
 
 def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -81,5 +81,5 @@ def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.
 def test_it_stands_in_the_users_own_cache_folder() -> None:
     code = "from deodar.compiler.cache import folder; print(folder())"
     environment = {k: v for k, v in os.environ.items() if k != "DEODAR_CACHE"} | {"XDG_CACHE_HOME": "/somewhere/else"}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0 and "deodar" in done.stdout and str(Path.cwd()) not in done.stdout

@@ -118,7 +118,7 @@ def test_it_is_plain_data_without_jax_and_can_be_printed() -> None:
     assert "6 x Field" in text and "6 x Gain" in text and "advance" in text
     code = "import ast, deodar.compiler.plan as p; t = ast.parse(open(p.__file__).read()); names = [a.name for n in ast.walk(t) "
     code += "if isinstance(n, ast.Import) for a in n.names]; assert not any(n.startswith('jax') for n in names), names"
-    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
+    assert subprocess.run([sys.executable, "-c", code], timeout=600).returncode == 0
 
 
 def test_uniform_weights_in_large_batches_are_finite() -> None:

@@ -66,7 +66,7 @@ def test_a_film_and_a_camera(way: str) -> None:
 def test_a_film_or_camera_that_is_not_there(tmp_path: Path) -> None:
     for options, says in ((["--video", "none.mp4"], "there is no such video"), (["--camera", "77"], "there is no camera")):
         done = subprocess.run(
-            [sys.executable, "-m", "deodar", "demo", "saliency", *options], cwd=tmp_path, capture_output=True, text=True, timeout=60
+            [sys.executable, "-m", "deodar", "demo", "saliency", *options], cwd=tmp_path, capture_output=True, text=True, timeout=600
         )
         assert done.returncode == 1 and says in " ".join(done.stderr.split()) and "Traceback" not in done.stderr, done.stderr
     assert not list(tmp_path.iterdir())
@@ -81,7 +81,7 @@ def test_bad_input(tmp_path: Path) -> None:
     (tmp_path / "full" / "thesis.txt").write_text("do not lose me")
     for force in ([], ["--force"]):
         done = subprocess.run(
-            [sys.executable, "-m", "deodar", "demo", "saliency", "--out", "full", *force], cwd=tmp_path, capture_output=True, text=True, timeout=60
+            [sys.executable, "-m", "deodar", "demo", "saliency", "--out", "full", *force], cwd=tmp_path, capture_output=True, text=True, timeout=600
         )
         assert done.returncode == 1 and "Traceback" not in done.stderr
     assert [p.name for p in (tmp_path / "full").iterdir()] == ["thesis.txt"]

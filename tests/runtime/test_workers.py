@@ -93,7 +93,7 @@ print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
 """
     script = tmp_path / "script.py"
     script.write_text(code)
-    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120, cwd=tmp_path)
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=600, cwd=tmp_path)
     assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["begun", "2"], "")
 
 
@@ -222,7 +222,7 @@ except dd.errors.WorkerError as error:
     (tmp_path / "apart.py").write_text("from own import Lift\n" + script)
     (tmp_path / "inside.py").write_text(element + script)
     for name, says in (("apart", "2\n"), ("inside", "Lift is written in the script itself")):
-        done = subprocess.run([sys.executable, str(tmp_path / f"{name}.py")], capture_output=True, text=True, timeout=120, cwd=tmp_path)
+        done = subprocess.run([sys.executable, str(tmp_path / f"{name}.py")], capture_output=True, text=True, timeout=600, cwd=tmp_path)
         assert done.stdout.startswith(says), done.stdout + done.stderr
 
 

@@ -24,7 +24,7 @@ def get(address: str, path: str = "/", token: bool = True, **headers: str) -> tu
     there = urlsplit(address)
     if token and there.query:
         headers = {"Cookie": cookie(address), **headers}
-    connection = http.client.HTTPConnection(there.hostname or "", there.port, timeout=30)
+    connection = http.client.HTTPConnection(there.hostname or "", there.port, timeout=600)
     connection.request("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
     answer = connection.getresponse()
     body = answer.read().decode(errors="replace")
@@ -46,7 +46,7 @@ def socket_status(address: str, path: str = "/ws", token: bool = True, **headers
     origin = headers.pop("Origin", None)
     try:
         with connect(f"ws://{there.netloc}{path}", additional_headers=headers, origin=origin) as socket:  # type: ignore[arg-type]
-            assert json.loads(socket.recv(timeout=30))["type"] == "welcome"
+            assert json.loads(socket.recv(timeout=600))["type"] == "welcome"
             return 101
     except websockets.InvalidStatus as error:
         return error.response.status_code

@@ -295,7 +295,7 @@ def test_malformed_messages_are_answered_and_too_many_end_the_connection(root: P
             await p.do("open_file", path="selection.json")
             for _ in range(30):
                 await p.socket.send(b"\x00\x01")
-            await asyncio.wait_for(p.socket.wait_closed(), 30)
+            await asyncio.wait_for(p.socket.wait_closed(), 600)
             assert p.socket.close_code == 1008
         async with page(address) as p:
             assert p.document["title"] == "selection"
@@ -309,7 +309,7 @@ def test_an_oversized_message_ends_only_that_connection(root: Path) -> None:
         async with page(address) as p:
             with contextlib.suppress(websockets.ConnectionClosed):
                 await p.socket.send(json.dumps({"type": "open_text", "name": "x", "text": "x" * (65 * 2**20)}))
-            await asyncio.wait_for(p.socket.wait_closed(), 30)
+            await asyncio.wait_for(p.socket.wait_closed(), 600)
         async with page(address) as p:
             assert p.document is None
 
