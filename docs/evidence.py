@@ -1,6 +1,6 @@
 """The runs that the manual speaks of: kept in `evidence/`, a folder for each paper, and every number on a page that comes from them.
 
-python docs/evidence.py FOLDER   take the folder of a finished `deodar reproduce PAPER`, then write claims, pictures and pages anew
+python docs/evidence.py FOLDER   take the folder of a finished `deodar reproduce PAPER [--quick]`, then write claims, pictures and pages anew
 python docs/evidence.py          write claims and pages anew from the runs that are kept
 python docs/evidence.py --print  print every number and table by its name
 
@@ -57,11 +57,16 @@ class Evidence:
 
     def report(self) -> Report:
         """Claims, figures, tables and numbers of the rows."""
-        return papers.paper(self.paper).report(self.rows, False)
+        return papers.paper(self.paper).report(self.rows, self.quick)
 
     def results(self, report: Report) -> str:
         """The content of `results.json`."""
-        return results(report.claims, {"paper": self.paper, "quick": False, "runs": len(self.rows), "of": self.about["of"]})
+        return results(report.claims, {"paper": self.paper, "quick": self.quick, "runs": len(self.rows), "of": self.about["of"]})
+
+    @property
+    def quick(self) -> bool:
+        """Whether they are the runs of `--quick`."""
+        return bool(self.about["quick"])
 
 
 def kept() -> list[str]:
@@ -84,14 +89,16 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     made = [line["about"] for line in lines if "key" not in line][-1]
     name = made["paper"]
     paper = papers.paper(name)
-    if made["quick"] or any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(False))).items()):
-        sys.exit(f"{source}: not the whole design of {name}, or another one; run deodar reproduce {name} into a new folder first")
-    keys = {key for job in paper.jobs(False) for key in job.keys}
+    quick = bool(made["quick"])
+    command = f"deodar reproduce {name}" + (" --quick" if quick else "")
+    if any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(quick))).items()):
+        sys.exit(f"{source}: not the whole design of {name}, or another one; run {command} into a new folder first")
+    keys = {key for job in paper.jobs(quick) for key in job.keys}
     rows = [paper.kept(line) for line in lines if "key" in line]
     if {row["key"] for row in rows} != keys:
-        sys.exit(f"{source}: {len(rows)} of {len(keys)} runs; run deodar reproduce {name} --out {source} first")
+        sys.exit(f"{source}: {len(rows)} of {len(keys)} runs; run {command} --out {source} first")
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
-    about = {"paper": name, "command": f"deodar reproduce {name}", "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
+    about = {"paper": name, "command": command, "quick": quick, "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
     folder = into / name
     folder.mkdir(parents=True, exist_ok=True)
     content = "".join(json.dumps(line) + "\n" for line in [*(line for line in lines if "key" not in line), *rows])
@@ -114,13 +121,14 @@ def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
         "inferred": _table([c for c in told if c.inferred]),
         "required-count": _counted("required claims", required),
         "reported-count": _counted("reported sentences", told),
+        "command": f"`{evidence.about['command']}`",
         "made": f"{versions}, {made['machine']}, {evidence.about['date']}",
     }
 
 
 def unrun(paper: str) -> dict[str, str]:
     """What a page may say of a paper whose runs are not kept: its settings, and in the place of every other number that nothing was run."""
-    names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made")
+    names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made", "command")
     return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, NOT_RUN)}
 
 

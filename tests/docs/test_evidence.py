@@ -48,13 +48,15 @@ def test_without_runs_a_page_states_settings_and_no_results() -> None:
 
 def test_what_is_kept_names_versions_and_date_and_no_place(reports: dict[str, Any]) -> None:
     for name, (kept, _) in reports.items():
-        assert set(kept.about) == {"paper", "command", "date", "runs", "of", "made_by"} and kept.about["paper"] == name
+        assert set(kept.about) == {"paper", "command", "quick", "date", "runs", "of", "made_by"} and kept.about["paper"] == name
         assert re.fullmatch(r"20\d\d-\d\d-\d\d", kept.about["date"]) and kept.about["runs"] == len(kept.rows)
         assert {"deodar", "jax", "jaxlib", "numpy", "python", "machine"} <= set(kept.about["made_by"])
         assert not re.search(r"/(home|root|tmp|Users|work)\b", json.dumps([kept.about, kept.design]))
         assert sum(p.stat().st_size for p in (evidence.EVIDENCE / name).iterdir()) < 4e6
         design = kept.design[-1]
-        assert {k: design[k] for k in design if k != "made_by"} == json.loads(json.dumps(papers.paper(name).about(False))), "the design has changed"
+        assert {k: design[k] for k in design if k != "made_by"} == json.loads(json.dumps(papers.paper(name).about(kept.quick))), (
+            "the design has changed"
+        )
 
 
 def test_the_wheel_does_not_carry_it() -> None:
@@ -122,6 +124,17 @@ def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) ->
     assert "| large/reflection-1.0-planner/low | 40 |" in known["spa"]["settings"]
     for page in evidence.pages():  # whole runs give every name that a page asks for
         assert evidence.NOT_RUN not in evidence.filled(page.read_text(encoding="utf-8"), known)
+
+
+def test_a_quick_reproduction_is_taken_as_one(folder: Path, tmp_path: Path) -> None:
+    first = {"about": {**papers.paper("spa").about(True), "made_by": MADE}}
+    rows = all_rows(True, lambda c, k: {"path": PATH[::10]}).values()
+    (folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in [first, *rows]))
+    taken = evidence.take(folder, tmp_path / "evidence")
+    assert taken.quick and len(taken.rows) == taken.about["of"] < 2000
+    known = evidence.numbers(taken, taken.report())
+    assert known["command"] == "`deodar reproduce spa --quick`" and known["success:z/planner/low"] == "20 of 20"
+    assert json.loads(taken.results(taken.report()))["settings"]["quick"] is True
 
 
 def test_a_part_of_the_runs_is_not_taken(folder: Path, tmp_path: Path) -> None:
