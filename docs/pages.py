@@ -96,7 +96,8 @@ def run(page: Path, folder: Path) -> list[str]:
 
 def drawn(folder: Path) -> list[Path]:
     """The pictures that a page wrote into its folder; those of the examples beside it are the gallery's."""
-    return [path for path in folder.rglob("*.png") if "examples" not in path.relative_to(folder).parts]
+    found = [path for ending in ("png", "svg") for path in folder.rglob(f"*.{ending}")]
+    return [path for path in found if "examples" not in path.relative_to(folder).parts]
 
 
 def _run(block: Block, names: dict[str, Any]) -> None:

@@ -33,7 +33,7 @@ ROOMS = {
     "worlds": ("Worlds", "What a model senses and moves. A model names sensors and motors; the world that has them is chosen when it is run."),
 }
 
-SCRIPT = ["Axis", "Model", "Session", "simulate", "Experiment", "save", "load", "quote", "use_cores"]
+SCRIPT = ["Axis", "Model", "Session", "simulate", "Experiment", "save", "load", "draw", "quote", "use_cores"]
 MEASURES = {
     "analysis.peaks": ["peaks", "Peaks", "Peak"],
     "analysis.regimes": ["regimes", "Regimes"],
@@ -62,6 +62,7 @@ MEASURES = {
     "runtime.meter": ["Meter"],
     "runtime.cost": ["Costs", "Cost"],
     "recording.files": ["save", "load"],
+    "model.diagram": ["Diagram"],
     "importers.opening": ["read"],
     "importers.presets": ["apply"],
     "importers.report": ["Report", "Line"],

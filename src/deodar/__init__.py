@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from deodar.elements.gaussian_stimulus import GaussianStimulus as GaussianStimulus
     from deodar.experiments.experiment import Experiment as Experiment
     from deodar.importers.opening import load as load
+    from deodar.model.diagram import draw as draw
     from deodar.model.model import Model as Model
     from deodar.model.model import save as save
     from deodar.model.paths import quote as quote
@@ -42,6 +43,7 @@ _HOMES = {
     "Model": "model.model",
     "Project": "couplings.project",
     "Session": "runtime.session",
+    "draw": "model.diagram",
     "errors": "errors",
     "load": "importers.opening",
     "quote": "model.paths",

@@ -27,6 +27,7 @@ from deodar.numerics.choice import Choice
 from deodar.numerics.exact import Exact, exact, split, wide
 from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.signs import Sign
 from deodar.numerics.waves import Waves
 from deodar.parameters import Part, Recompile
 
@@ -211,6 +212,16 @@ class Element(Part):
     def kernels(self) -> Sequence[Kernel]:
         """The kernels it convolves with, whose way of being applied is chosen before it is compiled."""
         return ()
+
+    # -------------------------------------------------------------------------------- in pictures
+
+    def polarity(self) -> Sign:
+        """Sign with which the output acts on what reads it: pictures tell inhibition from excitation by it."""
+        return "+"
+
+    def recurrence(self) -> Mapping[str, Sign]:
+        """Signs of the interactions of the element with itself, by name: pictures show them as loops."""
+        return {}
 
     # -------------------------------------------------------------------------------- in the compiled program
 

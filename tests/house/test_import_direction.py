@@ -22,6 +22,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "numerics",
         "element",
         "elements couplings worlds",
+        "diagrams",
         "model",
         "compiler",
         "recording",

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape
+from deodar.numerics.signs import Sign
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -56,6 +57,9 @@ class AdaptiveWeights(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
     stateful: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return "±"
 
     def ports(self) -> tuple[str, ...]:
         return ("input", "post", *(("gate",) if self.gated else ()), *(("pre",) if self.apart else ()))

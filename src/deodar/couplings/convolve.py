@@ -12,6 +12,7 @@ from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times, total
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.numerics.signs import Sign, together
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -39,6 +40,9 @@ class Convolve(Coupling):
 
     linear: ClassVar[bool] = True
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "filters"
+
+    def polarity(self) -> Sign:
+        return together(k.polarity() for k in self.kernel)
 
     def kernels(self) -> Sequence[Kernel]:
         return self.kernel

@@ -10,6 +10,7 @@ from deodar.element import WAVES, Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -40,6 +41,9 @@ class Gain(Coupling):
 
     def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
         return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
+
+    def polarity(self) -> Sign:
+        return sign_of(self.factor)
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         if not at.shared:

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, cell, shape
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -55,6 +56,9 @@ class GainAdaptation(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "error", "gate")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "value": ("input",)}
     stateful: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return sign_of(self.initial, self.start)
 
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:2]

@@ -13,6 +13,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import plasticity
 from deodar.numerics.axes import Axes, Axis, cell, shape
 from deodar.numerics.patches import random_weights
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -85,6 +86,9 @@ class Hebbian(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate")
     stateful: ClassVar[bool] = True
     sees_output: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return sign_of(self.initial, self.start)
 
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:2]

@@ -13,6 +13,7 @@ from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, cell
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.numerics.signs import Sign, together
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -43,6 +44,10 @@ class Interaction(Coupling):
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "total": ("input",)}
     linear: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        inhibition: list[Sign] = ["-"] if self.global_inhibition > 0 else []
+        return together([*(k.polarity() for k in self.kernel), *inhibition])
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": ins["input"], "total": ()}

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -34,6 +35,9 @@ class Logarithm(Coupling):
 
     factor: Annotated[float, Live(meaning="strength")] = 1.0
     scale: Annotated[float, Live(lower=1e-6, meaning="input at which the logarithm begins to compress")] = 1.0
+
+    def polarity(self) -> Sign:
+        return sign_of(self.factor)
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         return {"output": self.factor * jnp.log1p(jnp.maximum(inputs["input"], 0.0) / self.scale)}

@@ -13,6 +13,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.errors import ParameterError
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -50,6 +51,9 @@ class PopulationActivity(Coupling):
     normalized: Annotated[bool, Recompile(meaning="whether it is a mean of the rates, weighted by the tuning")] = False
 
     linear: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return product(sign_of(self.tuning), sign_of(self.amplitude))
 
     def faults(self) -> Iterator[tuple[str, str]]:
         if not self.axes:

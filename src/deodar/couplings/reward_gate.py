@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, cell
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -50,6 +51,9 @@ class RewardGate(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "gate")}
     stateful: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return sign_of(self.strength)
 
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:1]

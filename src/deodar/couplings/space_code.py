@@ -13,6 +13,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import boundaries
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, PerAxis, Recompile
 from deodar.registry import register
 
@@ -56,6 +57,9 @@ class SpaceCode(Coupling):
     ] = dc.field(default=None, kw_only=True)
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
+
+    def polarity(self) -> Sign:
+        return sign_of(self.amplitude)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}

@@ -10,6 +10,7 @@ import numpy as np
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
 from deodar.registry import register
 
@@ -41,6 +42,9 @@ class Weighting(Coupling):
     axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = (Axis("x", 0, 20, 21),)
 
     linear: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return sign_of(self.weights)
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)

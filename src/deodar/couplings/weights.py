@@ -13,6 +13,7 @@ import numpy as np
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, cell, shape
 from deodar.numerics.intervals import Interval, times, total
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
 from deodar.registry import register
 
@@ -44,6 +45,9 @@ class Weights(Coupling):
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("x", 0, 20, 21),)
 
     linear: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return sign_of(self.weights)
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving

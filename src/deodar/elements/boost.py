@@ -11,6 +11,7 @@ from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.numerics.axes import shape
 from deodar.numerics.intervals import Interval
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -39,6 +40,9 @@ class Boost(Stimulus):
 
     def strength(self) -> Interval:
         return self.amplitude, self.amplitude
+
+    def polarity(self) -> Sign:
+        return sign_of(self.amplitude)
 
     def pattern(self, at: Setting) -> Any:
         return jnp.broadcast_to(jnp.asarray(self.amplitude, at.dtype), shape(self.axes))

@@ -14,6 +14,7 @@ from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import Interval, signed
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, PerAxis
 from deodar.registry import register
 
@@ -50,6 +51,9 @@ class BoxStimulus(Stimulus):
 
     def strength(self) -> Interval:
         return signed(self.amplitude)
+
+    def polarity(self) -> Sign:
+        return sign_of(self.amplitude)
 
     def pattern(self, at: Setting) -> Any:
         y = self.amplitude * jnp.ones((), at.dtype)

@@ -19,6 +19,7 @@ from deodar.numerics.intervals import Interval, hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.signs import Sign, sign_of, together
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -73,6 +74,14 @@ class Field(Element):
     stateful: ClassVar[bool] = True
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "ends"
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+
+    def recurrence(self) -> Mapping[str, Sign]:
+        found: dict[str, Sign] = {}
+        if self.kernel:
+            found["kernel"] = together(k.polarity() for k in self.kernel)
+        if self.global_inhibition:
+            found["global inhibition"] = sign_of(-self.global_inhibition)
+        return found
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         axes = tuple(self.axes)

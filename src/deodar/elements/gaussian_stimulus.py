@@ -15,6 +15,7 @@ from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import ANY, Interval, signed
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, PerAxis, Recompile
 from deodar.registry import register
 
@@ -52,6 +53,9 @@ class GaussianStimulus(Stimulus):
         Sequence[str] | None,
         Recompile(choices=("periodic", "zero"), meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides"),
     ] = dc.field(default=None, kw_only=True)
+
+    def polarity(self) -> Sign:
+        return sign_of(self.amplitude)
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         yield from super().misfits(ins)

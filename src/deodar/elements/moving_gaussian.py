@@ -14,6 +14,7 @@ from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
 from deodar.numerics.exact import exact, wide
 from deodar.numerics.intervals import Interval, signed
+from deodar.numerics.signs import Sign, sign_of
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild
 from deodar.registry import register
@@ -55,6 +56,9 @@ class MovingGaussian(Stimulus):
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
     velocity: Annotated[PerAxis, Live("axis/time", exact=True, meaning="how fast it moves")] = 0.0
     path: Annotated[ArrayLike | None, Rebuild("axis", exact=True, meaning="moments and the places at them; none: it does not follow a path")] = None
+
+    def polarity(self) -> Sign:
+        return sign_of(self.amplitude)
 
     def faults(self) -> Iterator[tuple[str, str]]:
         if isinstance(self.path, FrozenArray):

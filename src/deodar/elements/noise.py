@@ -12,6 +12,7 @@ from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.signs import Sign
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -45,6 +46,9 @@ class Noise(Element):
 
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
+
+    def polarity(self) -> Sign:
+        return "±"
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}

@@ -12,6 +12,7 @@ from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.intervals import ANY, Interval, times
+from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -43,6 +44,9 @@ class Pattern(Stimulus):
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = (Axis("x", 0, 20, 21),)
     values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
+
+    def polarity(self) -> Sign:
+        return product(sign_of(self.values), sign_of(self.amplitude))
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         yield from super().misfits(ins)

@@ -15,6 +15,7 @@ from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, hull, times, total
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -53,6 +54,9 @@ class RateNode(Element):
 
     stateful: ClassVar[bool] = True
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+
+    def recurrence(self) -> Mapping[str, Sign]:
+        return {"self-excitation": sign_of(self.self_excitation)} if self.self_excitation else {}
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()

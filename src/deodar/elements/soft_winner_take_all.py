@@ -17,6 +17,7 @@ from deodar.numerics.integrators import euler
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.signs import Sign, sign_of, together
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -76,6 +77,12 @@ class SoftWinnerTakeAll(Element):
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise of the excitatory units")] = 0.0
 
     stateful: ClassVar[bool] = True
+
+    def recurrence(self) -> Mapping[str, Sign]:
+        return {
+            "excitation": together([sign_of(self.self_excitation), *(k.polarity() for k in self.kernel)]),
+            "inhibition": sign_of(-self.inhibition),
+        }
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         axes = tuple(self.axes)

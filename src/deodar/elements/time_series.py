@@ -15,6 +15,7 @@ from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.exact import exact, wide
 from deodar.numerics.intervals import ANY, Interval, times
+from deodar.numerics.signs import Sign, product, sign_of
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -61,6 +62,9 @@ class TimeSeries(Stimulus):
     period: Annotated[float, Live("time", role="duration", exact=True, lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = (
         0.0
     )
+
+    def polarity(self) -> Sign:
+        return product(sign_of(self.values), sign_of(self.amplitude))
 
     def faults(self) -> Iterator[tuple[str, str]]:
         times = self.times.data if isinstance(self.times, FrozenArray) else np.zeros(0)

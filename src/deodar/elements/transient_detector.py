@@ -11,6 +11,7 @@ import jax.numpy as jnp
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.integrators import euler
+from deodar.numerics.signs import Sign
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -47,6 +48,9 @@ class TransientDetector(Element):
 
     stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "off": ("input",)}
+
+    def polarity(self) -> Sign:
+        return "±"
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "off": tuple(self.axes)}

@@ -299,6 +299,8 @@ class Model:
         return f"<Model {d.name!r}: {len(d.entries)} elements, {len(d.connections)} connections>"
 
     def _repr_html_(self) -> str:
+        from deodar.model.diagram import Diagram
+
         by = self.document.by_id()
         rows = "".join(
             f"<tr><td>{html.escape(e.path)}</td><td>{type(e.element).__name__}</td><td>"
@@ -307,7 +309,8 @@ class Model:
             for e in self.document.entries
         )
         head = "<tr><th>element</th><th>kind</th><th>reads from</th></tr>"
-        return f"<b>{html.escape(self.name)}</b><table>{head}{rows}</table>"
+        table = f"<details><summary>{len(self.document.entries)} elements</summary><table>{head}{rows}</table></details>"
+        return f'<b>{html.escape(self.name)}</b><div style="overflow-x:auto">{Diagram(self.document).svg}</div>{table}'
 
     # -------------------------------------------------------------------------------- inside
 

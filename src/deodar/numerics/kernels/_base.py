@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
 from deodar.numerics.intervals import ANY, Interval
+from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Part, Recompile, parameters
 
 WIDEST = 1e12
@@ -57,6 +58,10 @@ class Kernel(Part):
     def bounds(self, axes: Axes) -> Interval:
         """Its integral at most: of its negative weights, of its positive ones."""
         return ANY
+
+    def polarity(self) -> Sign:
+        """Whether it excites, inhibits, or does both at different distances."""
+        return sign_of(*(term.amplitude for term in self.terms()))
 
     def misfits(self, axes: Axes) -> Iterator[str]:
         """What does not fit between this kernel and the axes of its field."""

@@ -15,6 +15,7 @@ from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.convolution import along
 from deodar.numerics.intervals import ANY, Interval, hull, signed
 from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -50,6 +51,9 @@ class Custom(Kernel):
             return ANY
         up, down = (float(part.sum()) * cell(axes) for part in (np.maximum(self.weights.data, 0), np.minimum(self.weights.data, 0)))
         return hull(signed(self.amplitude * up), signed(self.amplitude * down))
+
+    def polarity(self) -> Sign:
+        return product(sign_of(self.weights), sign_of(self.amplitude))
 
     def terms(self) -> Sequence[Term]:
         return ()

@@ -1,0 +1,39 @@
+"""`deodar draw FILE`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+from deodar.cli import _options
+
+HELP = "draw the architecture in a file as SVG, PDF or PNG"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    _options.add_document(parser)
+    parser.add_argument("--out", "-o", type=Path, metavar="FILE", help=".svg, .pdf or .png (default: NAME-architecture-001.svg, ... here)")
+    parser.add_argument("--width", type=float, metavar="INCHES", help="width of the picture (default: names 7.5 points high)")
+    parser.add_argument("--no-legend", action="store_true", help="leave out the line that explains the marks")
+    _options.add_force(parser)
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Draw, write and say where."""
+    from deodar.importers.opening import load
+    from deodar.model.diagram import draw
+    from deodar.recording import places
+
+    made = draw(load(args.file), legend=not args.no_legend)
+    out: Path = args.out or places.free(Path(), f"{args.file.stem}-architecture", ".svg")
+    made.save(out, args.width, args.force)
+    width = made.size[0] if args.width is None else args.width
+    size = [round(width, 2), round(width * made.size[1] / made.size[0], 2)]
+    if args.json:
+        print(json.dumps({"out": str(out), "inches": size}, indent=2, ensure_ascii=False))
+    else:
+        print(f"Drew {_options.shown(args.file)} into {_options.shown(out)}, {size[0]:g} x {size[1]:g} inches")
+    return 0

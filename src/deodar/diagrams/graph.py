@@ -1,0 +1,78 @@
+"""The graph that is drawn: items, wires between them, and frames around groups, as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from deodar.numerics.axes import Axes
+from deodar.numerics.signs import Sign
+
+Form = Literal["field", "node", "source", "sensor", "motor", "coupling", "missing"]
+Group = tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Item:
+    """One element.
+
+    Attributes:
+        id: what wires name.
+        form: the shape it is drawn in.
+        name: its name.
+        kind: what it is, in words; empty where the form says it.
+        axes: the axes it is defined over.
+        recurrence: signs of its interactions with itself, drawn as loops.
+        group: names of the groups around it.
+        every: ticks of its own step.
+        told: whether its axes are written; they need not be where all that it reaches has the same ones.
+    """
+
+    id: str
+    form: Form
+    name: str
+    kind: str = ""
+    axes: Axes = ()
+    recurrence: tuple[Sign, ...] = ()
+    group: Group = ()
+    every: int = 1
+    told: bool = True
+
+
+@dataclass(frozen=True)
+class Wire:
+    """One connection, with the couplings on it.
+
+    Attributes:
+        source, target: ids of items.
+        source_port, target_port: names of the ports; empty for the default port.
+        sign: "+", "-" or "±".
+        captions: one line of text for each coupling on the way.
+        delayed: whether it is read one step later.
+    """
+
+    source: str
+    target: str
+    source_port: str = ""
+    target_port: str = ""
+    sign: Sign = "+"
+    captions: tuple[str, ...] = ()
+    delayed: bool = False
+
+
+@dataclass(frozen=True)
+class Graph:
+    """What is drawn.
+
+    Attributes:
+        name: title of the picture, for readers of the screen.
+        groups: every group, with the name of the template that it stays linked to, or "".
+        places: upper left corners of items that have a given place; used where all have one.
+    """
+
+    name: str
+    items: tuple[Item, ...]
+    wires: tuple[Wire, ...]
+    groups: Mapping[Group, str] = field(default_factory=dict[Group, str])
+    places: Mapping[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])

@@ -1,0 +1,396 @@
+"""Layout: every group from inside out, as a block in the group around it; a lane in each column for every connection that passes.
+
+Connections run through lanes of their own and through the spaces between columns, so that none runs through a box.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from deodar.diagrams import layers
+from deodar.diagrams.graph import Graph, Group
+from deodar.diagrams.straight import settle
+
+ROUNDS = 24
+LEFT, RIGHT = "left", "right"
+
+GAP = 13.0
+"""Space between two columns; between elements lie two of them, and the lane of the label."""
+
+STEEPEST = 0.09
+"""A space between columns grows by this share of the longest climb in it."""
+
+WIDEST_GAP = 42.0
+APART = {(True, True): 13.0, (True, False): 8.0, (False, True): 8.0, (False, False): 6.5}
+"""Least distance between neighbours of a column: boxes, and lanes."""
+
+FRAME = 9.0
+HEAD = 13.0
+"""Space inside a frame, and what its name needs above."""
+
+SPACING = 9.0
+"""Distance of connections at one side of a box, where it is high enough."""
+
+
+@dataclass
+class Box:
+    """What an item needs.
+
+    Attributes:
+        width, height: of the whole.
+        top: how far below the upper edge the part begins where connections end.
+        body: height of that part.
+    """
+
+    width: float
+    height: float
+    top: float
+    body: float
+
+
+@dataclass(frozen=True)
+class Run:
+    """A level stretch of a connection, from left to right."""
+
+    x0: float
+    x1: float
+    y: float
+
+
+@dataclass
+class Layout:
+    """Where everything stands.
+
+    Attributes:
+        boxes: upper left corner of each item.
+        frames: x, y, width and height of each group.
+        runs: for each wire its level stretches from left to right; empty for one that ends where it begins.
+        backwards: for each wire whether its target is at the left.
+        captions: middle of the text of each wire that has one.
+    """
+
+    boxes: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
+    frames: dict[Group, tuple[float, float, float, float]] = field(default_factory=dict[Group, tuple[float, float, float, float]])
+    runs: dict[int, list[Run]] = field(default_factory=dict[int, list[Run]])
+    backwards: dict[int, bool] = field(default_factory=dict[int, bool])
+    captions: dict[int, tuple[float, float]] = field(default_factory=dict[int, tuple[float, float]])
+    width: float = 0.0
+    height: float = 0.0
+
+
+@dataclass
+class _Block:
+    """A group that is laid out, its corner at the origin, or an item."""
+
+    box: Box
+    inside: Layout | None = None
+    ports: dict[int, float] = field(default_factory=dict[int, float])
+
+
+@dataclass(frozen=True)
+class _Edge:
+    """An edge of one level: names of its left and right ends, and the wire."""
+
+    left: str
+    right: str
+    wire: int
+
+
+def arrange(graph: Graph, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]], names: Mapping[Group, float]) -> Layout:
+    """Lay out a graph.
+
+    Args:
+        graph: what is drawn.
+        boxes: what each item needs.
+        labels: width and height of the text on each wire that has one.
+        names: width of the name of each group.
+    """
+    return _Arranger(graph, boxes, labels, names).run()
+
+
+class _Arranger:
+    def __init__(self, graph: Graph, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]], names: Mapping[Group, float]) -> None:
+        self.graph, self.boxes, self.labels, self.names = graph, boxes, labels, names
+        self.group = {item.id: item.group for item in graph.items}
+        self.children: dict[Group, list[str | Group]] = {g: [] for g in [(), *graph.groups]}
+        for item in graph.items:
+            self.children[item.group].append(item.id)
+        for g in graph.groups:
+            self.children[g[:-1]].append(g)
+        self.sides: dict[tuple[int, Group], str] = {}
+        self.edges: dict[Group, list[_Edge]] = defaultdict(list)
+        self.home: dict[int, Group] = {}
+        self.backwards: dict[int, bool] = {}
+        self.rank: dict[Group, dict[str, int]] = {}
+
+    def run(self) -> Layout:
+        self._orient(())
+        block = self._block(())
+        assert block.inside is not None
+        found = block.inside
+        found.backwards = self.backwards
+        return found
+
+    # -------------------------------------------------------------------------------- from outside in: which way wires run
+
+    def _child(self, ident: str, level: Group) -> str | Group | None:
+        """The child of a level that holds an item; None where the item is outside."""
+        group = self.group[ident]
+        if group[: len(level)] != level:
+            return None
+        return ident if len(group) == len(level) else group[: len(level) + 1]
+
+    def _orient(self, level: Group) -> None:
+        nodes = [_key(c) for c in self.children[level]]
+        inner: list[tuple[str, str, int]] = []
+        edges: list[_Edge] = []
+        for w, wire in enumerate(self.graph.wires):
+            a, b = self._child(wire.source, level), self._child(wire.target, level)
+            if a is not None and b is not None:
+                if a != b:
+                    inner.append((_key(a), _key(b), w))
+            elif a is not None or b is not None:
+                inside, side = a if a is not None else b, self.sides[w, level]
+                assert inside is not None
+                edges.append(_Edge(_port(w), _key(inside), w) if side == LEFT else _Edge(_key(inside), _port(w), w))
+                if not isinstance(inside, str):
+                    self.sides[w, inside] = side
+        place = layers.forward(nodes, [(a, b) for a, b, _ in inner])
+        for a, b, w in inner:
+            self.home[w] = level
+            self.backwards[w] = place[a] > place[b]
+            left, right = (b, a) if self.backwards[w] else (a, b)
+            edges.append(_Edge(left, right, w))
+            wire = self.graph.wires[w]
+            for ident, key in ((wire.source, a), (wire.target, b)):
+                child = self._child(ident, level)
+                if child is not None and not isinstance(child, str):
+                    self.sides[w, child] = RIGHT if key == left else LEFT
+        real = [(e.left, e.right) for e in edges if e.left in place and e.right in place]
+        self.rank[level] = layers.ranks(sorted(nodes, key=lambda n: place[n]), real)
+        self.edges[level] = edges
+        for child in self.children[level]:
+            if not isinstance(child, str):
+                self._orient(child)
+
+    # -------------------------------------------------------------------------------- from inside out: where everything stands
+
+    def _block(self, level: Group) -> _Block:
+        children = {_key(c): c for c in self.children[level]}
+        blocks = {k: _Block(self.boxes[c]) if isinstance(c, str) else self._block(c) for k, c in children.items()}
+        made = _Level(level, blocks, self.rank[level], self.edges[level], self.labels, self.home, self.names.get(level, 0.0))
+        found = made.run()
+        for key, block in blocks.items():
+            x, y = made.corners[key]
+            child = children[key]
+            if isinstance(child, str):
+                found.boxes[child] = (x, y)
+            else:
+                _move_into(found, block, child, x, y)
+        return _Block(Box(found.width, found.height, 0.0, found.height), found, made.ports)
+
+
+class _Level:
+    """One group: its children in columns."""
+
+    def __init__(
+        self, level: Group, blocks: dict[str, _Block], rank: dict[str, int], edges: list[_Edge],
+        labels: Mapping[int, tuple[float, float]], home: Mapping[int, Group], least: float,
+    ) -> None:  # fmt: skip
+        self.level, self.blocks, self.edges, self.least = level, blocks, edges, least
+        self.labels = {w: size for w, size in labels.items() if home.get(w) == level}
+        low = min(rank.values(), default=0)
+        self.column = {n: 2 * (r - low) + 1 for n, r in rank.items()}
+        self.last = max(self.column.values(), default=1) + 1
+        for e in edges:
+            for name, column in ((e.left, 0), (e.right, self.last)):
+                if name not in blocks:
+                    self.column[name] = column
+        self.size: dict[str, tuple[float, float]] = {n: (b.box.width, b.box.height) for n, b in blocks.items()}
+        self.path: dict[int, list[str]] = {}
+        self.carries: dict[str, int] = {}
+        self.links: dict[str, list[str]] = defaultdict(list)
+        self.back: dict[str, list[str]] = defaultdict(list)
+        self.offset: dict[tuple[str, int], float] = {}
+        self.corners: dict[str, tuple[float, float]] = {}
+        self.ports: dict[int, float] = {}
+
+    def run(self) -> Layout:
+        columns = self._lanes()
+        columns = layers.order(columns, self.links, self.back)
+        self._attach(columns)
+        y = self._heights(columns)
+        return self._places(columns, y)
+
+    def _lanes(self) -> list[list[str]]:
+        """The columns, with a lane for each wire in each column that it passes; its text stands in the middle one of those between boxes."""
+        columns: list[list[str]] = [[] for _ in range(self.last + 1)]
+        for n in self.blocks:
+            columns[self.column[n]].append(n)
+        for e in self.edges:
+            a, b = self.column[e.left], self.column[e.right]
+            path = [e.left]
+            between = [c for c in range(a + 1, b) if c % 2 == 0]
+            middle = min(between, key=lambda c: (abs(c - (a + b) / 2), c)) if between else None
+            for c in range(a + 1, b):
+                lane = f"lane {e.wire} {c}"
+                columns[c].append(lane)
+                self.column[lane] = c
+                self.carries[lane] = e.wire
+                self.size[lane] = self.labels.get(e.wire, (0.0, 0.0)) if c == middle else (0.0, 0.0)
+                path.append(lane)
+            path.append(e.right)
+            for end in (e.left, e.right):
+                if end not in self.blocks:
+                    columns[self.column[end]].append(end)
+                    self.carries[end] = e.wire
+                    self.size[end] = (0.0, 0.0)
+            self.path[e.wire] = path
+            for one, other in itertools.pairwise(path):
+                self.links[one].append(other)
+                self.back[other].append(one)
+        return columns
+
+    def _attach(self, columns: Sequence[Sequence[str]]) -> None:
+        """How far below the upper edge of a block each wire ends: in the order of where they go."""
+        at = {n: k for column in columns for k, n in enumerate(column)}
+        for side, end, near in ((LEFT, -1, -2), (RIGHT, 0, 1)):
+            found: dict[str, list[int]] = defaultdict(list)
+            for w, path in self.path.items():
+                if path[end] in self.blocks:
+                    found[path[end]].append(w)
+            for n, wires in found.items():
+                block = self.blocks[n]
+                if block.inside is not None:
+                    for w in wires:
+                        self.offset[n + side, w] = block.ports[w]
+                    continue
+                wires.sort(key=lambda w, near=near: (at[self.path[w][near]], w))
+                room = block.box.body - 6
+                step = min(SPACING, room / max(1, len(wires) - 1))
+                first = block.box.top + block.box.body / 2 - step * (len(wires) - 1) / 2
+                for k, w in enumerate(wires):
+                    self.offset[n + side, w] = first + k * step
+
+    def _heights(self, columns: Sequence[Sequence[str]]) -> dict[str, float]:
+        """The upper edge of every node and lane."""
+        y: dict[str, float] = {}
+        gaps: list[list[float]] = []
+        for column in columns:
+            gaps.append([self.size[a][1] + APART[a in self.blocks, b in self.blocks] for a, b in itertools.pairwise(column)])
+            total = sum(gaps[-1]) + (self.size[column[-1]][1] if column else 0.0)
+            at = -total / 2
+            for n, gap in zip(column, [*gaps[-1], 0.0], strict=False):
+                y[n] = at
+                at += gap
+        pulls = self._pulls()
+        for turn in range(ROUNDS):
+            for c in range(len(columns)) if turn % 2 == 0 else range(len(columns) - 1, -1, -1):
+                wishes, weights = list[float](), list[float]()
+                for n in columns[c]:
+                    total = sum(w for _, _, w in pulls[n])
+                    wishes.append(sum((y[m] + by) * w for m, by, w in pulls[n]) / total if total else y[n])
+                    weights.append(total or 0.01)
+                for n, at in zip(columns[c], settle(wishes, weights, gaps[c]), strict=True):
+                    y[n] = at
+        return y
+
+    def _pulls(self) -> dict[str, list[tuple[str, float, float]]]:
+        """For each node what it would be level with: (other, by how much its upper edge differs then, how strongly)."""
+        pulls: dict[str, list[tuple[str, float, float]]] = defaultdict(list)
+        for w, path in self.path.items():
+            for a, b in itertools.pairwise(path):
+                by = self._end(a, RIGHT, w) - self._end(b, LEFT, w)
+                weight = {0: 6.0, 1: 2.0, 2: 1.0}[(a in self.blocks) + (b in self.blocks)]
+                pulls[b].append((a, by, weight))
+                pulls[a].append((b, -by, weight))
+        return pulls
+
+    def _end(self, n: str, side: str, w: int) -> float:
+        return self.offset[n + side, w] if n in self.blocks else self.size[n][1] / 2
+
+    def _places(self, columns: Sequence[Sequence[str]], y: dict[str, float]) -> Layout:
+        widths = [max((self.size[n][0] for n in column), default=0.0) for column in columns]
+        climbs = [0.0] * len(columns)
+        for w, path in self.path.items():
+            for a, b in itertools.pairwise(path):
+                climb = abs(y[a] + self._end(a, RIGHT, w) - y[b] - self._end(b, LEFT, w))
+                climbs[self.column[a]] = max(climbs[self.column[a]], climb)
+        framed = bool(self.level)
+        x, lefts = FRAME if framed else 0.0, list[float]()
+        inner = [c for c in range(len(columns)) if 0 < c < self.last]
+        for c, wide in enumerate(widths):
+            lefts.append(x)
+            if c in (0, self.last):
+                continue
+            x += wide
+            if c != inner[-1]:
+                x += min(WIDEST_GAP, GAP + STEEPEST * climbs[c])
+        crossing = [any(n not in self.blocks and n in self.carries for n in columns[c]) for c in (0, self.last)]
+        shift = 0.0
+        if framed and crossing[0]:
+            shift = min(WIDEST_GAP, GAP + STEEPEST * climbs[0]) - FRAME
+        right = x + (FRAME if framed else 0.0)
+        if framed and crossing[1]:
+            right = x + max(FRAME, min(WIDEST_GAP, GAP + STEEPEST * climbs[self.last - 1]))
+        shift = max(0.0, shift)
+        lefts = [left + shift for left in lefts]
+        right += shift
+        spare = max(0.0, self.least - right)  # the name of a group is wider than what it holds
+        lefts, right = [left + spare / 2 for left in lefts], right + spare
+        lefts[0], lefts[self.last] = 0.0, right
+        top = min((y[n] for column in columns for n in column), default=0.0)
+        down = (HEAD + FRAME * 0.5 if framed else 0.0) - top
+        bottom = max((y[n] + self.size[n][1] for column in columns for n in column), default=0.0)
+        found = Layout(width=right, height=bottom + down + (FRAME if framed else 0.0))
+        place = {n: (lefts[c] + (widths[c] - self.size[n][0]) / 2, y[n] + down) for c, column in enumerate(columns) for n in column}
+        self.corners = {n: place[n] for n in self.blocks}
+        for w, path in self.path.items():
+            found.runs[w] = self._runs(w, path, place, lefts, widths)
+        for lane in self.carries:
+            if lane.startswith("lane ") and self.size[lane][0]:
+                found.captions[self.carries[lane]] = (place[lane][0] + self.size[lane][0] / 2, place[lane][1] + self.size[lane][1] / 2)
+        self.ports = {w: place[end][1] for w, path in self.path.items() for end in (path[0], path[-1]) if end not in self.blocks}
+        return found
+
+    def _runs(
+        self, w: int, path: Sequence[str], place: Mapping[str, tuple[float, float]], lefts: Sequence[float], widths: Sequence[float]
+    ) -> list[Run]:
+        runs: list[Run] = []
+        for k, n in enumerate(path):
+            x, y = place[n]
+            c = self.column[n]
+            if n.startswith("lane ") and not widths[c]:
+                continue  # nothing stands in this column: one smooth curve to the next
+            if n not in self.blocks:
+                runs.append(Run(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
+            elif k == 0:
+                runs.append(Run(x + self.size[n][0], max(x + self.size[n][0], lefts[c] + widths[c]), y + self.offset[n + RIGHT, w]))
+            else:
+                runs.append(Run(lefts[c], x, y + self.offset[n + LEFT, w]))
+        return runs
+
+
+def _move_into(found: Layout, block: _Block, group: Group, x: float, y: float) -> None:
+    """Take a group that is laid out into the level around it."""
+    inside = block.inside
+    assert inside is not None
+    found.frames[group] = (x, y, inside.width, inside.height)
+    found.frames.update({g: (fx + x, fy + y, w, h) for g, (fx, fy, w, h) in inside.frames.items()})
+    found.boxes.update({i: (bx + x, by + y) for i, (bx, by) in inside.boxes.items()})
+    found.captions.update({w: (cx + x, cy + y) for w, (cx, cy) in inside.captions.items()})
+    for w, runs in inside.runs.items():
+        moved = [Run(r.x0 + x, r.x1 + x, r.y + y) for r in runs]
+        outside = found.runs.get(w, [])
+        found.runs[w] = sorted([*outside, *moved], key=lambda r: (r.x0, r.x1))
+
+
+def _key(child: str | Group) -> str:
+    return f"item {child}" if isinstance(child, str) else "group " + "\0".join(child)
+
+
+def _port(wire: int) -> str:
+    return f"port {wire}"

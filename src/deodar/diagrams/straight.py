@@ -1,0 +1,29 @@
+"""Straight edges: places along a column that keep order and distances and lie near those wished for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def settle(wishes: Sequence[float], weights: Sequence[float], gaps: Sequence[float]) -> list[float]:
+    """The places nearest to the wishes, in weighted squares, that are at least `gaps` apart.
+
+    Args:
+        wishes: where each would stand.
+        weights: how much each insists.
+        gaps: least distance between each and the next; one less than wishes.
+
+    Reference:
+        Isotonic regression by pooling adjacent violators: Ayer et al. (1955), Ann. Math. Stat. 26, 641-647.
+    """
+    shift = [0.0]
+    for gap in gaps:
+        shift.append(shift[-1] + gap)
+    blocks: list[tuple[float, float, int]] = []  # mean, weight, how many
+    for wish, weight, by in zip(wishes, weights, shift, strict=False):
+        blocks.append((wish - by, weight, 1))
+        while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
+            (m1, w1, n1), (m2, w2, n2) = blocks[-2], blocks[-1]
+            blocks[-2:] = [((m1 * w1 + m2 * w2) / (w1 + w2), w1 + w2, n1 + n2)]
+    flat = [mean for mean, _, n in blocks for _ in range(n)]
+    return [y + by for y, by in zip(flat, shift, strict=False)]

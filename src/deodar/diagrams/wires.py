@@ -1,0 +1,76 @@
+"""Wires: paths, and the marks at their ends that tell excitation from inhibition."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+
+from deodar.diagrams.layout import Run
+from deodar.diagrams.scene import Move, Point, Shape, circle, polygon
+from deodar.numerics.signs import Sign
+
+COLORS: dict[Sign, str] = {"+": "#333333", "-": "#c1440e", "±": "#6a3d9a"}
+"""Excitation, inhibition, both: colour-blind readers tell them apart, and marks say it in black and white."""
+
+WIDTH = 0.9
+STRAIGHT = 2.5
+"""Length of the level end before a mark, so that the mark points the way the curve goes."""
+
+DELAYED = (3.0, 2.0)
+ARROW, DOT = 5.0, 2.3
+
+
+def path(runs: Sequence[Run], backwards: bool, sign: Sign) -> list[Shape]:
+    """A connection along its level stretches, with the mark at its target."""
+    points = [p for run in runs for p in ((run.x0, run.y), (run.x1, run.y))]
+    points, way = (points[::-1], -1.0) if backwards else (points, 1.0)
+    x, y = points[-1]
+    tip = (x - way * _length(sign), y)
+    level = tip[0] - way * STRAIGHT
+    between = [(min(px, level) if way > 0 else max(px, level), py) for px, py in points[1:-1]]
+    return [Shape(_curve([points[0], *between, (level, y), tip]), COLORS[sign], width=WIDTH), *mark((x, y), (way, 0.0), sign)]
+
+
+def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Shape]:
+    """A connection that leaves upwards at (x, y) and comes back at (right, ...): `y` belongs to both ends."""
+    w = right - x
+    end = y - _length(sign)
+    curve: tuple[Move, ...] = (
+        ("M", x, y), ("C", x, y - height * 0.9, x + w * 0.1, y - height, x + w / 2, y - height),
+        ("C", right - w * 0.1, y - height, right, y - height * 0.9, right, end),
+    )  # fmt: skip
+    return [Shape(curve, COLORS[sign], width=WIDTH), *mark((right, y), (0.0, 1.0), sign)]
+
+
+def mark(tip: Point, way: Point, sign: Sign) -> list[Shape]:
+    """An arrow for excitation, a dot for inhibition, both where both occur; `way` is the direction in which it points."""
+    (x, y), (dx, dy), color = tip, way, COLORS[sign]
+    if sign == "-":
+        return [Shape(circle(x - dx * DOT, y - dy * DOT, DOT), color, color, 0.3)]
+    arrow = Shape(_arrow(x, y, dx, dy), color, color, 0.3)
+    if sign == "+":
+        return [arrow]
+    back = ARROW + DOT
+    return [arrow, Shape(circle(x - dx * back, y - dy * back, DOT), color, color, 0.3)]
+
+
+def _length(sign: Sign) -> float:
+    return {"+": ARROW - 0.5, "-": DOT, "±": ARROW + DOT}[sign]
+
+
+def _arrow(x: float, y: float, dx: float, dy: float) -> tuple[Move, ...]:
+    half = ARROW * math.tan(math.radians(24))
+    return polygon((x, y), (x - dx * ARROW - dy * half, y - dy * ARROW + dx * half), (x - dx * ARROW + dy * half, y - dy * ARROW - dx * half))
+
+
+def _curve(points: Sequence[Point]) -> tuple[Move, ...]:
+    """A line that is level at every point and climbs between them."""
+    moves: list[Move] = [("M", *points[0])]
+    for (x0, y0), (x, y) in itertools.pairwise(points):
+        if abs(y - y0) >= 0.05:
+            middle = (x + x0) / 2
+            moves.append(("C", middle, y0, middle, y, x, y))
+        elif abs(x - x0) >= 0.05:
+            moves.append(("L", x, y))
+    return tuple(moves)

@@ -1,0 +1,90 @@
+"""The picture of an architecture: shown in a notebook, and saved as SVG, PDF or PNG."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar.diagrams import paint, paper, svg
+from deodar.errors import ModelError, RecordError
+from deodar.model import output
+from deodar.model.document import Document
+from deodar.model.model import Model
+from deodar.model.sketch import sketch
+from deodar.parameters import show
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FORMATS = ("svg", "pdf", "png")
+
+
+def draw(model: Model, legend: bool = True) -> Diagram:
+    """Draw an architecture: fields with their axes, nodes, stimuli, sensors and motors, couplings with their signs, groups.
+
+    Couplings with one connection in and one out are text on that connection. An arrow is excitation, a dot inhibition, an arrow with a dot both.
+    Loops above a field are its own interaction: of its kernels, and global inhibition.
+
+    Args:
+        model: the model; one with problems is drawn too.
+        legend: whether the marks that occur are explained below the picture.
+
+    Returns:
+        A `Diagram`: a notebook shows it, `save` writes it.
+    """
+    if not isinstance(model, Model):
+        raise ModelError(f"expected a Model, got {show(model)}", fix="Give a model: dd.draw(model)")
+    return Diagram(model.document, legend)
+
+
+class Diagram:
+    """The picture of an architecture, as `dd.draw` returns it."""
+
+    def __init__(self, document: Document, legend: bool = True) -> None:
+        self._scene = paint.paint(sketch(document), legend)
+
+    @property
+    def svg(self) -> str:
+        """The picture as SVG; its text stays text, which an editor can change."""
+        return svg.write(self._scene)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height in inches; names are 7.5 points high at this size."""
+        return self._scene.width / paper.INCH, self._scene.height / paper.INCH
+
+    def figure(self, width: float | None = None) -> Figure:
+        """The picture as a matplotlib figure; `width` in inches, none: its own size."""
+        return paper.figure(self._scene, width)
+
+    def save(self, path: str | Path, width: float | None = None, force: bool = False) -> None:
+        """Write the picture.
+
+        Args:
+            path: a file that ends in .svg, .pdf or .png.
+            width: in inches, for example that of a column of a journal; none: its own size.
+            force: whether a file of that name is replaced.
+
+        Raises:
+            RecordError: for another ending, or a width that is not above 0.
+            OutputExists: where the file exists.
+        """
+        where = output.location(path)
+        format = where.suffix.lower().removeprefix(".")
+        if format not in FORMATS:
+            raise RecordError(
+                f"the name ends in {where.suffix!r}, which names no format of pictures", where=str(where), fix="End it in .svg, .pdf or .png"
+            )
+        if width is not None and not 0 < width < 1000:
+            raise RecordError(f"width is {show(width)} inches; it is above 0 and below 1000", where=str(where))
+        output.claim(where, force)
+        if format == "svg":
+            output.write(where, svg.write(self._scene, None if width is None else width * paper.INCH).encode())
+        else:
+            output.write(where, paper.content(self._scene, format, width))
+
+    def __repr__(self) -> str:
+        return f"<Diagram of {self._scene.title!r}, {self.size[0]:.1f} x {self.size[1]:.1f} inches>"
+
+    def _repr_svg_(self) -> str:
+        return self.svg

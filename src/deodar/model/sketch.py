@@ -1,0 +1,156 @@
+"""The graph of a document that is drawn: couplings with one connection in and one out become text on a connection."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import re
+from collections import defaultdict
+from collections.abc import Mapping
+from typing import Any
+
+from deodar.diagrams.boxes import number
+from deodar.diagrams.graph import Form, Graph, Item, Wire
+from deodar.element import Coupling, Element
+from deodar.elements.motor import Motor
+from deodar.elements.placeholder import Placeholder
+from deodar.elements.sensor import Sensor
+from deodar.model import find
+from deodar.model.document import Connection, Document, Entry
+from deodar.model.resolve import resolve
+from deodar.numerics.axes import Axes
+from deodar.numerics.signs import Sign, product
+from deodar.parameters import Part, parameters
+
+
+def sketch(doc: Document) -> Graph:
+    """The graph of a document; one with problems is drawn as far as it goes."""
+    return _Sketch(doc).run()
+
+
+def form_of(element: Element) -> Form:
+    """The shape that an element is drawn in."""
+    if isinstance(element, Sensor):
+        return "sensor"
+    if isinstance(element, Motor):
+        return "motor"
+    if isinstance(element, Placeholder):
+        return "missing"
+    if is_coupling(element):
+        return "coupling"
+    if not element.ports():
+        return "source"
+    return "field" if getattr(element, "axes", ()) else "node"
+
+
+def is_coupling(element: Element) -> bool:
+    """Whether an element stands between elements."""
+    return isinstance(element, Coupling) or type(element).__module__.startswith("deodar.couplings.")
+
+
+def caption(element: Element) -> str:
+    """A coupling in a few words: what it is, and the number that it is known by."""
+    value = _main(element)
+    if hasattr(element, "factor") and element.linear:
+        return f"× {value}"
+    if element.kernels():
+        return value
+    return f"{title(element)} {value}".strip()
+
+
+def title(element: Part) -> str:
+    """The kind of an element, or of a part of it, in words."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", type(element).__name__).lower()
+
+
+def _main(element: Element) -> str:
+    for p in parameters(type(element)):
+        value = getattr(element, p.name)
+        if p.name == "kernel" and isinstance(value, tuple):
+            return ", ".join(dict.fromkeys(f"{title(k)} kernel" for k in element.kernels()))
+        if p.choices and isinstance(value, str) and p.name == "reduce":
+            return value
+        if p.form in ("number", "per_axis") and value is not None and p.name != "name":
+            numbers = value if isinstance(value, tuple) else (value,)
+            return ", ".join(number(float(v)) for v in numbers)
+    return ""
+
+
+class _Sketch:
+    def __init__(self, doc: Document) -> None:
+        self.doc = doc
+        self.by: Mapping[str, Entry] = doc.by_id()
+        known = [c for c in doc.connections if c.source in self.by and c.target in self.by]
+        self.into: dict[str, list[Connection]] = defaultdict(list)
+        self.out: dict[str, list[Connection]] = defaultdict(list)
+        for c in known:
+            self.into[c.target].append(c)
+            self.out[c.source].append(c)
+        self.connections = known
+
+    def run(self) -> Graph:
+        axes = {node.id: node.outs for node in resolve(self.doc)[0]}
+        chained = self._chained()
+        wires = [w for c in self.connections if c.source not in chained for w in [self._wire(c, chained)]]
+        passed = {e for c in self.connections if c.source not in chained for e in self._follow(c, chained)[1]}
+        wires += [self._wire(c, set()) for c in self.connections if c.source in chained and c.source not in passed]  # rings of couplings alone
+        items = [self._item(e, axes.get(e.id, {})) for e in self.doc.entries if e.id not in passed]
+        by = {item.id: item for item in items}
+        items = [dc.replace(i, told=i.form != "source" or any(by[w.target].axes != i.axes for w in wires if w.source == i.id)) for i in items]
+        groups = {g: "" for g in self.doc.groups} | {use.group: use.template for use in self.doc.uses}
+        for item in items:
+            for k in range(1, len(item.group) + 1):
+                groups.setdefault(item.group[:k], "")
+        return Graph(self.doc.name, tuple(items), tuple(wires), dict(sorted(groups.items())), self._given())
+
+    def _item(self, entry: Entry, outs: Mapping[str, Axes]) -> Item:
+        element = entry.element
+        form = form_of(element)
+        axes = tuple(getattr(element, "axes", ()) or next(iter(outs.values()), ()))
+        plain = type(element).__name__ == "Field" or form in ("source", "sensor", "motor")
+        kind = "" if plain else caption(element) if form == "coupling" else title(element)
+        name = entry.names[-1]
+        if form == "coupling" and (">" in name and name.rsplit(">", 1)[1].rstrip("0123456789") == type(element).__name__):
+            name, kind = kind, ""  # a name made from the connection says no more than the kind does
+        recurrence = tuple(element.recurrence().values())
+        shown = axes if form != "coupling" else ()
+        return Item(entry.id, form, name, kind, shown, recurrence, entry.group, entry.every if element.stateful else 1)
+
+    def _chained(self) -> set[str]:
+        """Couplings that stand on a connection: one in, one out."""
+        return {
+            e.id
+            for e in self.doc.entries
+            if is_coupling(e.element) and len(self.into[e.id]) == len(self.out[e.id]) == 1 and len(e.element.ports()) == 1
+            and len(find.outputs(e)) == 1 and self.into[e.id][0].source != e.id
+        }  # fmt: skip
+
+    def _follow(self, first: Connection, chained: set[str]) -> tuple[Connection, list[str]]:
+        last, on = first, list[str]()
+        while last.target in chained and last.target not in on:
+            on.append(last.target)
+            [last] = self.out[last.target]
+        return last, on
+
+    def _wire(self, first: Connection, chained: set[str]) -> Wire:
+        last, on = self._follow(first, chained)
+        source, target = self.by[first.source], self.by[last.target]
+        form, numbers = form_of(source.element), form_of(target.element) == "coupling" and not on
+        sign: Sign = "+"
+        if form == "coupling" or (form == "source" and not numbers):  # an input of a coupling is a number, and inhibits nothing
+            sign = source.element.polarity()
+        for ident in on:
+            sign = product(sign, self.by[ident].element.polarity())
+        reads = [c.reads for c in (first, last)] + [self.out[i][0].reads for i in on]
+        source_port = "" if first.source_port == find.outputs(source)[0] else first.source_port
+        target_port = "" if not target.element.ports() or last.target_port == target.element.ports()[0] else last.target_port
+        captions = tuple(caption(self.by[ident].element) for ident in on)
+        return Wire(source.id, target.id, source_port, target_port, sign, captions, "delayed" in reads)
+
+    def _given(self) -> dict[str, tuple[float, float]]:
+        boxes: Any = self.doc.layout.get("boxes")
+        out: dict[str, tuple[float, float]] = {}
+        for ident, box in boxes.items() if isinstance(boxes, Mapping) else ():
+            x, y = (box.get("x"), box.get("y")) if isinstance(box, Mapping) else (None, None)
+            if ident in self.by and isinstance(x, int | float) and isinstance(y, int | float):
+                out[ident] = float(x), float(y)
+        return out

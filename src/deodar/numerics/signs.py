@@ -1,0 +1,32 @@
+"""Signs of weights: "+" for excitation, "-" for inhibition, "±" where both occur."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Literal
+
+import numpy as np
+
+Sign = Literal["+", "-", "±"]
+
+
+def sign_of(*values: Any) -> Sign:
+    """The sign of numbers and arrays taken together; zeros and nothing at all count as excitation."""
+    arrays = [np.asarray(getattr(v, "data", v), float) for v in values if v is not None]
+    above, below = any((a > 0).any() for a in arrays), any((a < 0).any() for a in arrays)
+    return "±" if above and below else "-" if below else "+"
+
+
+def product(one: Sign, other: Sign) -> Sign:
+    """The sign of a product of weights."""
+    if "±" in (one, other):
+        return "±"
+    return "+" if one == other else "-"
+
+
+def together(signs: Iterable[Sign]) -> Sign:
+    """The sign of a sum of weights."""
+    found = set(signs)
+    if len(found) > 1:
+        return "±"
+    return found.pop() if found else "+"

@@ -1,0 +1,206 @@
+"""`dd.draw`: what a picture of an architecture shows, and the files it is saved in."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import deodar as dd
+from deodar.couplings.convolve import Convolve
+from deodar.couplings.hebbian import Hebbian
+from deodar.couplings.interaction import Interaction
+from deodar.couplings.product import Product
+from deodar.couplings.weights import Weights
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
+from deodar.elements.pattern import Pattern
+from deodar.elements.rate_node import RateNode
+from deodar.elements.sensor import Sensor
+from deodar.errors import DeodarError, ModelError, OutputExists
+from deodar.model import edit
+from deodar.model.sketch import caption, sketch
+from deodar.numerics.kernels.custom import Custom
+from deodar.numerics.kernels.mexican_hat import MexicanHat
+
+X = dd.Axis("x", 0, 20, samples=21, unit="deg")
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def texts(diagram):
+    return [t.text for t in ET.fromstring(diagram.svg).iter(f"{SVG}text")]
+
+
+def wires(model):
+    by = {item.id: item.name for item in sketch(model.document).items}
+    return [(by[w.source], by[w.target], w.sign, w.captions) for w in sketch(model.document).wires]
+
+
+def pair():
+    model = dd.Model("pair")
+    a, b = (model.add(dd.Field(name, [X])) for name in "ab")
+    return model, a, b
+
+
+def test_couplings_on_the_way_are_text_on_a_connection_and_give_its_sign():
+    model, a, b = pair()
+    a >> dd.Gain(-2.0) >> b
+    b >> dd.Gain(-2.0) >> Convolve([dd.Gaussian(-1.0, 3.0)]) >> a
+    a >> Convolve([MexicanHat()]) >> a
+    assert wires(model) == [
+        ("a", "b", "-", ("× −2",)),
+        ("b", "a", "+", ("× −2", "gaussian kernel")),
+        ("a", "a", "±", ("mexican hat kernel",)),
+    ]
+    assert [i.name for i in sketch(model.document).items] == ["a", "b"]
+
+
+def test_a_coupling_with_several_inputs_or_outputs_is_a_box_that_passes_its_sign_on():
+    model, a, b = pair()
+    model.add(RateNode("c"))
+    split = model.add(dd.Gain(-1.0, name="split"))
+    a >> split
+    split >> b
+    split >> model["c"]
+    product = model.add(Product(name="and"))
+    b >> product
+    assert wires(model) == [("a", "split", "+", ()), ("split", "b", "-", ()), ("split", "c", "-", ()), ("b", "and", "+", ())]
+    assert {i.name: i.form for i in sketch(model.document).items} == {"a": "field", "b": "field", "c": "node", "split": "coupling", "and": "coupling"}
+
+
+def test_a_ring_of_couplings_alone_is_drawn():
+    model = dd.Model("ring")
+    one, two = model.add(dd.Gain(1.0, name="one")), model.add(dd.Gain(1.0, name="two"))
+    one >> two
+    two >> one
+    assert len(sketch(model.document).items) == 2
+    assert {(w[0], w[1]) for w in wires(model)} == {("one", "two"), ("two", "one")}
+    dd.draw(model)
+
+
+@pytest.mark.parametrize(
+    ("element", "sign"),
+    [
+        (dd.Gain(0.0), "+"),
+        (dd.Gain(-0.5), "-"),
+        (Weights(np.eye(21), [X]), "+"),
+        (Weights(-np.eye(21), [X]), "-"),
+        (Weights(np.eye(21) - 0.1, [X]), "±"),
+        (Convolve([dd.Gaussian(1.0, 3.0), dd.Gaussian(-0.5, 6.0)]), "±"),
+        (Convolve([Custom([-1.0, -2.0, -1.0], amplitude=-1.0)]), "+"),
+        (Interaction([dd.Gaussian(1.0, 3.0)], 0.5), "±"),
+        (Boost("b", [X], -3.0), "-"),
+        (Pattern("p", [X], -np.ones(21)), "-"),
+        (dd.GaussianStimulus("g", [X], amplitude=2.0), "+"),
+        (Hebbian([X], name="h"), "+"),
+    ],
+    ids=lambda v: v if isinstance(v, str) else type(v).__name__,
+)
+def test_the_sign_of_what_acts(element, sign):
+    assert element.polarity() == sign
+
+
+def test_interactions_of_a_field_with_itself_are_loops():
+    kernel = [dd.Gaussian(2.0, 3.0)]
+    assert dict(dd.Field("u", [X], kernel=kernel, global_inhibition=0.3).recurrence()) == {"kernel": "+", "global inhibition": "-"}
+    assert dict(dd.Field("u", [X], kernel=[*kernel, dd.Gaussian(-1.0, 6.0)]).recurrence()) == {"kernel": "±"}
+    assert dict(dd.Field("u", []).recurrence()) == {} and dict(RateNode("n", self_excitation=2.0).recurrence()) == {"self-excitation": "+"}
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X], kernel=kernel, global_inhibition=0.3))
+    assert texts(dd.draw(model)) == ["u", "x: 0 … 20 deg", "excitation", "inhibition"]
+    assert texts(dd.draw(model, legend=False)) == ["u", "x: 0 … 20 deg"]
+
+
+def test_a_picture_names_axes_groups_templates_ports_sensors_and_motors():
+    model = dd.Model("all")
+    ring = dd.Axis("phi", -180, 180, 36, periodic=True, unit="deg")
+    u = model.add(dd.Field("u", [ring]), group="arm.reach", every=3)
+    model.add(Sensor("eye", [ring])) >> u
+    u["activation"] >> dd.Project([]) >> model.add(Motor("wheel"))
+    part = dd.Model("part")
+    part.add(dd.Field("v"))
+    model.insert(part, "left", link=True)
+    shown = texts(dd.draw(model))
+    assert {"u", "phi: −180 … 180 deg, periodic", "every 3 steps", "arm", "reach", "eye", "wheel", "activation"} <= set(shown)
+    assert "left (linked to part)" in shown and "project integral" in shown
+    forms = {i.name: i.form for i in sketch(model.document).items}
+    assert forms == {"u": "field", "eye": "sensor", "wheel": "motor", "v": "node"}
+
+
+def test_a_stimulus_repeats_no_axes_and_a_number_for_a_coupling_inhibits_nothing():
+    model, a, _ = pair()
+    model.add(dd.GaussianStimulus("s", [X], amplitude=-1.0)) >> a
+    code = model.add(Product(name="and"))
+    model.add(Boost("place", [X], -3.0)) >> code
+    assert texts(dd.draw(model)).count("x: 0 … 20 deg") == 3, "the two fields, and the boost whose target has no axes of its own"
+    assert wires(model) == [("s", "a", "-", ()), ("place", "and", "+", ())]
+
+
+def test_names_are_text_whatever_they_hold():
+    name = '<script>alert("x")</script> & ]]> \' \x07'
+    model = dd.Model(name)
+    u = model.add(dd.Field(name, [dd.Axis(name, 0, 1, 3, unit="<b>")]), group="<i>")
+    u >> dd.Gain(2.0, name="</text><script>") >> u
+    for content in (dd.draw(model).svg, model._repr_html_()):
+        assert "<script>" not in content and "<i>" not in content and "<b>" not in content.replace("<b>&lt;script", "")
+    root = ET.fromstring(dd.draw(model).svg)
+    assert any("alert" in (t.text or "") for t in root.iter(f"{SVG}title"))
+    assert {e.tag.removeprefix(SVG) for e in root.iter()} == {"svg", "title", "g", "path", "text"}
+
+
+def test_a_model_with_problems_and_an_empty_one_are_drawn():
+    model, a, _ = pair()
+    a >> model.add(dd.Field("other", [dd.Axis("y", 0, 1, 3)]))
+    assert model.check() and "other" in texts(dd.draw(model))
+    assert dd.draw(dd.Model("empty")).size[0] > 0
+    with pytest.raises(ModelError, match="expected a Model, got 5"):
+        dd.draw(5)  # type: ignore[arg-type]
+
+
+def test_the_studio_layout_is_used():
+    model, _, _ = pair()
+    ids = {e.names[-1]: e.id for e in model.document.entries}
+    placed = edit.arrange(model.document, {"boxes": {ids["a"]: {"x": 400, "y": 0}, ids["b"]: {"x": 0, "y": 200}}})
+    assert sketch(placed).places == {ids["a"]: (400.0, 0.0), ids["b"]: (0.0, 200.0)}
+    broken = edit.arrange(model.document, {"boxes": {ids["a"]: {"x": "far", "y": 0}, ids["b"]: 3, "gone": {"x": 0, "y": 0}}})
+    assert sketch(broken).places == {}
+
+
+def test_a_notebook_shows_the_picture():
+    model, a, b = pair()
+    a >> b
+    assert dd.draw(model)._repr_svg_() == dd.draw(model).svg
+    shown = model._repr_html_()
+    assert dd.draw(model).svg in shown and "<summary>2 elements</summary>" in shown
+    assert repr(dd.draw(model)).startswith("<Diagram of 'pair', ")
+
+
+def test_files(tmp_path):
+    model, a, b = pair()
+    a >> dd.Gain(2) >> b
+    made = dd.draw(model)
+    for name in ("a.svg", "a.pdf", "a.PNG"):
+        made.save(tmp_path / name)
+        made.save(tmp_path / f"again-{name}", width=3.5)
+    assert (tmp_path / "a.svg").read_text(encoding="utf-8") == made.svg == dd.draw(model).svg
+    assert ET.parse(tmp_path / "again-a.svg").getroot().get("width") == "252pt"
+    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+    with Image.open(tmp_path / "again-a.PNG") as picture:
+        assert picture.size[0] == 1050
+        assert len(set(picture.convert("L").resize((60, 20)).tobytes())) > 20, "something is drawn"
+    assert made.figure(7.0).get_size_inches() == pytest.approx([7.0, 7.0 * made.size[1] / made.size[0]])
+    with pytest.raises(OutputExists):
+        made.save(tmp_path / "a.svg")
+    made.save(tmp_path / "a.svg", force=True)
+    for name, options, what in (("a.gif", {}, "no format of pictures"), ("b.svg", {"width": 0}, "width is 0 inches")):
+        with pytest.raises(DeodarError, match=what):
+            made.save(tmp_path / name, **options)
+        assert not (tmp_path / name).exists()
+
+
+def test_captions_are_short():
+    from deodar.couplings.shift import Shift
+
+    assert caption(Shift((2.0, -1.5))) == "shift 2, −1.5" and caption(dd.Project([X])) == "project integral"
