@@ -28,6 +28,7 @@ UNIT_WORDS = {
     "motor/axis": ("motor units per axis unit",),
     "axis/time": ("axis units per unit of the document's time",),
     "motor/time": ("per unit of the document's time",),
+    "1/time": ("per unit of the document's time",),
     "time x input": ("document time times",),
     "input x axis": ("N ", "integral"),
 }
