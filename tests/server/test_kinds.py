@@ -86,6 +86,7 @@ def test_the_field() -> None:
     symbols = {p.name: p.symbol for p in field.parameters}
     assert symbols == {
         "axes": "", "tau": r"\tau", "resting_level": "h", "sigmoid": "g", "kernel": "k", "global_inhibition": "c", "noise": "q", "noise_length": "",
+        "quadrature": "",
     }  # fmt: skip
     tau = form(field, "tau")
     assert (tau.form, tau.cost, tau.unit, tau.lower, tau.upper, tau.default) == ("number", "live", "time", 1e-6, None, 20.0)
