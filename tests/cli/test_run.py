@@ -42,6 +42,17 @@ def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "5"]) == 0 and (here / "small-002").is_dir()
 
 
+def test_warnings_of_the_check_are_printed_and_stop_no_run(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lonely, x = dd.Model("lonely"), dd.Axis("x", 0, 10, 11)
+    fields = [lonely.add(dd.Field(name, [x])) for name in "abcd"]
+    lonely.add(dd.GaussianStimulus("left", [x], center=5, sigma=2, amplitude=3)) >> fields[0]
+    dd.save(lonely, "lonely.json")
+    assert main(["run", "lonely.json", "--duration", "5"]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.split(":")[:2] for line in lines] == [["deodar run", " warning"]] * 4
+    assert lines[-1] == "deodar run: warning: 1 more; type: deodar check lonely.json"
+
+
 def test_settings(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["run", "small.json", "--duration", "4", "--dt", "0.5", "--trials", "2", "--sweep", "s.amplitude=1,2,3", "--set", "u.tau=7"]
     assert main([*call, "--precision", "float64", "--format", "netcdf", "--out", "out", "--json"]) == 0
@@ -205,5 +216,5 @@ def test_a_point_of_a_sweep_that_diverges_is_said_once(here: Path, capsys: pytes
     dd.save(made, "loop.json")
     assert main(["run", "loop.json", "--duration", "60", "--sweep", "g.factor=0.1,1e9", "--out", "out"]) == 0
     told = capsys.readouterr().err
-    assert told.count("1 of 2 copies are NaN") == 1 and told.startswith("deodar run: warning: ") and "RunWarning" not in told
+    assert told.count("deodar run: warning: 1 of 2 copies are NaN") == 1 and "RunWarning" not in told
     assert files.load(here / "out")["diverged"].values.tolist()[0] == ""

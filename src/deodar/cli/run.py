@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import xarray
 
     from deodar.model.document import Document
+    from deodar.model.model import Model
     from deodar.recording.repeat import Repetition
 
 HELP = "run a model and record it, or run a record again and compare"
@@ -24,6 +25,9 @@ and compared. Both write a new folder with the record and the model that made it
 
 OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision", "workers", "accuracy")
 """What a record settles itself."""
+
+WARNINGS = 3
+"""Most warnings of the check that are printed before a run."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -92,6 +96,7 @@ def _simulate(args: argparse.Namespace) -> int:
     model = load(args.file, trust=args.trust)
     for path, value in args.set or ():
         model.set(path, value)
+    _show_warnings(model, args.file)
     place = _Place(args, model.name)
     step = model.document.step if args.dt is None else args.dt
 
@@ -111,6 +116,15 @@ def _simulate(args: argparse.Namespace) -> int:
     except Interrupted as error:
         data, stopped = error.data, str(error)
     return _finish(args, place, data, model.document, stopped, None)
+
+
+def _show_warnings(model: Model, file: Path) -> None:
+    """Print the first warnings of the check, on stderr: they stop no run."""
+    found = [p for p in model.check() if p.severity == "warning"]
+    for warning in found[:WARNINGS]:
+        print(f"deodar run: warning: {warning}", file=sys.stderr)
+    if len(found) > WARNINGS:
+        print(f"deodar run: warning: {len(found) - WARNINGS} more; type: deodar check {_options.shown(file)}", file=sys.stderr)
 
 
 def _repeat(args: argparse.Namespace) -> int:
