@@ -103,7 +103,7 @@ def prepare(item: Item, inputs: Sequence[str], outputs: Sequence[str], loops: Se
 
 
 def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
-    """The shapes of an item whose upper left corner stands there; its loops are wires and not among them."""
+    """The shapes of an item, given its upper left corner. Its loops are wires and not included."""
     item, box = drawn.item, drawn.box
     top, middle = y + box.top, x + box.width / 2
     dash = (2.0, 1.5) if item.form == "missing" else ()
@@ -198,7 +198,7 @@ def _node_picture(x: float, y: float, r: float) -> list[Shape | Label]:
 
 
 def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
-    """What a field of so many dimensions looks like: a line, a plane, a volume, with a peak."""
+    """The glyph of a field by its number of dimensions: a line, a plane or a volume with a peak."""
     w, h = PICTURE
     dims = len(item.axes)
     if dims == 1:

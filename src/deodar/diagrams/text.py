@@ -38,7 +38,7 @@ def width(text: str, size: float, bold: bool = False) -> float:
 
 
 def wrap(text: str, size: float, room: float, most: int, bold: bool = False) -> list[str]:
-    """Break text into at most so many lines that are no wider than `room`; what is left is cut with an ellipsis.
+    """Break text into lines no wider than `room`; text beyond the last allowed line is cut with an ellipsis.
 
     Lines break at spaces and after signs that join words; a longer word is broken anywhere.
     """

@@ -45,7 +45,7 @@ class Package:
     Args:
         path: the file.
         most: largest size of the document in bytes.
-        require_room: refuses an entry of so many bytes, by its size and name, that would not fit into memory.
+        require_room: called with the size in bytes and the name of each entry; raises if it would not fit into memory.
 
     Attributes:
         document: name of the document in it.

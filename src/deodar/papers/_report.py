@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 NOT_RUN = "(not run)"
-"""What stands in the place of a number without runs."""
+"""Written in place of a number where no runs are kept."""
 
 
 @dataclass(frozen=True)

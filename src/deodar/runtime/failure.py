@@ -18,7 +18,7 @@ def first_steps(bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int,
     """For each copy the first step after which a value was not finite, and where: by bisection, which copies that fail alike share.
 
     Args:
-        bad: after so many steps, for each group of which copies which rows are not finite: (copies..., rows).
+        bad: called with a number of steps; returns for each group which rows of which copies are not finite, (copies..., rows).
         low: steps after which all values are finite.
         high: steps after which each copy has one that is not.
         copies: their places in a batch; `...` stands for all as one.
