@@ -26,7 +26,7 @@ from deodar.runtime.exchange import embodied
 from deodar.runtime.interrupt import stoppable
 from deodar.runtime.points import Points
 from deodar.runtime.progress import Shown, bar
-from deodar.runtime.run import Run, require_step, whole
+from deodar.runtime.run import MOST_STEPS, Run, require_step, whole
 from deodar.runtime.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
@@ -119,7 +119,8 @@ def expected_steps(duration: Any, dt: Any) -> int:
     """Steps of a run, 0 where it will be refused anyway."""
     wanted, step = real(duration), real(dt)
     good = wanted is not None and step is not None and 0 < step < math.inf and 0 <= wanted < math.inf
-    return int(min(wanted / step, 2.0**62)) if good and wanted is not None and step is not None else 0
+    steps = wanted / step if good and wanted is not None and step is not None else 0.0
+    return int(steps) if steps <= MOST_STEPS else 0
 
 
 def compute(
