@@ -37,7 +37,7 @@ class LeakyCounter(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    tau: Annotated[float, Live("time", lower=1e-6, meaning="time constant")] = 50.0
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 50.0
     rate: Annotated[float, Live("activation", lower=0, upper=20, meaning="count without input")] = 2.0
     alarm: Annotated[float, Live("activation", meaning="level to compare with")] = 4.0
 
