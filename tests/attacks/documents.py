@@ -68,7 +68,7 @@ def mutated(random: random.Random, data: Any) -> str:
 
 
 def attack(count: int, seed: int) -> Outcome:
-    """Read so many mutated documents, made from the examples."""
+    """Read mutated documents made from the examples."""
     random_, outcome = random.Random(seed), Outcome()
     originals = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(EXAMPLES.glob("*.json"))]
     small = [data for data in originals if "arrays" not in data and len(data["elements"]) < 20]

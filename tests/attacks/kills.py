@@ -62,7 +62,7 @@ async def edit_and_save(address: str, process: subprocess.Popen[str], after: int
 
 
 def attack(folder: Path, count: int, seed: int = 0) -> Outcome:
-    """Kill a studio so many times."""
+    """Kill a studio repeatedly."""
     outcome, random_ = Outcome(), random.Random(seed)
     dd.save(small(), folder / "m.json", force=True)
     for k in range(count):

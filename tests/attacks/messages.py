@@ -60,7 +60,7 @@ def drawn(random: random.Random, known: dict[str, tuple[str, ...]], ids: list[st
 
 
 async def attack(address: str, count: int, seed: int) -> Outcome:
-    """Send so many hostile messages, over as many connections as they use up; a second page stays connected and edits between them."""
+    """Send hostile messages, reconnecting where one ends the connection; a second page stays connected and edits between them."""
     random_, outcome, known = random.Random(seed), Outcome(), kinds()
     async with page(address) as other:
         await other.until(lambda: other.document)

@@ -62,7 +62,7 @@ async def visits(address: str, seconds: float, random: random.Random) -> int:
 
 
 def attack(folder: Path, seconds: float, seed: int = 0) -> Outcome:
-    """Load a studio for so many seconds."""
+    """Load a studio for some seconds."""
     dd.save(small(), folder / "m.json", force=True)
     process, address = start(folder)
     try:
