@@ -14,13 +14,15 @@ import deodar as dd
 from deodar.cli import main
 from deodar.recording import files
 from deodar.recording.record import about
-from tests.recording.models import model
 
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    dd.save(model(), "small.json")
+    made, x = dd.Model("small"), dd.Axis("x", 0, 20, samples=11, unit="deg")
+    made.add(dd.Field("u", [x], tau=10, kernel=[dd.Gaussian(1, 3)], noise=0.5))
+    made.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=7)) >> made["u"]
+    dd.save(made, "small.json")
     return tmp_path
 
 
