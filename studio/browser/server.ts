@@ -25,7 +25,7 @@ export interface Server {
 }
 
 /** The Python that has deodar: the one that runs the tests, else the one of the environment in .venv. */
-function python(): string {
+export function python(): string {
   const named = process.env["DEODAR_PYTHON"];
   if (named) return named;
   const found = ["bin/python", "Scripts/python.exe"].map((name) => join(ROOT, ".venv", name)).find((path) => existsSync(path));

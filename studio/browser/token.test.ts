@@ -1,9 +1,11 @@
+import { execFileSync } from "node:child_process";
 import { rmSync } from "node:fs";
 import { join } from "node:path";
 
 import { expect, onTestFinished, test } from "vitest";
 
 import { box } from "./hands";
+import { python } from "./server";
 import { startStudio, type Studio } from "./studio";
 
 /** What a browser says of a server that is gone for a while, or that wants another token. */
@@ -29,6 +31,18 @@ test("the address bar does not keep the token, and a person without it is asked 
   await stranger.getByRole("button", { name: "Open" }).click();
   await stranger.getByRole("toolbar", { name: "Run" }).waitFor();
   expect(stranger.url()).toBe(page.url());
+});
+
+test("the file with which the studio starts the browser leads to the page", async () => {
+  const { url, browser } = await start();
+  const code = "import sys; from deodar.server.redirect_file import RedirectFile; print(RedirectFile(sys.argv[1]).address)";
+  const context = await browser.newContext({ locale: "en-US", reducedMotion: "reduce" });
+  context.setDefaultTimeout(60_000);
+  onTestFinished(() => context.close());
+  const page = await context.newPage();
+  await page.goto(execFileSync(python(), ["-c", code, url], { encoding: "utf8" }).trim());
+  await box(page, "u").waitFor();
+  expect(page.url()).toBe(new URL("/", url).href);
 });
 
 test("a page whose studio comes back with another token says what to open, and goes on once that is done", async () => {

@@ -9,14 +9,16 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 
 from deodar.cli import main
-from deodar.server import app
+from deodar.server import app, serve
 from tests.server.page import play, studio
 
 
@@ -75,24 +77,76 @@ def test_it_may_be_started_without_a_token(tmp_path: Path) -> None:
         process.communicate(timeout=600)
 
 
-def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from deodar.server import serve
+class FakeServer:
+    """A server that answers at an address and ends."""
 
-    opened: list[str] = []
-    monkeypatch.setattr(serve.webbrowser, "open", opened.append)
+    def __init__(self, address: str, ready: Callable[[str], None], ended: Callable[[], None]) -> None:
+        self.address, self.ready, self.ended = address, ready, ended
 
-    class Server:
-        def __init__(self, ready: Callable[[str], None]) -> None:
-            self.ready = ready
+    def run(self, sockets: list[socket.socket]) -> None:
+        self.ready(self.address)
+        self.ended()
 
-        def run(self, sockets: list[socket.socket]) -> None:
-            self.ready("http://here/")
 
-    monkeypatch.setattr(serve, "prepare", lambda *given: (Server(given[-1]), None))
+def opened_at(address: str, browser: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, opens: Callable[[str], None]) -> list[str]:
+    """Start a studio that answers at an address; the addresses that it prints."""
     said: list[str] = []
+    monkeypatch.setattr(serve.webbrowser, "open", opens)
+    monkeypatch.setattr(serve, "prepare", lambda *given: (FakeServer(address, *given[-2:]), None))
+    serve.serve(None, folder, "127.0.0.1", 0, browser, False, None, True, said.append)
+    return said
+
+
+def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: list[str] = []
     for browser in (True, False):
-        serve.serve(None, tmp_path, "127.0.0.1", 0, browser, False, None, True, said.append)
-    assert opened == ["http://here/"] and said == ["http://here/"] * 2
+        assert opened_at("http://here/", browser, tmp_path, monkeypatch, opened.append) == ["http://here/"]
+    assert opened == ["http://here/"]
+
+
+def test_the_token_is_not_in_the_command_line_of_the_browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Other users of the machine can read it there."""
+    files: list[Path] = []
+
+    def opens(address: str) -> None:
+        assert "secret" not in address
+        file = Path(url2pathname(urlsplit(address).path))
+        assert file.stat().st_mode & 0o777 == 0o600 and file.parent.stat().st_mode & 0o777 == 0o700
+        assert 'content="0; url=http://here/?token=secret&amp;x=&quot;"' in file.read_text()
+        files.append(file)
+
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    address = 'http://here/?token=secret&x="'
+    assert opened_at(address, True, tmp_path, monkeypatch, opens) == [address]
+    assert len(files) == 1 and list(tmp_path.iterdir()) == []
+
+
+def test_without_room_for_a_temporary_file_no_browser_is_opened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
+    assert opened_at("http://here/?token=secret", True, tmp_path, monkeypatch, opened.append) == ["http://here/?token=secret"]
+    assert opened == [] and "the browser is not opened" in caplog.text
+
+
+def test_the_file_that_leads_to_the_studio_is_removed_when_the_studio_is_terminated(tmp_path: Path) -> None:
+    """A script plays the browser: it writes the argument that it was started with, and the content of the file."""
+    browser = tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/told\ncat "${{1#file://}}" > {tmp_path}/page\n')
+    browser.chmod(0o700)
+    (tmp_path / "tmp").mkdir()
+    environment = os.environ | {"DEODAR_STATE": str(tmp_path / "state"), "TMPDIR": str(tmp_path / "tmp"), "BROWSER": str(browser)}
+    command = [sys.executable, "-m", "deodar", "studio", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=environment) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().split()[-1]
+        assert b"<title>" in fetch(address)[1]  # the browser is opened before the first request is answered
+        process.send_signal(signal.SIGTERM)
+        process.wait(600)
+    assert address in (tmp_path / "page").read_text()
+    assert urlsplit(address).query not in (tmp_path / "told").read_text()
+    assert list((tmp_path / "tmp").glob("deodar-studio-*")) == []
 
 
 def test_a_taken_port_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

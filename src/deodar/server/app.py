@@ -45,12 +45,22 @@ class Studio:
         world: what sensors read.
         host, port, token: see `Guard`.
         ready: called once everything is up.
+        ended: called once everything is closed.
     """
 
     def __init__(
-        self, root: Path, file: Path | None, trust: bool, world: World | None, host: str, port: int, token: str, ready: Callable[[], None]
+        self,
+        root: Path,
+        file: Path | None,
+        trust: bool,
+        world: World | None,
+        host: str,
+        port: int,
+        token: str,
+        ready: Callable[[], None],
+        ended: Callable[[], None] = lambda: None,
     ) -> None:
-        self._root, self._file, self._trust, self._world, self._ready = root, file, trust, world, ready
+        self._root, self._file, self._trust, self._world, self._ready, self._ended = root, file, trust, world, ready, ended
         self._hub: Hub | None = None
         routes = [
             Route("/", self._page),
@@ -69,9 +79,12 @@ class Studio:
         project, file = self._hub.project, self._file
         if file is not None:
             await project.turns.take(lambda: project.open_file(file.resolve(), True))
-        self._ready()
-        yield
-        await self._hub.close()
+        try:
+            self._ready()
+            yield
+            await self._hub.close()
+        finally:
+            self._ended()
 
     async def _page(self, request: Request) -> Response:
         index = STATIC / "index.html"

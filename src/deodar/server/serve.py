@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import socket
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import uvicorn
 
@@ -16,6 +18,7 @@ from deodar.server import token as tokens
 from deodar.server.app import Studio
 from deodar.server.guard import is_local
 from deodar.server.keeper import state_folder
+from deodar.server.redirect_file import RedirectFile
 from deodar.worlds._base import World
 
 PORT = 8430
@@ -37,28 +40,56 @@ def serve(
     token: bool,
     say: Callable[[str], None],
 ) -> None:
-    """Serve until Ctrl-C. `say` gets the address once it answers; without `token` everybody who can connect may use the studio."""
+    """Serve until Ctrl-C. `say` gets the address once it answers; without `token` everybody who can connect may use the studio.
+
+    An address with a token reaches the browser through a file of this user, which is removed when the studio ends.
+    """
+    redirects: list[RedirectFile] = []
 
     def ready(address: str) -> None:
         say(address)
-        if browser:
+        if not browser:
+            return
+        if not urlsplit(address).query:
             webbrowser.open(address)
+            return
+        try:
+            redirects.append(RedirectFile(address))
+        except OSError as error:
+            logging.getLogger("deodar.studio").warning(f"the browser is not opened: a temporary file cannot be written ({error.strerror})")
+            return
+        webbrowser.open(redirects[-1].address)
 
-    server, bound = prepare(file, root, host, port, trust, world, token, ready)
+    def ended() -> None:
+        for redirect in redirects:
+            redirect.remove()
+
+    server, bound = prepare(file, root, host, port, trust, world, token, ready, ended)
     with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends, once everything is put away
         server.run(sockets=[bound])
 
 
 def prepare(
-    file: Path | None, root: Path, host: str, port: int | None, trust: bool, world: World | None, token: bool, ready: Callable[[str], None]
+    file: Path | None,
+    root: Path,
+    host: str,
+    port: int | None,
+    trust: bool,
+    world: World | None,
+    token: bool,
+    ready: Callable[[str], None],
+    ended: Callable[[], None] = lambda: None,
 ) -> tuple[uvicorn.Server, socket.socket]:
-    """A server that is not started yet, and the socket it is to listen at; `ready` gets the address once everything is up."""
+    """A server that is not started yet, and the socket it is to listen at.
+
+    `ready` gets the address once everything is up. `ended` is called when the server stops, before a signal such as SIGTERM ends the process.
+    """
     bound = bind(host, port)
     number = bound.getsockname()[1]
     secret = "" if not token else tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
     shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
     address = f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"
-    studio = Studio(root, file, trust, world, host, number, secret, lambda: ready(address))
+    studio = Studio(root, file, trust, world, host, number, secret, lambda: ready(address), ended)
     config = uvicorn.Config(
         studio.app, log_level="warning", access_log=False, ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=MOST_MESSAGE,
         lifespan="on", timeout_graceful_shutdown=2, server_header=False,
