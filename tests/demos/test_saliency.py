@@ -19,11 +19,11 @@ from deodar.worlds.camera import Camera
 
 
 def test_the_command_makes_good_every_claim(tmp_path: Path) -> None:
-    done = subprocess.run([sys.executable, "-m", "deodar", "demo", "saliency"], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    done = subprocess.run([sys.executable, "-m", "deodar", "demo", "saliency"], cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stdout + done.stderr
     out = tmp_path / "demo-saliency-001"
     found = json.loads((out / "results.json").read_text())["claims"]
-    assert len([c for c in found if c["kind"] == "required"]) >= 9
+    assert len(found) >= 13 and all(c["kind"] == "reported" and c["inferred"] and c["assumes"] for c in found), "no evidence"
     assert all(c["holds"] is True for c in found), [c for c in found if not c["holds"]]
     for name in ("coffee", "chelsea", "astronaut"):
         assert (out / f"{name}.png").stat().st_size > 10_000 and (out / f"{name}.zarr").is_dir()

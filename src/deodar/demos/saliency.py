@@ -44,6 +44,8 @@ NEAR = 2.0
 LEAST_RIGHT = 10
 """Of the twelve cues for a colour that is present in an untuned photograph, how many have to be selected. Ours."""
 
+FOUND_HERE = "parameters that were found on this photograph"
+
 WHEEL = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0)
 """Cues for a picture in which nobody has marked anything."""
 
@@ -236,11 +238,13 @@ def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float]
 def claims(result: Result) -> list[Claim]:
     """One claim for the time without a cue, and for each cue of a marked picture one for the fields and one for the motor variable.
 
-    They are required of the photographs on which the parameters were found. Of the others each is reported, and `totals` says what is required.
+    Each is reported. On the photographs on which the parameters were found none of them is evidence; `totals` says what is required of the others.
     """
-    name, kind = result.scene.name, "required" if result.scene.tuned else "reported"
+    name = result.scene.name
+    found: dict[str, Any] = {"assumes": FOUND_HERE, "inferred": True} if result.scene.tuned and any(c.expect for c in result.scene.cues) else {}
+    marks: dict[str, Any] = {"kind": "reported", "source": SOURCE, "origin": "ours", **found}
     quiet = f"{name}, no cue: the colour-space field stays below threshold"
-    out = [Claim(quiet, round(result.quiet, 3), "< 0", result.quiet < 0, kind, SOURCE, origin="ours")]
+    out = [Claim(quiet, round(result.quiet, 3), "< 0", result.quiet < 0, **marks)]
     for o in result.outcomes:
         value: dict[str, Any] = {
             "peaks": len(o.places),
@@ -255,11 +259,11 @@ def claims(result: Result) -> list[Claim]:
         present = o.cue.expect == "present"
         what = f"exactly one peak, on {o.cue.object}; the spatial field follows" if present else "no such colour in the picture, no peak"
         target = "one peak in the marked region, one spatial peak there too" if present else "no peak in either field"
-        out.append(Claim(f"{cue}: {what}", value, target, o.right, kind, SOURCE, origin="ours"))
+        out.append(Claim(f"{cue}: {what}", value, target, o.right, **marks))
         what = "the motor variable converges to the peak" if present else "the motor variable stays"
         distance, target = (o.gap, f"at most {NEAR:g} from the spatial peak") if present else (o.moved, f"at most {NEAR / 10:g} from its start")
         held = o.converged if (o.gap is not None) == present else False
-        out.append(Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, kind, SOURCE, origin="ours"))
+        out.append(Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, **marks))
     return out
 
 
