@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from deodar import cli, errors, registry
+from deodar.declarations import Needed
 from deodar.numerics.axes import Axis
 from deodar.parameters import Parameter, Part, parameters
 
@@ -173,7 +174,7 @@ def kind_section(cls: type) -> str:
 def default(p: Parameter) -> str:
     """A default as one would type it."""
     value = p.default
-    if value is dataclasses.MISSING or value is ... or value is inspect.Parameter.empty:
+    if isinstance(value, Needed) or value is dataclasses.MISSING or value is ... or value is inspect.Parameter.empty:
         return "required"
     if isinstance(value, float):
         return f"`{value:g}`" if abs(value) < 1e20 else "never"

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from typing import ClassVar, Literal
+import re
+from typing import Any, ClassVar, Literal
 
 Cost = Literal["live", "rebuild", "recompile"]
 Role = Literal["", "time constant", "time scale", "moment", "duration"]
@@ -58,3 +59,30 @@ class Recompile(Declaration):
     """A change makes a new program; states are kept by the element's id."""
 
     cost = "recompile"
+
+
+@dc.dataclass(frozen=True)
+class Needed:
+    """The default of a parameter that has none: leaving it out is an error that proposes a value; use `needed`.
+
+    Attributes:
+        like: a value as it is written in a call, such as `[x]`; the names in it stand for axes.
+    """
+
+    like: str
+
+    def __repr__(self) -> str:
+        return "required"
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the axes in the proposed value."""
+        return re.findall(r"\w+", self.like)
+
+
+def needed(like: str) -> Any:
+    """Declare that a parameter has no default.
+
+    For example `axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")`.
+    """
+    return Needed(like)

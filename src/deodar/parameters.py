@@ -24,7 +24,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from deodar.declarations import TIME_ROLES, Cost, Declaration, Recompile, Role
+from deodar.declarations import TIME_ROLES, Cost, Declaration, Needed, Recompile, Role
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
@@ -110,8 +110,12 @@ class Part:
     def __post_init__(self) -> None:
         problems: list[Problem] = []
         for p in parameters(type(self)):
+            given = getattr(self, p.name)
+            if isinstance(p.default, Needed) and (given is None or isinstance(given, Needed)):
+                problems.append(Problem(f"{type(self).__name__}.{p.name}", f"{type(self).__name__} needs {p.name}", _call(type(self), p)))
+                continue
             try:
-                if not _same(stored := normal(p, given := getattr(self, p.name)), given):  # one object stays one: so changes are told quickly
+                if not _same(stored := normal(p, given), given):  # one object stays one: so changes are told quickly
                     object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
@@ -136,6 +140,17 @@ class Part:
     def example(cls) -> Part:
         """An instance that works on its own: what the tests, the manual and a palette start from."""
         return cls()
+
+
+def _call(cls: type[Any], last: Parameter) -> str:
+    """The call that gives a needed parameter and what stands before it."""
+    known, order = {p.name: p for p in parameters(cls)}, positional(cls)
+    before = [known[name] for name in order[: order.index(last.name)]]
+    likes = [p.default if isinstance(p.default, Needed) else Needed("[x]") for p in (*before, last) if p.form in ("axis", "axes")]
+    names = [name for like in likes for name in like.names]
+    call = ", ".join([*(p.name if p.form not in ("axis", "axes") else "[x]" for p in before), last.default.like])
+    each = "is" if len(names) == 1 else "are each"
+    return f"Write: {cls.__name__}({call}), where {' and '.join(names)} {each} an Axis, such as x = dd.Axis('x', 0, 100, samples=101)"
 
 
 # ------------------------------------------------------------------------------------------------ reading declarations

@@ -88,7 +88,7 @@ def test_a_time_series_stays_in_time(interpolation: str, period: float) -> None:
 def test_a_history_keeps_its_interval() -> None:
     model = begun(30 * DAY)
     source = model.add(TimeSeries("s", [], 30 * DAY + np.arange(40.0), np.arange(40.0)))
-    source >> model.add(History("h", interval=3.0))
+    source >> model.add(History("h", [], dd.Axis("slot", 0, 9, 10), interval=3.0))
     single, double = both(model, "h.output", 31)
     np.testing.assert_array_equal(single, double)
     assert (np.diff(double[-1]) == -3).all()

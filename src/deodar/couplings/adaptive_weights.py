@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape
 from deodar.numerics.signs import Sign
@@ -48,7 +49,7 @@ class AdaptiveWeights(Coupling):
         Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields, drawn to the target's activity).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("target", 0, 12, 13),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
     rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.1
     initial: Annotated[float, Live(meaning="all weights at the start")] = 0.0
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
@@ -95,4 +96,4 @@ class AdaptiveWeights(Coupling):
 
     @classmethod
     def example(cls) -> AdaptiveWeights:
-        return cls(gated=True, apart=True, name="example")
+        return cls([Axis("target", 0, 12, samples=13)], gated=True, apart=True, name="example")

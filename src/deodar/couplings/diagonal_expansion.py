@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.parameters import Recompile
@@ -34,7 +35,7 @@ class DiagonalExpansion(Coupling):
         Biol. Cybern. 106, 89-109 (the diagonal input of the transformation field).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("x", 0, 10, 11), Axis("y", 0, 10, 11))
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x, y]")
 
     linear: ClassVar[bool] = True
 
@@ -54,3 +55,7 @@ class DiagonalExpansion(Coupling):
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         n, m = shape(self.axes)
         return {"output": inputs["input"][np.add.outer(np.arange(n), np.arange(m))]}
+
+    @classmethod
+    def example(cls) -> DiagonalExpansion:
+        return cls([Axis("x", 0, 10, samples=11), Axis("y", 0, 10, samples=11)], name="example")

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.parameters import Recompile
@@ -34,7 +35,7 @@ class DiagonalSum(Coupling):
         Biol. Cybern. 106, 89-109 (the projection along the diagonals of the transformation field).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axis of the sum")] = (Axis("sum", 0, 28, 29),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axis of the sum")] = needed("[x]")
 
     linear: ClassVar[bool] = True
 
@@ -60,3 +61,7 @@ class DiagonalSum(Coupling):
         # rows of n + m samples, read again as rows of n + m - 1: each lies one further on than the row before
         skewed = jnp.pad(x, ((0, 0), (0, n))).reshape(-1)[: n * (n + m - 1)].reshape(n, n + m - 1)
         return {"output": at.ins["input"][1].step * jnp.sum(skewed, axis=0)}
+
+    @classmethod
+    def example(cls) -> DiagonalSum:
+        return cls([Axis("sum", 0, 28, samples=29)], name="example")

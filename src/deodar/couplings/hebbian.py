@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 import numpy as np
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import plasticity
 from deodar.numerics.axes import Axes, Axis, cell, shape
@@ -69,7 +70,7 @@ class Hebbian(Coupling):
         (outstar, instar); Oja (1982), J. Math. Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("target", 0, 12, 13),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
     rule: Annotated[str, Recompile(choices=plasticity.RULES, meaning="how weights change")] = "outstar"
     rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.01
     decay: Annotated[float, Live(lower=0, meaning="speed at which weights in use fade")] = 0.0
@@ -141,4 +142,5 @@ class Hebbian(Coupling):
 
     @classmethod
     def example(cls) -> Hebbian:
-        return cls(gated=True, random=True, initial=0.4, share=0.8, decay=0.001, saturation=0.7, threshold=0.2, name="example")
+        target = Axis("target", 0, 12, samples=13)
+        return cls([target], gated=True, random=True, initial=0.4, share=0.8, decay=0.001, saturation=0.7, threshold=0.2, name="example")

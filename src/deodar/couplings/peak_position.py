@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.centres import centre
@@ -38,7 +39,7 @@ class PeakPosition(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13.
     """
 
-    axis: Annotated[Axis, Recompile(meaning="dimension read out")] = Axis("x", 0, 20, 21)
+    axis: Annotated[Axis, Recompile(meaning="dimension read out")] = needed("x")
     least: Annotated[float, Live("input x axis", lower=1e-9, meaning="integral below which there is no peak")] = 0.1
     absent: Annotated[float, Live("axis", meaning="position while there is no peak")] = 0.0
 
@@ -53,3 +54,7 @@ class PeakPosition(Coupling):
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         place, there, n = centre(self.axis, inputs["input"] * self.axis.step, self.least)
         return {"output": jnp.where(there, place, self.absent), "strength": n}
+
+    @classmethod
+    def example(cls) -> PeakPosition:
+        return cls(Axis("x", 0, 20, samples=21), name="example")

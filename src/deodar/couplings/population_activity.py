@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 import numpy as np
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.errors import ParameterError
 from deodar.leaves import per_axis
@@ -46,7 +47,7 @@ class PopulationActivity(Coupling):
     """
 
     tuning: Annotated[ArrayLike, Rebuild(meaning="tuning curve of each neuron")] = FrozenArray(np.eye(21))
-    axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions to which the neurons are tuned")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions to which the neurons are tuned")] = needed("[x]")
     amplitude: Annotated[float, Live("activation", meaning="factor from the sum to activation")] = 1.0
     normalized: Annotated[bool, Recompile(meaning="whether it is a mean of the rates, weighted by the tuning")] = False
 
@@ -108,3 +109,7 @@ class PopulationActivity(Coupling):
                 distance = distance - axis.range * np.round(distance / axis.range)
             tuning = tuning[..., None] * np.exp(-0.5 * (distance / width) ** 2).reshape(len(places), *(1,) * d, axis.samples)
         return cls(tuning, tuple(axes), **others)
+
+    @classmethod
+    def example(cls) -> PopulationActivity:
+        return cls(np.eye(21), [Axis("x", 0, 20, samples=21)], name="example")

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, cell
@@ -46,7 +47,7 @@ class RateCode(Coupling):
         vector: Georgopoulos, Schwartz & Kettner (1986), Science 233, 1416-1419.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = needed("[x]")
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the output")] = 1.0
     offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an output of 0")] = 0.0
     least: Annotated[float, Live("input x axis", lower=1e-9, meaning="integral up to which there is no peak")] = 0.1
@@ -76,3 +77,7 @@ class RateCode(Coupling):
             place, there, _ = centre(axis, along, self.least)
             found.append(jnp.where(there, (place - offset) / gain, absent))
         return {"output": jnp.stack(found) if len(axes) > 1 else found[0], "strength": jnp.sum(f)}
+
+    @classmethod
+    def example(cls) -> RateCode:
+        return cls([Axis("x", 0, 20, samples=21)], name="example")

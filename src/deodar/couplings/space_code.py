@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, shape
@@ -45,7 +46,7 @@ class SpaceCode(Coupling):
         Sandamirskaya (2015), Adapt. Behav. 23(5), figure 4 (place and head direction).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = needed("[x]")
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the input")] = 1.0
@@ -97,3 +98,7 @@ class SpaceCode(Coupling):
             # every sum that reads it, which doubled the step of a model with 16 fields
             y = jnp.tensordot(jnp.stack([y, jnp.zeros_like(y)]), jnp.stack([factor, factor]), axes=(0, 0), precision="highest")
         return {"output": y}
+
+    @classmethod
+    def example(cls) -> SpaceCode:
+        return cls([Axis("x", 0, 20, samples=21)], name="example")

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.signs import Sign, sign_of
@@ -39,7 +40,7 @@ class Weighting(Coupling):
     """
 
     weights: Annotated[ArrayLike, Rebuild(meaning="c at every sample")] = FrozenArray(np.ones(21))
-    axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = needed("[x]")
 
     linear: ClassVar[bool] = True
 
@@ -68,3 +69,7 @@ class Weighting(Coupling):
         """The weights of a function of the axes' values: `Weighting.of(lambda x: x / 100, [x])`."""
         grids = np.meshgrid(*(a.points for a in axes), indexing="ij")
         return cls(np.broadcast_to(np.asarray(function(*grids), float), shape(axes)), tuple(axes))
+
+    @classmethod
+    def example(cls) -> Weighting:
+        return cls(np.ones(21), (Axis("x", 0, 20, samples=21),), name="example")

@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 import numpy as np
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, cell, shape
 from deodar.numerics.intervals import Interval, times, total
@@ -42,7 +43,7 @@ class Weights(Coupling):
     """
 
     weights: Annotated[ArrayLike, Rebuild(meaning="W, target samples first")] = FrozenArray(np.eye(21))
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
 
     linear: ClassVar[bool] = True
 
@@ -78,3 +79,7 @@ class Weights(Coupling):
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.tensordot(constants["weights"], x, axes=x.ndim, precision="highest")}
+
+    @classmethod
+    def example(cls) -> Weights:
+        return cls(np.eye(21), [Axis("x", 0, 20, samples=21)], name="example")

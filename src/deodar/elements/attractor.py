@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis
@@ -46,7 +47,7 @@ class Attractor(Element):
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axis: Annotated[Axis, Recompile(meaning="dimension of the input")] = Axis("x", 0, 100, 101)
+    axis: Annotated[Axis, Recompile(meaning="dimension of the input")] = needed("x")
     tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0
     initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
     gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.exact import exact, wide
@@ -42,7 +43,7 @@ class History(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
-    slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = Axis("slot", 0, 9, 10)
+    slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = needed("slot")
     interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="time between two moments that are kept")] = 1.0
     empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show that no moment has reached yet")] = "zero"
 
@@ -84,3 +85,7 @@ class History(Element):
         if self.empty == "nan":
             new["count"] = jnp.minimum(state["count"] + due, self.slots.samples)
         return new
+
+    @classmethod
+    def example(cls) -> History:
+        return cls("example", [Axis("x", 0, 20, samples=21)], Axis("slot", 0, 9, samples=10))

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.numerics.axes import Axes, Axis, shape
@@ -41,7 +42,7 @@ class Pattern(Stimulus):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = needed("[x]")
     values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
 

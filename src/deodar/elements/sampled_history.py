@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.exact import exact, wide
@@ -44,7 +45,7 @@ class SampledHistory(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
-    slots: Annotated[Axis, Recompile(meaning="the moments")] = Axis("slot", 0, 2, 3)
+    slots: Annotated[Axis, Recompile(meaning="the moments")] = needed("slot")
     times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray([1.0, 5.0, 10.0])
     empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show before their moment")] = "zero"
 
@@ -85,3 +86,7 @@ class SampledHistory(Element):
     def _each(self, values: Any) -> Any:
         """Values of the slots, to be spread over the axes."""
         return values.reshape(-1, *(1 for _ in self.axes))
+
+    @classmethod
+    def example(cls) -> SampledHistory:
+        return cls("example", [Axis("x", 0, 20, samples=21)], Axis("slot", 0, 2, samples=3))

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 import numpy as np
 
+from deodar.declarations import needed
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import is_neutral
@@ -52,7 +53,7 @@ class TimeSeries(Stimulus):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the values")] = (Axis("x", 0, 20, 21),)
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the values")] = needed("[x]")
     times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray([0.0, 100.0])
     values: Annotated[ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")] = FrozenArray(
         [[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]]

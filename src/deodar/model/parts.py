@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import typing
 from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from deodar import registry
+from deodar.declarations import Needed
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import get
 from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, parameter, parameters, show
@@ -31,7 +33,12 @@ def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, A
         if isinstance(p.default, (bool, int, float, str)):
             extra["default"] = p.default
         properties[p.name] = form | extra
-    return {"type": "object", "title": cls.__name__, "properties": properties, "required": ["kind"]}
+    return {
+        "type": "object",
+        "title": cls.__name__,
+        "properties": properties,
+        "required": ["kind", *(p.name for p in parameters(cls) if isinstance(p.default, Needed))],
+    }
 
 
 def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
@@ -150,6 +157,9 @@ def _from_json(
             values[name] = arrays[key]
         else:
             values[name] = value
+    for p in known.values():
+        if isinstance(p.default, Needed) and values.get(p.name) is None and p.name not in [q.where.rpartition(".")[2] for q in problems[before:]]:
+            problems.append(Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes)))
     if len(problems) > before:
         for name, value in values.items():  # what else is wrong, as far as it can be told without the parts that failed
             if name in known and known[name].form in PLAIN:
@@ -165,6 +175,17 @@ def _from_json(
     except TypeError as error:
         problems.append(Problem(where, str(error)))
     return None
+
+
+def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
+    """The line of a document that gives a parameter its axes: a letter stands for any axis that the document has, a word for one of its own."""
+    free = [key for key in axes if key not in like.names]
+    keys = [free.pop(0) if len(name) == 1 and name not in axes and free else name for name in like.names]
+    undeclared = [key for key in keys if key not in axes]
+    line = f'Write "{p.name}": {json.dumps(keys if p.form == "axes" else keys[0])}'
+    if undeclared:
+        return f'{line}, and declare among the document\'s axes: "{undeclared[0]}": {{"lower": 0, "upper": 100, "samples": 101}}'
+    return f"{line}; the document's axes are: {', '.join(axes)}" if len(axes) > len(keys) else line
 
 
 def _under(where: str, cls: type[Any], inner: str) -> str:

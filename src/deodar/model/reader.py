@@ -11,6 +11,7 @@ from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError,
 from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import KEYS, READS, VERSION, Document, Entry, Use
+from deodar.model.migrations import migrate
 from deodar.model.parts import part_from_json
 from deodar.model.paths import Names, display, split, stored_id
 from deodar.numerics.axes import Axis
@@ -37,10 +38,11 @@ class _Reader:
         version = self.data.get("deodar")
         if version is None:
             raise DocumentError("is not a deodar document: it has no key 'deodar'")
-        if version != VERSION or not isinstance(version, int) or isinstance(version, bool):
+        if not isinstance(version, int) or isinstance(version, bool) or not 1 <= version <= VERSION:
             raise DocumentError(
-                f"is a document of version {show(version)}; this deodar reads version {VERSION}", fix="Type: pip install --upgrade deodar"
+                f"is a document of version {show(version)}; this deodar reads versions 1 to {VERSION}", fix="Type: pip install --upgrade deodar"
             )
+        self.data = migrate(self.data)
         for key in self.data:
             if key not in KEYS:
                 self.problem(key, "is no key of a document", did_you_mean(key, KEYS))

@@ -61,7 +61,7 @@ def document_schema() -> dict[str, Any]:
         "title": "deodar document",
         "type": "object",
         "properties": {
-            "deodar": {"const": VERSION},
+            "deodar": {"enum": list(range(1, VERSION + 1))},
             "name": {"type": "string"},
             "time_unit": {"type": "string"},
             "dt": {"type": "number", "exclusiveMinimum": 0},

@@ -8,6 +8,7 @@ from collections.abc import Collection
 from typing import Any
 
 from deodar import registry
+from deodar.declarations import Needed
 from deodar.element import Element
 from deodar.model.parts import to_json
 from deodar.parameters import FrozenArray, Parameter, Part, parameters, positional
@@ -123,7 +124,7 @@ def _symbol(p: Parameter, description: str, used: Collection[str]) -> str:
 
 def _plain(p: Parameter, value: Any) -> Any:
     """A default as documents write it. Axes and arrays belong to a document: none is a default."""
-    if value is dc.MISSING or value is None or p.form in ("axis", "array"):
+    if value is dc.MISSING or isinstance(value, Needed) or value is None or p.form in ("axis", "array"):
         return [] if p.form == "axes" else None
     match p.form:
         case "axes":

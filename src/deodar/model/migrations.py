@@ -1,0 +1,66 @@
+"""Documents of older versions, rewritten as the present version: plain data in, plain data out.
+
+Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, cast
+
+AxisData = Mapping[str, Any]
+
+_X: AxisData = {"name": "x", "lower": 0, "upper": 20, "samples": 21}
+_TARGET: AxisData = {"name": "target", "lower": 0, "upper": 12, "samples": 13}
+
+DEFAULTS_OF_1: Mapping[str, Mapping[str, tuple[AxisData, ...]]] = {
+    "AdaptiveWeights": {"axes": (_TARGET,)},
+    "Attractor": {"axis": ({"name": "x", "lower": 0, "upper": 100, "samples": 101},)},
+    "DiagonalExpansion": {"axes": ({"name": "x", "lower": 0, "upper": 10, "samples": 11}, {"name": "y", "lower": 0, "upper": 10, "samples": 11})},
+    "DiagonalSum": {"axes": ({"name": "sum", "lower": 0, "upper": 28, "samples": 29},)},
+    "Hebbian": {"axes": (_TARGET,)},
+    "History": {"slots": ({"name": "slot", "lower": 0, "upper": 9, "samples": 10},)},
+    "Pattern": {"axes": (_X,)},
+    "PeakPosition": {"axis": (_X,)},
+    "PopulationActivity": {"axes": (_X,)},
+    "RateCode": {"axes": (_X,)},
+    "SampledHistory": {"slots": ({"name": "slot", "lower": 0, "upper": 2, "samples": 3},)},
+    "SpaceCode": {"axes": (_X,)},
+    "TimeSeries": {"axes": (_X,)},
+    "Weighting": {"axes": (_X,)},
+    "Weights": {"axes": (_X,)},
+}
+"""Axes that elements of version 1 had where a document left them out, by kind and parameter."""
+
+
+def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Rewrite a document of an older version; one of the present version is returned as it is.
+
+    What is not of the expected form is left to the reader, which reports it.
+    """
+    return _from_1(data) if data.get("deodar") == 1 else dict(data)
+
+
+def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:
+    axes, elements = data.get("axes", {}), data.get("elements")
+    if not isinstance(axes, dict) or not isinstance(elements, dict):
+        return dict(data)
+    axes, elements = dict(cast("dict[str, Any]", axes)), dict(cast("dict[str, Any]", elements))
+    for path, body in elements.items():
+        kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
+        missing = {name: old for name, old in DEFAULTS_OF_1.get(kind, {}).items() if name not in body} if isinstance(kind, str) else {}
+        for name, old in missing.items():
+            keys = [_key(axes, axis) for axis in old]
+            elements[path] = elements[path] | {name: keys[0] if name in ("axis", "slots") else keys}
+    return {**data, "axes": axes, "elements": elements}
+
+
+def _key(axes: dict[str, Any], axis: AxisData) -> str:
+    """The key under which the document has the axis; it is added where it is not there."""
+    name, k = axis["name"], 1
+    key = name
+    while key in axes and axes[key] != axis:
+        k += 1
+        key = f"{name}{k}"
+    axes[key] = dict(axis)
+    return key
