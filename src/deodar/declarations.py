@@ -7,19 +7,24 @@ import re
 from typing import Any, ClassVar, Literal
 
 Cost = Literal["live", "rebuild", "recompile"]
-Role = Literal["", "time constant", "time scale", "moment", "duration"]
-TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "moment", "duration")
-"""What a parameter in units of time is: see `Declaration`."""
+Role = Literal["", "time constant", "time scale", "rate", "speed", "moment", "duration"]
+TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "rate", "speed", "moment", "duration")
+"""What a parameter is whose unit has time in it: see `Declaration`."""
+
+LIMITING: tuple[Role, ...] = ("time constant", "time scale", "rate")
+"""Roles of parameters that limit the Euler step."""
 
 
 @dc.dataclass(frozen=True)
 class Declaration:
     """What is declared beside a parameter's type; use `Live`, `Rebuild` or `Recompile`.
 
-    A parameter whose unit begins with "time" states its `role`:
+    A parameter whose unit has time in it ("time", "1/time", "axis/time") states its `role`:
 
     * `time constant`: of a linear relaxation; a run refuses an Euler step that is longer.
-    * `time scale`: a time multiplied by another quantity, such as the input; the step is not compared with it.
+    * `time scale`: a time constant for an input of 1, such as tau of tau dphi/dt = f (x - phi); a run refuses a longer step.
+    * `rate`: the inverse of a time constant, such as r of dw/dt = r (x - w); a run refuses a step longer than 1/r.
+    * `speed`: a change per unit of time that does not relax, such as a velocity or the factor of an integrator; the step is not compared with it.
     * `moment`: a point of document time.
     * `duration`: a length of time, such as a delay, a period or an interval; it may be shorter than a step.
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
+import math
 import typing
 from collections.abc import Callable, Container, Iterator, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 
+from deodar.declarations import LIMITING, Role
 from deodar.errors import UnknownName
 from deodar.parameters import FrozenArray, Parameter, Part, parameter, parameters
 
@@ -95,15 +97,40 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
     return tuple(out)
 
 
-def time_constants(part: Any) -> Iterator[tuple[str, float]]:
-    """(path, value) of every parameter that declares itself a time constant, nested parts included."""
-    only = _may_hold_time_constants(type(part))
-    return ((path, value) for path, value, p in leaves(part, only=only) if p.role == "time constant" and isinstance(value, float))
+@dc.dataclass(frozen=True)
+class StepLimit:
+    """A parameter that limits the Euler step.
+
+    Attributes:
+        path: of the parameter inside its part.
+        value: its value.
+        role: which kind of limit: one of `LIMITING`.
+    """
+
+    path: str
+    value: float
+    role: Role
+
+    @property
+    def longest(self) -> float:
+        """The longest step: the time itself, or the inverse of a rate."""
+        if self.role != "rate":
+            return self.value
+        return 1 / self.value if self.value > 0 else math.inf
+
+    def __str__(self) -> str:
+        return f"1/{self.path} = {self.longest:g}" if self.role == "rate" else f"the {self.role} {self.path} = {self.value:g}"
+
+
+def step_limits(part: Any) -> Iterator[StepLimit]:
+    """Every parameter whose role limits the Euler step, nested parts included."""
+    only = _may_limit(type(part))
+    return (StepLimit(path, value, p.role) for path, value, p in leaves(part, only=only) if p.role in LIMITING and isinstance(value, float))
 
 
 @functools.cache
-def _may_hold_time_constants(cls: type[Part]) -> frozenset[str]:
-    return frozenset(p.name for p in parameters(cls) if p.role == "time constant" or p.form in ("part", "parts"))
+def _may_limit(cls: type[Part]) -> frozenset[str]:
+    return frozenset(p.name for p in parameters(cls) if p.role in LIMITING or p.form in ("part", "parts"))
 
 
 def resting(part: Any) -> frozenset[str]:

@@ -17,6 +17,7 @@ import functools
 import hashlib
 import math
 import numbers
+import re
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -186,8 +187,8 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
     default = field.default
     if default is dc.MISSING and field.default_factory is not dc.MISSING:
         default = field.default_factory()
-    if d.unit.startswith("time") != (d.role != ""):
-        raise TypeError(f"{cls.__name__}.{field.name}: a parameter in units of time, and no other, declares a role: {', '.join(TIME_ROLES)}")
+    if bool(re.search(r"\btime\b", d.unit)) != (d.role != ""):
+        raise TypeError(f"{cls.__name__}.{field.name}: a parameter whose unit has time in it, and no other, declares a role: {', '.join(TIME_ROLES)}")
     exact = d.exact or d.role == "moment"
     return Parameter(
         field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off, d.role, exact

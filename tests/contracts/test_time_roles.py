@@ -1,31 +1,54 @@
-"""Every parameter that is a time declares what kind of time it is, and no Euler step is longer than a time constant."""
+"""Every parameter whose unit has time in it declares its role, and no Euler step is longer than a role allows, at check and at run."""
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import dataclass
 from typing import Annotated
 
 import pytest
 
 import deodar as dd
+from deodar.couplings.adaptive_weights import AdaptiveWeights
+from deodar.couplings.hebbian import Hebbian
+from deodar.declarations import LIMITING, TIME_ROLES
+from deodar.elements.attractor import Attractor
+from deodar.elements.integrator import Integrator
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.errors import TimeError
-from deodar.leaves import replace, time_constants
-from deodar.parameters import TIME_ROLES, Live, Part, parameters
+from deodar.leaves import replace, step_limits
+from deodar.model.check import check
+from deodar.parameters import Live, Part, parameters
+from deodar.runtime.run import require_step
 from tests.contracts.build import KINDS, PARTS, around, example
+from tests.house.test_docstrings import entries, sections
 
-WITH_CONSTANTS = sorted(kind for kind in KINDS if any(True for _ in time_constants(example(kind))))
+LIMITED = {kind: {p.name: p.role for p in parameters(cls) if p.role in LIMITING} for kind, cls in KINDS.items()}
+LIMITS = [(kind, name) for kind, found in LIMITED.items() for name in found]
+SPEAKS_OF_TIME = re.compile(r"document's time|document time|\bspeed of\b|how fast")
+OTHER_TIMES = {("MovingGaussian", "path"), ("TurnLimit", "speed")}
+"""Parameters that hold times beside something else, or count speeds in a unit of the world."""
 
 
 @pytest.mark.parametrize("kind", sorted({**KINDS, **PARTS}))
-def test_a_parameter_in_units_of_time_declares_its_role(kind: str) -> None:
-    for p in parameters({**KINDS, **PARTS}[kind]):
-        if p.unit.startswith("time"):
-            assert p.role in TIME_ROLES, p.name
-        else:
-            assert p.role == "", p.name
+def test_a_parameter_whose_unit_has_time_in_it_declares_its_role(kind: str) -> None:
+    cls = {**KINDS, **PARTS}[kind]
+    for p in parameters(cls):
+        assert (p.role in TIME_ROLES) == bool(re.search(r"\btime\b", p.unit)), p.name
         if p.name.startswith("tau"):
             assert p.role in ("time constant", "time scale"), p.name
+        if p.name in ("rate", "decay"):
+            assert p.role in ("rate", "speed"), p.name
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_a_parameter_that_is_described_as_a_time_has_a_unit_of_time(kind: str) -> None:
+    """An element cannot forget it: its docstring speaks of time where its unit does not."""
+    words = entries(sections(KINDS[kind]).get("Parameters", ""))
+    for p in parameters(KINDS[kind]):
+        if SPEAKS_OF_TIME.search(words.get(p.name, "")) and p.form in ("number", "per_axis", "array"):
+            assert p.role or (kind, p.name) in OTHER_TIMES, f"{kind}.{p.name}: {words[p.name]}"
 
 
 def test_a_declaration_in_units_of_time_without_a_role_is_refused() -> None:
@@ -37,21 +60,63 @@ def test_a_declaration_in_units_of_time_without_a_role_is_refused() -> None:
         Slow()
 
 
-def test_the_kinds_with_time_constants_are_these() -> None:
-    assert WITH_CONSTANTS == ["Field", "MemoryTrace", "RateNode", "SoftWinnerTakeAll", "TransientDetector"]
+def test_what_limits_the_step_is_this() -> None:
+    assert {kind: found for kind, found in LIMITED.items() if found} == {
+        "AdaptiveWeights": {"rate": "rate"},
+        "Attractor": {"tau": "time scale"},
+        "Field": {"tau": "time constant"},
+        "GainAdaptation": {"tau": "time scale"},
+        "Hebbian": {"rate": "rate", "decay": "rate"},
+        "MemoryTrace": {"tau_build": "time constant", "tau_decay": "time constant"},
+        "RateNode": {"tau": "time constant"},
+        "SoftWinnerTakeAll": {"tau": "time constant", "tau_inhibition": "time constant"},
+        "TransientDetector": {"tau": "time constant"},
+    }
 
 
 @pytest.mark.parametrize("every", [1, 3])
-@pytest.mark.parametrize("kind", WITH_CONSTANTS)
-def test_a_step_longer_than_any_time_constant_is_refused(kind: str, every: int) -> None:
-    for path, value in time_constants(example(kind)):
-        element = replace(example(kind), path, value / 4)
-        model = around(element, every=every)
-        longest = min(tau for _, tau in time_constants(element)) / every
-        dd.Session(model, dt=longest)
-        short = replace(element, path, 0.99 * longest * every)
-        with pytest.raises(TimeError, match=rf"example: .*longer than the time constant {path} = "):
-            dd.simulate(around(short, every=every), 0, dt=longest)
+@pytest.mark.parametrize(("kind", "name"), LIMITS)
+def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(kind: str, name: str, every: int) -> None:
+    rate, step = LIMITED[kind][name] == "rate", 0.001
+    said = f"1/{name} = " if rate else f"the {LIMITED[kind][name]} {name} = "
+    for factor, fits in ((1.0, True), (0.99, False)):
+        longest = factor * step * every
+        model = around(replace(example(kind), name, 1 / longest if rate else longest), every=every)
+        model.describe(dt=step)
+        found = [p for p in check(model.document) if p.where == "example" and p.what.startswith("the step of ")]
+        if fits:
+            assert not found
+            require_step(model.document, step)
+            continue
+        [problem] = found
+        assert problem.severity == "problem" and said in problem.what and name in problem.fix
+        with pytest.raises(TimeError) as caught:
+            require_step(model.document, step)
+        assert caught.value.problems == (problem,)
+
+
+def test_a_run_and_a_session_refuse_every_role() -> None:
+    x = dd.Axis("x", 0, 10, samples=11)
+    for element, said in (
+        (Attractor("e", x, tau=0.5), r"e: the step of 1 ms is longer than the time scale tau = 0\.5\. Take dt <= 0\.5"),
+        (Hebbian([x], rate=4.0, name="e"), r"e: the step of 1 ms is longer than 1/rate = 0\.25\. Take dt <= 0\.25, .* a smaller rate"),
+    ):
+        model = dd.Model("m")
+        u = model.add(dd.Field("u", [x]))
+        handle = model.add(element)
+        u >> handle
+        if "post" in element.ports():
+            model.connect(u, handle["post"])
+        with pytest.raises(TimeError, match=said):
+            dd.simulate(model, 10, record="e.output")
+        with pytest.raises(TimeError, match=said):
+            dd.Session(model)
+
+
+def test_a_speed_and_a_rate_of_0_do_not_limit_the_step() -> None:
+    x = dd.Axis("x", 0, 10, samples=11)
+    assert list(step_limits(Integrator("i", [], rate=50.0))) == []
+    assert [limit.longest for limit in step_limits(Hebbian([x], rate=0.0, decay=0.0))] == [math.inf, math.inf]
 
 
 def test_a_memory_trace_is_guarded_in_both_directions() -> None:
@@ -60,6 +125,19 @@ def test_a_memory_trace_is_guarded_in_both_directions() -> None:
         model.add(MemoryTrace("p", **given))
         with pytest.raises(TimeError, match=rf"p: the step of 1 ms is longer than the time constant {next(iter(given))} = 0\.4"):
             dd.simulate(model, 10, record="p.output")
+
+
+def test_a_live_rate_that_the_step_is_too_long_for_is_refused() -> None:
+    x = dd.Axis("x", 0, 10, samples=11)
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [x]))
+    w = model.add(AdaptiveWeights([x], name="w"))
+    u >> w
+    model.connect(u, w["post"])
+    session = dd.Session(model)
+    with pytest.raises(TimeError, match=r"longer than 1/rate = 0\.5"):
+        session.set("w.rate", 2.0)
+    assert session.get("w.rate") == 0.1
 
 
 def test_a_live_change_below_the_step_is_refused_for_every_time_constant() -> None:

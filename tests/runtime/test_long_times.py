@@ -117,7 +117,7 @@ def test_times_that_are_not_told_apart_are_refused(precision: str) -> None:
         session.run(2.0**45)
 
 
-MULTIPLY_THE_STEP = {("Attractor", "fastest"), ("Integrator", "rate")}
+MULTIPLY_THE_STEP = {("Attractor", "fastest"), ("Integrator", "rate"), ("AdaptiveWeights", "rate"), ("Hebbian", "rate"), ("Hebbian", "decay")}
 """Rates that multiply the step and never the time that has passed: single precision is enough for them."""
 
 

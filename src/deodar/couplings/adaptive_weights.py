@@ -29,7 +29,7 @@ class AdaptiveWeights(Coupling):
 
     Parameters:
         axes: axes of the output; none: one number.
-        rate: speed of learning, per unit of the document's time and of the input; >= 0.
+        rate: speed of learning, per unit of the document's time and of the input; from 0 to the inverse of the step.
         initial: all weights at the start.
         gated: whether there is a port `gate`; without it learning never stops.
         apart: whether there is a port `pre`; without it the weights learn from the input.
@@ -50,7 +50,7 @@ class AdaptiveWeights(Coupling):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
-    rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.1
+    rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.1
     initial: Annotated[float, Live(meaning="all weights at the start")] = 0.0
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
     apart: Annotated[bool, Recompile(meaning="whether learning looks at a port of its own")] = False

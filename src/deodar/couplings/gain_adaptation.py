@@ -25,7 +25,8 @@ class GainAdaptation(Coupling):
         tau dlambda(x)/dt = gate error f(x)
 
     Parameters:
-        tau: time scale: document time times error times input, over a change of the gains; > 0.
+        tau: time scale: document time times error times input, over a change of the gains; > 0, and no shorter
+            than the step.
         initial: gains at the start, the same everywhere.
         gated: whether there is a port `gate`; without it the time window is always open.
         start: gains at the start, in place of `initial`: what was learned before.

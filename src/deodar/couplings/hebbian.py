@@ -41,8 +41,9 @@ class Hebbian(Coupling):
     Parameters:
         axes: axes of the output; none: one number.
         rule: outstar, association, hebb, instar or oja.
-        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, as the rule says); >= 0.
-        decay: speed at which weights fade that are in use, per unit of the document's time; >= 0.
+        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, as the rule says); from 0 to the inverse
+            of the step.
+        decay: speed at which weights fade that are in use, per unit of the document's time; from 0 to the inverse of the step.
         saturation: upper bound of weights that change; 0: none.
         threshold: what input and post must exceed to count; >= 0.
         gated: whether there is a port `gate`; without it learning never waits.
@@ -72,8 +73,8 @@ class Hebbian(Coupling):
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
     rule: Annotated[str, Recompile(choices=plasticity.RULES, meaning="how weights change")] = "outstar"
-    rate: Annotated[float, Live(lower=0, meaning="speed of learning")] = 0.01
-    decay: Annotated[float, Live(lower=0, meaning="speed at which weights in use fade")] = 0.0
+    rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.01
+    decay: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed at which weights in use fade")] = 0.0
     saturation: Annotated[float, Live(lower=0, meaning="upper bound of weights that change; 0: none")] = 0.0
     threshold: Annotated[float, Live(lower=0, meaning="what input and post must exceed to count")] = 0.5
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False

@@ -30,7 +30,8 @@ class Attractor(Element):
 
     Parameters:
         axis: the dimension over which the input is defined.
-        tau: time scale: document time times the integral of the input, so that tau / integral f is the relaxation time.
+        tau: time scale: document time times the integral of the input, so that tau / integral f is the relaxation time;
+            no shorter than the step.
         initial: phi at the start.
         gain: motor units per axis unit.
         offset: motor value at axis value 0.
@@ -52,7 +53,7 @@ class Attractor(Element):
     initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
     gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
     offset: Annotated[float, Live("motor", meaning="motor value at axis value 0")] = 0.0
-    fastest: Annotated[float, Live("motor/time", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit")] = 0.0
+    fastest: Annotated[float, Live("motor/time", role="speed", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit")] = 0.0
 
     stateful: ClassVar[bool] = True
 

@@ -41,7 +41,7 @@ class Integrator(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the variable")] = ()
-    rate: Annotated[float, Live("1/time", meaning="factor of the input")] = 0.1
+    rate: Annotated[float, Live("1/time", role="speed", meaning="factor of the input")] = 0.1
     initial: Annotated[float, Live(meaning="value at the start")] = 0.0
     start: Annotated[ArrayLike | None, Rebuild(meaning="value at the start, for each sample")] = None
 

@@ -16,8 +16,8 @@ from deodar.compiler.executable import Executable
 from deodar.compiler.moment import packed
 from deodar.compiler.program import Port
 from deodar.errors import NotFinite, TimeError
-from deodar.leaves import time_constants
 from deodar.model.document import Document
+from deodar.model.limits import too_long
 from deodar.parameters import real, show
 from deodar.runtime.clock import Clock
 from deodar.runtime.exchange import Exchange, Moment
@@ -339,7 +339,7 @@ class Run:
 
 
 def require_step(doc: Document, dt: float) -> None:
-    """Refuse a step longer than a time constant: the Euler method would not follow, or diverge."""
+    """Refuse a step longer than an element allows: the Euler method would not follow, or diverge."""
     if not 0 < (real(dt) or 0) < math.inf:
         raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
     if abs(doc.t0) / dt > MOST_STEPS:
@@ -349,13 +349,8 @@ def require_step(doc: Document, dt: float) -> None:
             fix="Start at a time nearer to 0, or take a larger dt",
         )
     for e in doc.entries:
-        for path, tau in time_constants(e.element):
-            if dt * e.every > tau * (1 + 1e-9):
-                raise TimeError(
-                    f"the step of {dt * e.every:g} {doc.time_unit} is longer than the time constant {path} = {tau:g}",
-                    where=e.path,
-                    fix=f"Take dt <= {tau / e.every:g}, better a tenth of it, or a larger {path}",
-                )
+        for problem in too_long(e.path, e.element, dt, e.every, doc.time_unit):
+            raise TimeError([problem])
 
 
 def require_duration(duration: Any, what: str) -> float:

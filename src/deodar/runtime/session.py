@@ -16,7 +16,7 @@ from deodar.compiler.plan import ways_of
 from deodar.compiler.program import Port
 from deodar.compiler.ways import widths
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
-from deodar.leaves import get, time_constants
+from deodar.leaves import get, step_limits
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -358,8 +358,8 @@ class Session:
         run = self._run
         changed = changed_leaves(run.doc, doc)
         by = doc.by_id()
-        if changed is None or any(path in dict(time_constants(by[i].element)) for (i, path), *_ in changed):  # other leaves change no limit
-            self.require(doc)
+        if changed is None or any(limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)):
+            self.require(doc)  # other leaves change no limit of the step
         if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
         states = rows(run.program, run.state)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,7 +12,8 @@ from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.moving_gaussian import MovingGaussian
 from deodar.elements.time_series import TimeSeries
 from deodar.errors import Problem
-from deodar.leaves import per_axis
+from deodar.leaves import per_axis, step_limits
+from deodar.model.limits import too_long
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.windows import Window
@@ -28,24 +30,22 @@ def check(wiring: Wiring) -> Iterator[Problem]:
         step = wiring.doc.step * n.every
         yield from _constants(wiring, n, step)
         yield from _windows(wiring, n, step)
-        yield from _learning(n, step)
+        yield from _learning(n)
         yield from _series(n, step)
 
 
 def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
-    unit, stated = wiring.doc.time_unit, "" if wiring.doc.dt is not None else " (the default; the document states none)"
+    unit, doc = wiring.doc.time_unit, wiring.doc
+    for problem in too_long(n.path, n.element, doc.step, n.every, unit):
+        stated = "" if doc.dt is not None else f"The document states no dt, so it is {doc.step:g} {unit}. "
+        yield dc.replace(problem, fix=f"{stated}{problem.fix}")
+    for limit in step_limits(n.element):
+        if limit.role == "time constant" and COARSE * limit.value < step < limit.value * (1 - 1e-9):
+            what = f"the step of {step:g} {unit} is long for {limit.path} = {limit.value:g}: the Euler method is inaccurate from {COARSE:g} of it"
+            yield warning(n, what, f"Write dt={limit.value / n.every / 10:g}, a tenth of {limit.path}")
     for p in parameters(type(n.element)):
         value: Any = getattr(n.element, p.name)
-        if p.unit != "time" or p.form != "number":
-            continue
-        if p.name.startswith("tau"):
-            if step > value * (1 + 1e-9):
-                what = f"{p.name} = {value:g} {unit} is shorter than the step of {step:g} {unit}{stated}: the equation cannot be followed"
-                yield Problem(n.path, what, f"Write dt={value / n.every / 10:g} in the document, or a larger {p.name}; both are in {unit}")
-            elif COARSE * value < step < value * (1 - 1e-9):
-                what = f"the step of {step:g} {unit} is long for {p.name} = {value:g}: the Euler method is inaccurate from {COARSE:g} of it"
-                yield warning(n, what, f"Write dt={value / n.every / 10:g}, a tenth of {p.name}")
-        elif p.name in ("delay", "interval") and value < step * (1 - 1e-9):
+        if p.role == "duration" and p.name in ("delay", "interval") and value < step * (1 - 1e-9):
             what = f"{p.name} = {value:g} {unit} is shorter than the step of {step:g}, and counts as one step"
             yield warning(n, what, f"Give it in {unit}, or take a smaller step")
     if isinstance(n.element, MemoryTrace) and n.element.tau_build > n.element.tau_decay:
@@ -66,16 +66,13 @@ def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
             yield warning(n, what, f"Give start and stop in {wiring.doc.time_unit}, or take a smaller step")
 
 
-def _learning(n: Node, step: float) -> Iterator[Problem]:
+def _learning(n: Node) -> Iterator[Problem]:
     e = n.element
     if not isinstance(e, (Hebbian, AdaptiveWeights)):
         return
     if e.rate == 0 and e.start is None and e.initial == 0:
         what = "its rate is 0 and its weights begin at 0: it learns nothing, and gives 0"
         yield warning(n, what, "Give it a rate, such as 0.01, or weights: start=...")
-    elif e.rate * step > 1:
-        what = f"with a rate of {e.rate:g} its weights overshoot: in one step of {step:g} they move by more than the whole way"
-        yield warning(n, what, f"Take a rate below {1 / step:g}, better a tenth of it")
     if isinstance(e, Hebbian) and 0 < e.saturation < e.initial and e.start is None:
         what = f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first thing learned makes them smaller"
         yield warning(n, what, f"Write initial={e.saturation:g} or less, or a larger saturation")

@@ -1,0 +1,26 @@
+"""The longest Euler step that an element allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from deodar.element import Element
+from deodar.errors import Problem
+from deodar.leaves import step_limits
+
+
+def too_long(where: str, element: Element, dt: float, every: int, unit: str) -> Iterator[Problem]:
+    """What a step is too long for: the same sentence for `check` and for a run.
+
+    Args:
+        where: path of the element.
+        element: the element.
+        dt: step of the model.
+        every: step of the element as a multiple of it.
+        unit: unit of time of the document.
+    """
+    for limit in step_limits(element):
+        if dt * every > limit.longest * (1 + 1e-9):
+            other = "smaller" if limit.role == "rate" else "larger"
+            what = f"the step of {dt * every:g} {unit} is longer than {limit}"
+            yield Problem(where, what, f"Take dt <= {limit.longest / every:g}, better a tenth of it, or a {other} {limit.path}")
