@@ -86,15 +86,16 @@ class TimeError(DeodarError):
 
 
 class NotFinite(DeodarError):
-    """Raised at the end of a chunk in which a value became infinite or undefined; names the step, and the elements in `paths`."""
+    """Raised at the end of a chunk in which a value became infinite or undefined; names the step (`step`), and the elements in `paths`."""
 
-    def __init__(self, what: str | Sequence[Problem], paths: Sequence[str] = (), fix: str = "") -> None:
+    def __init__(self, what: str | Sequence[Problem], paths: Sequence[str] = (), fix: str = "", step: int = 0) -> None:
         self.paths = tuple(paths)
+        self.step = step
         super().__init__(what, fix=fix)
 
 
 class RunWarning(UserWarning):
-    """Warns about a run: some of its copies diverged, or it has so many steps that it takes long."""
+    """Warns that copies or trials of a run diverged, or that a run has at least 10^9 steps."""
 
 
 class TooLarge(DeodarError):

@@ -38,7 +38,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if the trials were stopped."""
+    """Status 1 if the trials were stopped, or if all diverged."""
     import dataclasses as dc
 
     from deodar.errors import OutputError
@@ -69,7 +69,7 @@ def run(args: argparse.Namespace) -> int:
         print(f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Go on with: {' '.join(again)}", file=sys.stderr)
         return 1
     _tell(args, out, data)
-    return 0
+    return 1 if _diverged(data) == data.sizes["trial"] else 0
 
 
 def _check(args: argparse.Namespace, bench: Any) -> int:
@@ -85,13 +85,21 @@ def _check(args: argparse.Namespace, bench: Any) -> int:
 def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
     names = sorted(p.name for p in out.iterdir())
     outcomes = {str(name): int((data["outcome"] == name).sum()) for name in sorted(set(data["outcome"].values.tolist()))}
+    if lost := _diverged(data):
+        print(f"deodar experiment: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
-        print(json.dumps({"out": str(out), "trials": data.sizes["trial"], "outcomes": outcomes, "files": names}, indent=2, ensure_ascii=False))
+        told = {"out": str(out), "trials": data.sizes["trial"], "outcomes": outcomes, "diverged": lost, "files": names}
+        print(json.dumps(told, indent=2, ensure_ascii=False))
         return
     for line in _cells(data):
         print(line)
     print(f"{data.sizes['trial']} trials: {', '.join(f'{name} {n}' for name, n in outcomes.items())}.")
     print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
+
+
+def _diverged(data: xarray.Dataset) -> int:
+    """Trials that diverged."""
+    return int((data["diverged"] != "").sum()) if "diverged" in data.attrs else 0
 
 
 def _cells(data: xarray.Dataset) -> Iterator[str]:
@@ -108,6 +116,9 @@ def _cells(data: xarray.Dataset) -> Iterator[str]:
         shares = ", ".join(f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended)))
         where = ", ".join(f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in zip(factors, cell, strict=True))
         after = "" if unit in ("abstract", "") or unit.startswith("1 =") else f" {unit}"
-        yield f"  {where}: {len(ended)} trials, {shares}, median {np.median(data['duration'].values[of]):g}{after}"
+        durations = data["duration"].values[of]
+        known = durations[~np.isnan(durations)]
+        middle = f"median {np.median(known):g}{after}" if known.size else "no duration"
+        yield f"  {where}: {len(ended)} trials, {shares}, {middle}"
     if len(cells) > MOST_CELLS:
         yield f"  ... and {len(cells) - MOST_CELLS} more combinations"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,12 +12,12 @@ import numpy as np
 
 from deodar.compiler.executable import RARELY, Batch, Executable, executable
 from deodar.compiler.plan import Leaf
-from deodar.errors import ParameterError, TimeError, WorldError
+from deodar.errors import NotFinite, ParameterError, RunWarning, TimeError, WorldError
 from deodar.experiments.course import Course
 from deodar.experiments.events import Event
 from deodar.experiments.measures import Measure
 from deodar.experiments.reader import Place, with_readers
-from deodar.experiments.tally import Tally
+from deodar.experiments.tally import DIVERGED, Tally
 from deodar.experiments.view import View
 from deodar.model import find
 from deodar.model.document import Document
@@ -53,6 +54,7 @@ def run_batch(
     between: Callable[[int], None] | None = None,
     values: Mapping[str, Sequence[float]] | None = None,
     measures: Sequence[Measure] = (),
+    tolerant: bool = False,
 ) -> list[Course]:
     """Run trials all at once; the course of each is that of `run` but for rounding.
 
@@ -76,6 +78,14 @@ def run_batch(
         between: told after each call of the program how many trials still run.
         values: for parameter paths the value that each trial has; not together with a world.
         measures: what is measured.
+        tolerant: return the courses although all trials diverge, and do not warn.
+
+    Returns:
+        The course of each trial. One that diverges before it ends has the outcome `diverged` and an `error` with the reason; its values are NaN,
+        its events and measures None. The others are not affected. A `RunWarning` counts those that diverged.
+
+    Raises:
+        NotFinite: all trials diverge.
     """
     doc = require_model(model).document
     step = doc.step if dt is None else dt
@@ -108,9 +118,10 @@ def run_batch(
         ticks = [min(first + n * gap, steps) for n in range(arrays[0].shape[1])]
         new = [doc.t0 + tick * float(step) for tick in ticks]
         times.extend(new)
-        by = dict(zip(order, arrays, strict=True))
+        good = flock.good(np.asarray(ticks))
+        by = {p: _blank(a, good) for p, a in zip(order, arrays, strict=True)}
         seen = {v: v.given(by[p]) if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
-        counts = tally.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps)
+        counts = tally.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps, good)
         looks[flock.rows] += counts
         for k, n in enumerate(counts):
             if watched and n:
@@ -133,9 +144,22 @@ def run_batch(
     out: list[Course] = []
     for row, n in enumerate(looks):
         found = np.asarray(times[:n])
+        error = flock.errors[row] if tally.outcome[row] == DIVERGED else None
         whole_ = {name: np.concatenate([part[i] for part in kept[row]]) for i, name in enumerate(watch)}
-        out.append(Course(found, whole_, tally.events_of(row), tally.outcome[row], tally.measures_of(row), found))
+        whole_ = whole_ if error is None else {name: np.full_like(values, np.nan) for name, values in whole_.items()}
+        out.append(Course(found, whole_, tally.events_of(row), tally.outcome[row], tally.measures_of(row), found, error=error))
+    lost = [course.error for course in out if course.error is not None]
+    if lost and not tolerant:
+        if len(lost) == len(out):
+            raise lost[0]
+        warnings.warn(f"{len(lost)} of {len(out)} trials diverged, the first: {lost[0].problems[0].what}", RunWarning, stacklevel=2)
     return out
+
+
+def _blank(values: np.ndarray, good: np.ndarray) -> np.ndarray:
+    """What looks saw, (copies, looks, ...), with 0 for the looks of a copy from number `good` on: conditions need not know values like NaN."""
+    bad = np.arange(values.shape[1]) >= good[:, None]
+    return np.where(bad.reshape(*bad.shape, *[1] * (values.ndim - 2)), 0, values) if bad.any() else values
 
 
 def _place(doc: Document, view: View) -> Place:
@@ -157,6 +181,7 @@ class _Flock:
     Attributes:
         rows: for each copy the number of its trial among `trials`.
         batch: the copies, as they run.
+        errors: for the row of each copy that diverged the reason; it may have been one of a trial that had ended.
     """
 
     model: Model
@@ -171,10 +196,19 @@ class _Flock:
 
     def __post_init__(self) -> None:
         self.rows: list[int] = list(range(len(self.trials)))
+        self.errors: dict[int, NotFinite] = {}
         self._cells = memory.copy_bytes(resolve(self.doc)[0], "float32") // 4
         self.batch = self._begin(self.rows)
         if self.leaves:
             self.batch.state, self.batch.keys = self._start(self.batch.program, self.batch.values)
+
+    def good(self, ticks: np.ndarray) -> np.ndarray:
+        """For each copy how many of these ticks, in ascending order, come before it diverged."""
+        out = np.full(len(self.rows), len(ticks))
+        for (k, *_), error in self.batch.lost.items():
+            self.errors[self.rows[k]] = error
+            out[k] = np.searchsorted(ticks, error.step)
+        return out
 
     def shrink(self, running: Sequence[int], left: int) -> None:
         """Halve the batch as long as those that run find room, if that pays in the steps that are left; some that have ended stay, to fill it."""
@@ -194,6 +228,7 @@ class _Flock:
         if self.leaves:
             fewer.keys = jax.tree.map(lambda a: np.asarray(a)[at], self.batch.keys)
         fewer.clock = self.batch.clock
+        fewer.lost = {(n,): self.batch.lost[k,] for n, k in enumerate(keep) if (k,) in self.batch.lost}
         self.rows, self.batch = [self.rows[k] for k in keep], fewer
 
     def _begin(self, rows: Sequence[int]) -> Run:
@@ -201,9 +236,12 @@ class _Flock:
         copies = Batch(len(rows), None) if self.leaves else Batch(None, len(rows))
         program = executable(self.model, self.doc, self.precision, copies, self.leaves, body=embodied(self.doc, self.world))
         trials = [self.trials[r] for r in rows]
-        if not self.leaves:
-            return Run(program, self.doc, self.dt, self.seed, trials, self.world)
-        return Run(program, self.doc, self.dt, self.seed, trials[:1], None, [values[rows] for values in self.swept])
+        if self.leaves:
+            run = Run(program, self.doc, self.dt, self.seed, trials[:1], None, [values[rows] for values in self.swept])
+        else:
+            run = Run(program, self.doc, self.dt, self.seed, trials, self.world)
+        run.tolerated = len(rows)
+        return run
 
     def _start(self, program: Executable, values: Any) -> tuple[Any, Any]:
         """State and noise keys at the start of points that are trials of their own: points of a sweep share the noise of one."""

@@ -19,7 +19,7 @@ from deodar.experiments.levels import swept
 from deodar.experiments.pushes import with_pushes
 from deodar.experiments.rows import KEY, Row
 from deodar.experiments.run import run
-from deodar.experiments.tally import TIME
+from deodar.experiments.tally import DIVERGED, TIME
 from deodar.experiments.writing import write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load
@@ -118,9 +118,11 @@ class Bench:
             awaited = [c.name for c in self.experiment.conditions if c.ends and course.events[c.name] is None]
             row: Row = {KEY: f"{k:06}", "trial": k, "levels": levels, "outcome": course.outcome}
             row |= {"awaited": ", ".join(awaited) if course.outcome == TIME else "", "duration": course.duration}
+            row |= {} if course.error is None else {"duration": None, DIVERGED: course.error.problems[0].what}
             row |= {"events": dict(course.events), "measures": dict(course.measures)}
             if records is not None:
                 about = {"experiment": self.experiment.name, "trial": k, "seed": self.experiment.seed, "levels": levels, "outcome": course.outcome}
+                about |= {DIVERGED: row[DIVERGED]} if DIVERGED in row else {}
                 write_records(records, row[KEY], model.document, self.experiment.record, course, about)
             out.append(row)
         return out
@@ -129,7 +131,7 @@ class Bench:
         e = self.experiment
         watch = e.record if keep else ()
         given: dict[str, Any] = {"seed": e.seed, "every": e.every, "dt": e.dt, "precision": e.precision, "measures": e.measures, "watch": watch}
-        given |= {"events": e.conditions, "world": self.world}
+        given |= {"events": e.conditions, "world": self.world, "tolerant": True}
         if not self.batched:
             out: list[tuple[int, Course, Model]] = []
             for k in trials:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from deodar.errors import NotFinite
 from deodar.experiments.stage import Kept
 from deodar.experiments.tally import TIME as TIME
 
@@ -21,10 +22,11 @@ class Course:
         times: document time of each look, the first at the start.
         values: for each thing that was watched its values, looks first; those at which recording was stopped are left out.
         events: document time of each event; None: it did not happen.
-        outcome: the event that ended the trial, or `time`.
+        outcome: the event that ended the trial, `time`, or `diverged`.
         measures: each measure; None: what it waits for did not happen.
         recorded: document time of each look that `values` holds.
         snapshots: what actions kept, by their labels: document time, and for each port its values.
+        error: of a trial that diverged, why: its values are NaN, its events and measures None; none: it did not.
     """
 
     times: np.ndarray
@@ -34,8 +36,9 @@ class Course:
     measures: Mapping[str, Value] = field(default_factory=dict[str, Value])
     recorded: np.ndarray = field(default_factory=lambda: np.zeros(0))
     snapshots: Mapping[str, Kept] = field(default_factory=dict[str, Kept])
+    error: NotFinite | None = None
 
     @property
     def duration(self) -> float:
         """Document time from the first look to the last."""
-        return float(self.times[-1] - self.times[0])
+        return float(self.times[-1] - self.times[0]) if len(self.times) else 0.0

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 import json
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, cast
 
-from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
+from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, RunWarning, did_you_mean
 from deodar.experiments import actions as done
 from deodar.experiments import events as happens
 from deodar.experiments.actions import Action
@@ -17,6 +18,7 @@ from deodar.experiments.events import Event
 from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.plain import from_data, schema, to_data
+from deodar.experiments.tally import DIVERGED
 from deodar.model import files, output
 from deodar.model.model import Model, save
 from deodar.parameters import Part, Recompile, show
@@ -39,7 +41,7 @@ KINDS: Mapping[str, Mapping[str, type[Part]]] = {
 }
 """What may stand under each key of a file."""
 
-OWN = ("trial", "key", "outcome", "awaited", "duration", "time")
+OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 """Names of columns that every table has."""
 
 
@@ -147,6 +149,8 @@ class Experiment(Part):
 
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: did not happen) and measures as variables.
+            A trial that diverges has the outcome `diverged`, and NaN for every number; the variable `diverged` gives its reason, the attribute
+            `diverged` counts such trials, and a `RunWarning` repeats it. The rows of the other trials are not affected.
 
         Raises:
             OutputExists: the folder holds another experiment, or something else.
@@ -154,7 +158,10 @@ class Experiment(Part):
         """
         from deodar.experiments.results import carry
 
-        return carry(self.bench(trust), out, workers, progress)
+        data = carry(self.bench(trust), out, workers, progress)
+        if DIVERGED in data.attrs:
+            warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
+        return data
 
     # -------------------------------------------------------------------------------- files
 

@@ -19,6 +19,7 @@ from deodar.experiments import parcel
 from deodar.experiments.bench import Bench
 from deodar.experiments.jobs import Job, Standing, carry_out
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
+from deodar.experiments.tally import DIVERGED
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
@@ -108,7 +109,8 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
     """Rows as a Dataset over `trial`.
 
     Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time of each condition and the measures
-    are variables. What did not happen is NaN. Measures of several numbers have a dimension of their own.
+    are variables. What did not happen is NaN. Measures of several numbers have a dimension of their own. Where trials diverged, the variable
+    `diverged` gives the reason of each (empty: it did not), and the attribute of this name counts them.
     """
     import xarray
 
@@ -119,6 +121,13 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
     for name in about.get("factors", {}):
         coords[name] = ("trial", _column([r["levels"][name] for r in rows]))
     out: dict[str, Any] = {key: ("trial", np.asarray([r[key] for r in rows], dtype=str)) for key in ("outcome", "awaited")}
+    reasons = [r.get(DIVERGED, "") for r in rows]
+    attributes = {provenance.KEY: json.dumps(about, ensure_ascii=False), "title": about["name"]}
+    if any(reasons):
+        out[DIVERGED] = ("trial", np.asarray(reasons, dtype=str))
+        bad = [text for text in reasons if text]
+        where = f"the variable {DIVERGED!r} gives the reasons, the first is: {bad[0]}"
+        attributes[DIVERGED] = f"{len(bad)} of {len(rows)} trials diverged; {where}"
     out["duration"] = ("trial", np.asarray([r["duration"] for r in rows], float), unit)
     for name in conditions:
         out[name] = ("trial", _column([_or_nan(r["events"][name]) for r in rows]), {**unit, "long_name": f"time of {name}"})
@@ -130,7 +139,7 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
             out[name] = (("trial", f"{name}.axis"), values)
         else:
             out[name] = ("trial", np.asarray([_or_nan(v) for v in found], float))
-    return xarray.Dataset(out, coords, {provenance.KEY: json.dumps(about, ensure_ascii=False), "title": about["name"]})
+    return xarray.Dataset(out, coords, attributes)
 
 
 def table(data: xarray.Dataset) -> str:

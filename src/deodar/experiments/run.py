@@ -9,7 +9,7 @@ import numpy as np
 
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.errors import ParameterError, TimeError, UnknownName, did_you_mean
+from deodar.errors import NotFinite, ParameterError, TimeError, UnknownName, did_you_mean
 from deodar.experiments.actions import Action, Record, Reset, arena, targets
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.course import Course
@@ -17,7 +17,7 @@ from deodar.experiments.events import Event
 from deodar.experiments.measures import Measure
 from deodar.experiments.pushes import with_pushes
 from deodar.experiments.stage import Stage
-from deodar.experiments.tally import Tally
+from deodar.experiments.tally import DIVERGED, Tally
 from deodar.experiments.view import View
 from deodar.model import find
 from deodar.model.model import Model
@@ -43,6 +43,7 @@ def run(
     precision: str = "float32",
     between: Callable[[], None] | None = None,
     measures: Sequence[Measure] = (),
+    tolerant: bool = False,
 ) -> Course:
     """Run one trial and return its course.
 
@@ -63,6 +64,10 @@ def run(
         precision: float32 or float64.
         between: called after each look; what it raises ends the trial.
         measures: what is measured.
+        tolerant: return a trial that diverges, with the outcome `diverged`, its `error`, and NaN as its values.
+
+    Raises:
+        NotFinite: the trial diverges, unless `tolerant`.
     """
     require_actions(actions, world)
     tally = Tally(events, measures, 1)
@@ -87,6 +92,7 @@ def run(
             stage.later(moment, lambda action=action: action.apply(stage))
     eye = _Eye(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
+    lost: NotFinite | None = None
 
     def keep(values: dict[str, np.ndarray]) -> None:
         times.append(session.time)
@@ -116,10 +122,17 @@ def run(
             if tally.outcome[0]:
                 break
             ahead, due = gap - session.tick % gap, stage.until()
-            session.step(min([ahead, steps - session.tick, *([] if due is None else [due])]))
+            try:
+                session.step(min([ahead, steps - session.tick, *([] if due is None else [due])]))
+            except NotFinite as error:
+                if not tolerant:
+                    raise
+                lost, tally.outcome[0] = error, DIVERGED
+                kept = [{name: np.full_like(a, np.nan) for name, a in values.items()} for values in kept]
+                break
     stacked = {name: np.stack([v[name] for v in kept]) if kept else np.zeros((0, *values[name].shape)) for name in watch}
     events_, measures_ = tally.events_of(0), tally.measures_of(0)
-    return Course(np.asarray(times), stacked, events_, tally.outcome[0], measures_, np.asarray(recorded), stage.snapshots)
+    return Course(np.asarray(times), stacked, events_, tally.outcome[0], measures_, np.asarray(recorded), stage.snapshots, lost)
 
 
 class _Eye:

@@ -14,6 +14,9 @@ from deodar.experiments.view import PLACE, View
 TIME = "time"
 """Outcome of a trial that was ended by nothing but its limit."""
 
+DIVERGED = "diverged"
+"""Outcome of a trial in which a value became infinite or undefined."""
+
 
 class Tally:
     """What looks at trials have shown so far.
@@ -36,7 +39,9 @@ class Tally:
         self._been = np.zeros((len(events), trials), bool)
         self._first: dict[View, np.ndarray] = {}
 
-    def take(self, rows: Sequence[int], times: np.ndarray, seen: Mapping[View, np.ndarray], last: bool) -> np.ndarray:
+    def take(
+        self, rows: Sequence[int], times: np.ndarray, seen: Mapping[View, np.ndarray], last: bool, good: np.ndarray | None = None
+    ) -> np.ndarray:
         """Take down looks at some trials: `times` of the looks, and what they saw, (trials, looks, ...).
 
         Args:
@@ -44,6 +49,7 @@ class Tally:
             times: document time of each look.
             seen: for each view what the looks saw.
             last: whether the limit is reached at the last of these looks.
+            good: for each of these trials how many of the looks come before it diverges; none: all do. One that has not ended by then diverges.
 
         Returns:
             For each of these trials how many of the looks belong to it: all while it runs, none when it had ended before.
@@ -53,10 +59,12 @@ class Tally:
             self._first = {view: np.array(values[:, :1]) for view, values in seen.items()}
         looks = Looks(times, seen, {view: first[at] for view, first in self._first.items()})
         running = np.array([not self.outcome[r] for r in rows])
+        valid = np.full(len(rows), n) if good is None else good
+        before_it = np.arange(n) < valid[:, None]
         hits = np.full((len(self.events), len(rows)), n)
         for k in self._order:
             event = self.events[k]
-            holds = np.broadcast_to(np.asarray(event.holds(looks)), (len(rows), n))
+            holds = np.broadcast_to(np.asarray(event.holds(looks)), (len(rows), n)) & before_it
             if event.turns:
                 before = self._been[k, at][:, None] | np.logical_or.accumulate(~holds, axis=1)
                 self._been[k, at] = before[:, -1]
@@ -72,9 +80,11 @@ class Tally:
             if self.events[k].ends:
                 self._end(rows, running & (hits[k] < n) & (hits[k] <= ends), self.events[k].name)
                 ends = np.minimum(ends, hits[k])
+        self._end(rows, running & (ends == n) & (valid < n), DIVERGED)
         if last:
-            self._end(rows, running & (ends == n), TIME)
+            self._end(rows, running & (ends == n) & (valid == n), TIME)
             ends = np.minimum(ends, n - 1)
+        ends = np.minimum(ends, np.where(valid < n, valid - 1, n))
         happened = running & (hits <= ends) & (hits < n)
         for k in range(len(self.events)):
             self.found[k, at[happened[k]]] = times[hits[k, happened[k]]]
@@ -93,11 +103,15 @@ class Tally:
                 self.measured[m][row] = np.array(seen[measure.view][0, -1])
 
     def events_of(self, row: int) -> dict[str, float | None]:
-        """Document time of each event of a trial; None: it did not happen."""
+        """Document time of each event of a trial; None: it did not happen, or the trial diverged."""
+        if self.outcome[row] == DIVERGED:
+            return {e.name: None for e in self.events}
         return {e.name: None if np.isnan(t) else float(t) for e, t in zip(self.events, self.found[:, row], strict=True)}
 
     def measures_of(self, row: int) -> dict[str, float | list[float] | None]:
-        """Each measure of a trial; None: it was not taken, or there was no peak whose position could be measured."""
+        """Each measure of a trial; None: it was not taken, there was no peak whose position could be measured, or the trial diverged."""
+        if self.outcome[row] == DIVERGED:
+            return {m.name: None for m in self.measures}
         found = [values[row] for values in self.measured]
         absent = [v is None or (m.reduce == PLACE and bool(np.isnan(v).any())) for m, v in zip(self.measures, found, strict=True)]
         return {m.name: None if no or v is None else v.astype(float).tolist() for m, v, no in zip(self.measures, found, absent, strict=True)}
@@ -110,9 +124,10 @@ class Tally:
 def require(events: Sequence[Event], measures: Sequence[Measure] = ()) -> None:
     """Refuse events and measures that rows could not tell apart, and those made of events that are not there."""
     names = [*(e.name for e in events), *(m.name for m in measures)]
-    twice = next((n for n in names if names.count(n) > 1 or n == TIME), None)
+    twice = next((n for n in names if names.count(n) > 1 or n in (TIME, DIVERGED)), None)
     if twice is not None:
-        raise ParameterError("is the name of two events or measures, or of the limit", where=twice, fix="Give each a name of its own")
+        what = "is the name of two events or measures" if names.count(twice) > 1 else "is the name of an outcome that every experiment has"
+        raise ParameterError(what, where=twice, fix="Give each a name of its own")
     known = [e.name for e in events]
     for name, others in [*((e.name, e.others) for e in events), *((m.name, (m.when,) if m.when else ()) for m in measures)]:
         for other in others:

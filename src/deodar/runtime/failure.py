@@ -41,4 +41,5 @@ def not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
         f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt {clock.dt:g})",
         names,
         fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
+        step=clock.tick,
     )

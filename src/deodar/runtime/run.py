@@ -46,8 +46,8 @@ class Run:
         self.exchange = Exchange(doc, world)
         self.load(program, doc)
         self.pace = 0.0
-        self.tolerant = False
-        """Whether copies of a batch that diverge go into `lost`, while others are left, instead of being raised."""
+        self.tolerated = 0
+        """Copies of a batch that may diverge: they go into `lost`. One more raises the first error; of a single run none is tolerated."""
         self.lost: dict[tuple[int, ...], NotFinite] = {}
         self.reset()
 
@@ -149,7 +149,7 @@ class Run:
                 self._lose(self._diverged(before, used, self._new(~good)))
             else:
                 self._report(before, used)
-        self._require_finite_world(state, used)
+        self._require_finite_world(before, state, used)
         self.state = state
         self.clock = self.clock.after(used)
         seconds = time.perf_counter() - began
@@ -229,16 +229,18 @@ class Run:
     # -------------------------------------------------------------------------------- values that are not finite
 
     def _keeps_others(self) -> bool:
-        return self.tolerant and bool(self.program.batch.shape)
+        return self.tolerated > 0 and bool(self.program.batch.shape)
 
-    def _new(self, bad: np.ndarray) -> list[tuple[int, ...]]:
-        """Places of the copies that are bad and not lost yet."""
-        return [place for place in map(tuple, np.argwhere(bad).tolist()) if place not in self.lost]
+    def _new(self, bad: np.ndarray, after: float = math.inf) -> list[tuple[int, ...]]:
+        """Places of the copies that are bad and not lost yet, or lost in a step later than `after`."""
+        return [place for place in map(tuple, np.argwhere(bad).tolist()) if place not in self.lost or self.lost[place].step > after]
 
     def _lose(self, found: Mapping[tuple[int, ...], NotFinite]) -> None:
-        """Go on without some copies; if none is left, raise the error of the first."""
-        self.lost.update(found)
-        if len(self.lost) == self.program.batch.size:
+        """Continue without some copies; raise the error of the first if these are more than are tolerated."""
+        for place, error in found.items():  # the earlier one, so that chunks make no difference
+            if place not in self.lost or error.step < self.lost[place].step:
+                self.lost[place] = error
+        if len(self.lost) > self.tolerated:
             raise next(iter(self.lost.values()))
 
     def _report(self, before: Tree, used: int) -> None:
@@ -310,27 +312,36 @@ class Run:
 
                 if not self._keeps_others():
                     raise error(np.asarray(spoilt.reshape(-1, values.shape[lead]).any(0)))
-                self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)))})
+                self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)), end)})
 
-    def _require_finite_world(self, state: Tree, used: int) -> None:
-        """Refuse a world inside the step that has left all bounds: what it shows would spoil the model later, and elsewhere."""
+    def _require_finite_world(self, before: Tree, state: Tree, used: int) -> None:
+        """Refuse a world inside the step whose sensors show values that are not finite: they would spoil the model later, and elsewhere."""
         if not self.exchange.inside or all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
             return
-        shape, clock = self.program.batch.shape, self.clock.after(used)
-        bad = {name: ~np.isfinite(value).reshape(*shape, -1).all(-1) for name, value in state["world"]["now"].items()}
+        chunk, _ = self.program.chunk(())
+        sensors, shape = list(state["world"]["now"]), self.program.batch.shape
 
-        def error(names: Sequence[str]) -> NotFinite:
+        def bad(n: int) -> list[np.ndarray]:
+            now = self._call(chunk, before, {"head": n, "every": 0, "records": 0})[0]["world"]["now"]
+            return [~np.isfinite(now[name]).reshape(*shape, -1).all(-1, keepdims=True) for name in sensors]
+
+        def error(step: int, names: Sequence[str]) -> NotFinite:
+            clock = self.clock.after(step)
             return NotFinite(
-                f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined before step {clock.tick}"
+                f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined in step {clock.tick}"
                 f" (time {clock.time:g} {self.doc.time_unit})",
                 names,
                 fix="Look for what drives its motors",
+                step=clock.tick,
             )
 
+        spoilt = np.any([~np.isfinite(value).reshape(*shape, -1).all(-1) for value in state["world"]["now"].values()], axis=0)
+        copies = self._new(spoilt, self.clock.tick) if self._keeps_others() else [...]
+        found = first_steps(bad, 0, max(used, 1), copies)
+        errors = {copy: error(step, [sensors[k] for k, _ in rows]) for copy, (step, rows) in found.items()}
         if not self._keeps_others():
-            raise error([name for name, wrong in bad.items() if wrong.any()])
-        new = self._new(np.any(list(bad.values()), axis=0))
-        self._lose({copy: error([name for name, wrong in bad.items() if wrong[copy]]) for copy in new})
+            raise errors[...]
+        self._lose(errors)
 
     def _path(self, node: Any) -> str:
         """Path of a node in the present document; the program may have been made before it was renamed."""

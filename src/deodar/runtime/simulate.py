@@ -190,7 +190,7 @@ def compute(
         program = executable(model, doc, precision, filled, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
         swept = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values] if sweep else None
         run = Run(program, doc, float(step), seed, [*numbers, *[numbers[-1]] * more_trials], world, swept)
-        run.tolerant = True
+        run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
         store = _Store(program, found, filled, count)
         about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)

@@ -1,0 +1,187 @@
+"""A trial that diverges is a row with its reason, and the others are what they would be without it."""
+
+from __future__ import annotations
+
+import json
+import math
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar import cli
+from deodar.errors import NotFinite, RunWarning
+from deodar.experiments import batch
+from deodar.experiments.actions import Set
+from deodar.experiments.batch import run_batch
+from deodar.experiments.events import Crosses, Reached
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.factor import Factor
+from deodar.experiments.measures import Measure
+from deodar.experiments.results import ROWS, load
+from deodar.experiments.run import run
+from deodar.recording import files
+from deodar.runtime.run import Run
+
+LATE = Crosses("late", "v.activation", 1.0)
+RISEN = Crosses("risen", "u.activation", 1.02, ends=False)
+MEASURES = [Measure("last", "v.activation", "max"), Measure("risen to", "u.activation", "max", when="risen")]
+PROGRAMS: dict[Any, Any] = {}
+"""Compiled programs, which all models of this file share."""
+
+
+def model(factor: float = 0.1) -> dd.Model:
+    """A node that a loop makes grow without bound where the factor is large, and one beside it that noise drives."""
+    made = dd.Model("runaway")
+    made.programs = PROGRAMS
+    u = made.add(dd.Field("u", [], tau=10, sigmoid=dd.Logistic(beta=1), resting_level=1.0))
+    u["activation"] >> made.add(dd.Gain(factor, name="g")) >> u
+    made.add(dd.Field("v", [], tau=10, noise=1.0))
+    return made
+
+
+def experiment(factors: Sequence[float], trials: int = 3, **others: object) -> Experiment:
+    given = {"conditions": [LATE, RISEN], "factors": [Factor("factor", list(factors), "g.factor")], "measures": MEASURES}
+    return Experiment("runaway", model(), 80, trials, **given | others)  # type: ignore[arg-type]
+
+
+def finished(made: Experiment, *args: object, says: str = "3 of 9 trials diverged", **others: object):
+    with pytest.warns(RunWarning, match=says) as told:
+        data = made.run(*args, **others)  # type: ignore[arg-type]
+    assert len(told) == 1
+    return data
+
+
+def test_the_trial_is_a_row_with_its_reason_and_the_others_keep_their_bits() -> None:
+    data = finished(experiment([0.1, 1e6, 0.3]), says="3 of 9 trials diverged; the variable 'diverged' gives the reasons, the first is: g became")
+    bad = data["factor"].values == 1e6
+    assert set(data["outcome"].values[bad]) == {"diverged"} and "diverged" not in data["outcome"].values[~bad]
+    assert all(text.startswith("g became infinite or undefined in step ") for text in data["diverged"].values[bad])
+    assert set(data["diverged"].values[~bad]) == {""} and set(data["awaited"].values[bad]) == {""}
+    good = experiment([0.1, 0.2, 0.3]).run()
+    for name in ("duration", "late", "risen", "last", "risen to"):
+        assert np.isnan(data[name].values[bad]).all()
+        np.testing.assert_array_equal(data[name].values[~bad], good[name].values[~bad])
+    assert data["outcome"].values[~bad].tolist() == good["outcome"].values[~bad].tolist()
+    assert "diverged" not in good and "diverged" not in good.attrs and np.isfinite(good["risen"].values[bad]).any()
+
+
+def test_the_place_of_the_warning_is_the_call() -> None:
+    with pytest.warns(RunWarning) as told:
+        experiment([1e6, 0.1]).run()
+    assert told[0].filename == __file__
+
+
+def test_trials_run_one_by_one_give_the_same_rows() -> None:
+    nothing = [Set(79, "v.tau", 10.0)]
+    alone, together = experiment([0.1, 1e6, 0.3], actions=nothing), experiment([0.1, 1e6, 0.3])
+    assert together.bench().batched and not alone.bench().batched
+    one, many = finished(alone), finished(together)
+    for name in ("outcome", "diverged", "awaited"):
+        assert one[name].values.tolist() == many[name].values.tolist()
+    for name in ("duration", "late", "risen", "last", "risen to"):
+        np.testing.assert_allclose(one[name].values, many[name].values, atol=1e-4)
+
+
+def test_a_trial_that_has_ended_before_is_no_trial_that_diverged() -> None:
+    step = _step(1e6)
+    for at, outcome in ((step - 1, "early"), (step, "diverged")):
+        [course, _] = run_batch(model(), 80, [0, 1], events=[Reached("early", at)], values={"g.factor": [1e6, 0.1]}, tolerant=True)
+        assert course.outcome == outcome and (course.error is None) == (outcome == "early")
+        assert run(model(1e6), 80, events=[Reached("early", at)], tolerant=True).outcome == outcome
+
+
+def _step(factor: float) -> int:
+    with pytest.raises(NotFinite) as caught:
+        dd.simulate(model(factor), 80)
+    assert f"in step {caught.value.step} " in str(caught.value)
+    return caught.value.step
+
+
+@pytest.mark.parametrize("steps", [1, 7, 1000])
+def test_the_reason_does_not_depend_on_chunks(monkeypatch: pytest.MonkeyPatch, steps: int) -> None:
+    monkeypatch.setattr(Run, "_chunk_steps", lambda run: steps)
+    values = {"g.factor": [1e6, 0.1, 1e4]}
+    with pytest.warns(RunWarning, match="2 of 3 trials"):
+        courses = run_batch(model(), 80, range(3), ["u.activation", "g.output"], values=values)
+    found = [(c.outcome, len(c.times), str(c.error and c.error.problems[0].what)) for c in courses]
+    assert found == [
+        ("diverged", 7, "g.output became infinite or undefined in step 7 (time 7 ms, dt 1)"),
+        ("time", 81, "None"),
+        ("diverged", 12, "g.output became infinite or undefined in step 12 (time 12 ms, dt 1)"),
+    ]
+    assert np.isnan(courses[0].values["u.activation"]).all() and courses[0].values["u.activation"].shape == (7,)
+
+
+def test_a_batch_of_which_no_trial_is_left_raises_and_a_single_trial_too() -> None:
+    for trials in ([3], [3, 1]):
+        with pytest.raises(NotFinite, match="g became infinite"):
+            run_batch(model(1e6), 80, trials)
+    with pytest.raises(NotFinite, match="g became infinite"):
+        run(model(1e6), 80)
+
+
+def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
+    data = finished(experiment([1e6, 1e7], 2), says="4 of 4 trials diverged")
+    assert set(data["outcome"].values) == {"diverged"} and np.isnan(data["duration"].values).all()
+
+
+def test_those_that_diverged_leave_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(batch, "WORTH", 0)
+    values = {"g.factor": [1e6, 0.1, 1e6, 0.3, 1e6, 1e6]}
+    with pytest.warns(RunWarning, match="4 of 6 trials"):
+        made = model()
+        made.programs = {}
+        some = run_batch(made, 80, range(6), ["v.activation"], values=values)
+    assert sorted(p.batch.size for p in made.programs.values()) == [3, 6]  # of which one has diverged and fills it up
+    good = run_batch(model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]})
+    for k in (1, 3):
+        np.testing.assert_allclose(some[k].values["v.activation"], good[k].values["v.activation"], atol=1e-5)
+
+
+def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
+    made = experiment([0.1, 1e6, 0.3], record=["u.activation"])
+    data = finished(made, tmp_path / "whole")
+
+    def stop(standing: object) -> None:
+        if standing.rows >= 3:  # type: ignore[attr-defined]
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        made.run(tmp_path / "part", progress=stop)
+    assert finished(made, tmp_path / "part").identical(data) and load(tmp_path / "part").identical(data)
+    assert (tmp_path / "part" / ROWS).read_bytes() == (tmp_path / "whole" / ROWS).read_bytes()
+    table = (tmp_path / "whole" / "trials.csv").read_text()
+    assert table.splitlines()[0] == "trial,factor,outcome,awaited,diverged,duration,late,risen,last,risen to"
+    read = files.load(tmp_path / "whole" / "trials.nc")
+    assert read.identical(data) and read.attrs["diverged"] == data.attrs["diverged"]
+    bad = int(np.flatnonzero(data["factor"].values == 1e6)[0])
+    record = files.load(tmp_path / "whole" / "records" / f"{bad:06}.nc")
+    assert np.isnan(record["u.activation"].values).all() and data["diverged"].values[bad] in json.dumps(dict(record.attrs))
+
+
+def test_the_command_counts_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    experiment([0.1, 1e6, 0.3]).save("e.json")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert cli.main(["experiment", "e.json", "--no-progress", "--out", "out"]) == 0
+    told = capsys.readouterr()
+    assert "factor 1e+06: 3 trials, diverged 100 %, no duration" in told.out and "9 trials: diverged 3, " in told.out
+    assert "deodar experiment: warning: 3 of 9 trials diverged; " in told.err
+    assert cli.main(["experiment", "e.json", "--json", "--out", "out"]) == 0
+    assert json.loads(capsys.readouterr().out)["diverged"] == 3
+    experiment([1e6, 1e7]).save("none.json")
+    assert cli.main(["experiment", "none.json", "--no-progress", "--out", "none"]) == 1
+    assert "warning: 6 of 6 trials diverged" in capsys.readouterr().err
+
+
+def test_the_name_is_taken() -> None:
+    with pytest.raises(dd.errors.ParameterError, match="'diverged' is a column of every table"):
+        experiment([0.1], conditions=[Crosses("diverged", "v.activation")])
+    assert math.isnan(float(finished(experiment([1e6], 1), says="1 of 1")["duration"][0]))
