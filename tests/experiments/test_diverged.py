@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import json
 import math
 import warnings
@@ -85,6 +86,17 @@ def test_trials_run_one_by_one_give_the_same_rows() -> None:
         assert one[name].values.tolist() == many[name].values.tolist()
     for name in ("duration", "late", "risen", "last", "risen to"):
         np.testing.assert_allclose(one[name].values, many[name].values, atol=1e-4)
+
+
+def test_a_coupling_that_is_looked_at_is_judged_one_by_one_as_in_a_batch() -> None:
+    made = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
+    one, many = (finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged") for actions in ([Set(79, "v.tau", 10.0)], []))
+    assert (
+        one["diverged"].values.tolist()
+        == many["diverged"].values.tolist()
+        == ["", "g.output became infinite or undefined in step 7 (time 7 ms, dt 1)"]
+    )
+    np.testing.assert_allclose(one["gain"].values, many["gain"].values, atol=1e-4)
 
 
 def test_a_trial_that_has_ended_before_is_no_trial_that_diverged() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 
 import numpy as np
 
@@ -22,6 +22,8 @@ from deodar.experiments.view import View
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, Axis
+from deodar.runtime.clock import Clock
+from deodar.runtime.failure import not_finite
 from deodar.runtime.look import Look, look
 from deodar.runtime.run import whole
 from deodar.runtime.session import Session, require_model
@@ -92,6 +94,7 @@ def run(
             stage.later(moment, lambda action=action: action.apply(stage))
     eye = _Eye(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
+    values: dict[str, np.ndarray] = {}
     lost: NotFinite | None = None
 
     def keep(values: dict[str, np.ndarray]) -> None:
@@ -100,37 +103,36 @@ def run(
             recorded.append(session.time)
             kept.append(values)
 
-    with _put_back(world, actions):
-        while True:
-            values, seen = eye.see()  # also where only an action is due: it finds the world at its moment
-            looked = session.tick % gap == 0 or session.tick == steps
-            if looked:
-                keep(values)
-                tally.take([0], np.asarray([session.time]), seen, session.tick == steps)
-                if between is not None:
-                    between()
-                happened = tally.events_of(0)
-                for moment, action in [w for w in waiting if happened[w[1].when] is not None]:
-                    stage.later(moment, lambda action=action: action.apply(stage))
-                waiting = [w for w in waiting if happened[w[1].when] is None]
-            if not tally.outcome[0]:
-                stage.do()
-                if stage.outcome:
-                    if not looked:
-                        keep(values)
-                    tally.end(0, stage.outcome, seen)
-            if tally.outcome[0]:
-                break
-            ahead, due = gap - session.tick % gap, stage.until()
-            try:
+    try:
+        with _put_back(world, actions):
+            while True:
+                values, seen = eye.see()  # also where only an action is due: it finds the world at its moment
+                looked = session.tick % gap == 0 or session.tick == steps
+                if looked:
+                    keep(values)
+                    tally.take([0], np.asarray([session.time]), seen, session.tick == steps)
+                    if between is not None:
+                        between()
+                    happened = tally.events_of(0)
+                    for moment, action in [w for w in waiting if happened[w[1].when] is not None]:
+                        stage.later(moment, lambda action=action: action.apply(stage))
+                    waiting = [w for w in waiting if happened[w[1].when] is None]
+                if not tally.outcome[0]:
+                    stage.do()
+                    if stage.outcome:
+                        if not looked:
+                            keep(values)
+                        tally.end(0, stage.outcome, seen)
+                if tally.outcome[0]:
+                    break
+                ahead, due = gap - session.tick % gap, stage.until()
                 session.step(min([ahead, steps - session.tick, *([] if due is None else [due])]))
-            except NotFinite as error:
-                if not tolerant:
-                    raise
-                lost, tally.outcome[0] = error, DIVERGED
-                kept = [{name: np.full_like(a, np.nan) for name, a in values.items()} for values in kept]
-                break
-    stacked = {name: np.stack([v[name] for v in kept]) if kept else np.zeros((0, *values[name].shape)) for name in watch}
+    except NotFinite as error:
+        if not tolerant:
+            raise
+        lost, tally.outcome[0] = error, DIVERGED
+        kept = [{name: np.full_like(a, np.nan) for name, a in values.items()} for values in kept]
+    stacked = {name: np.stack([v[name] for v in kept]) if kept else np.zeros((0, *(values[name].shape if name in values else ()))) for name in watch}
     events_, measures_ = tally.events_of(0), tally.measures_of(0)
     return Course(np.asarray(times), stacked, events_, tally.outcome[0], measures_, np.asarray(recorded), stage.snapshots, lost)
 
@@ -161,6 +163,7 @@ class _Eye:
         if self.look.program is not session.program:  # an action compiled another one
             self.look = look(session.program, self.places)
         arrays = session.look(self.look, self.places)
+        self._require_finite(arrays)
         sensed = self._sensed()
         values = {name: sensed[name] if name in sensed else np.array(arrays[self.ports[name]]) for name in self.watch}
         seen: dict[View, np.ndarray] = {}
@@ -168,6 +171,16 @@ class _Eye:
             raw, axes = (sensed[view.of], None) if view.of in sensed else (arrays[self.ports[view]], self._axes(view))
             seen[view] = view.seen(raw[None, None], axes, 2)
         return values, seen
+
+    def _require_finite(self, arrays: Mapping[tuple[str, str], np.ndarray]) -> None:
+        """Refuse ports that are not finite although all states are, as a batch does: a coupling's output may be."""
+        session = self.session
+        for (ident, port), values in arrays.items():
+            entry = session.document.by_id()[ident]
+            good = np.isfinite(values) | (np.isnan(values) if port in entry.element.undefined() else False)
+            if not good.all():
+                clock = Clock(session.tick, session.time, session.tick, session.dt)
+                raise not_finite([f"{entry.path}.{port}"], clock, session.document.time_unit)
 
     def _axes(self, view: View) -> Axes:
         program = self.session.program

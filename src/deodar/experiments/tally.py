@@ -39,9 +39,7 @@ class Tally:
         self._been = np.zeros((len(events), trials), bool)
         self._first: dict[View, np.ndarray] = {}
 
-    def take(
-        self, rows: Sequence[int], times: np.ndarray, seen: Mapping[View, np.ndarray], last: bool, good: np.ndarray | None = None
-    ) -> np.ndarray:
+    def take(self, rows: Sequence[int], times: np.ndarray, seen: Mapping[View, np.ndarray], last: bool, good: np.ndarray | None = None) -> np.ndarray:
         """Take down looks at some trials: `times` of the looks, and what they saw, (trials, looks, ...).
 
         Args:
