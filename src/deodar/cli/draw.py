@@ -16,6 +16,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_document(parser)
     parser.add_argument("--out", "-o", type=Path, metavar="FILE", help=".svg, .pdf or .png (default: NAME-architecture-001.svg, ... here)")
     parser.add_argument("--width", type=float, metavar="INCHES", help="width of the picture (default: names 7.5 points high)")
+    parser.add_argument("--depth", type=_options.whole, metavar="N", help="draw N levels of groups open, each group below as one box (default: all)")
     parser.add_argument("--no-legend", action="store_true", help="leave out the line that explains the marks")
     _options.add_force(parser)
     _options.add_json(parser)
@@ -27,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.model.diagram import draw
     from deodar.recording import places
 
-    made = draw(load(args.file), legend=not args.no_legend)
+    made = draw(load(args.file), legend=not args.no_legend, depth=args.depth)
     out: Path = args.out or places.free(Path(), f"{args.file.stem}-architecture", ".svg")
     made.save(out, args.width, args.force)
     width = made.size[0] if args.width is None else args.width

@@ -15,7 +15,8 @@ from deodar.numerics.signs import Sign
 
 INK, SOFT, FAINT = "#1a1a1a", "#4d4d4d", "#8c8c8c"
 FILLS = {
-    "field": "#eaf2fa", "node": "#eaf2fa", "source": "#fdf6e3", "sensor": "#e9f5ee", "motor": "#e9f5ee", "coupling": "#ffffff", "missing": "#ffffff"
+    "field": "#eaf2fa", "node": "#eaf2fa", "source": "#fdf6e3", "sensor": "#e9f5ee", "motor": "#e9f5ee", "coupling": "#ffffff", "missing": "#ffffff",
+    "group": "#f6f6f6",
 }  # fmt: skip
 BLUE = "#0072b2"
 NAME, SMALL, PORT = 7.5, 6.0, 5.5
@@ -107,7 +108,7 @@ def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
     item, box = drawn.item, drawn.box
     top, middle = y + box.top, x + box.width / 2
     dash = (2.0, 1.5) if item.form == "missing" else ()
-    stroke = FAINT if item.form in ("coupling", "missing", "source") else INK
+    stroke = FAINT if item.form in ("coupling", "missing", "source", "group") else INK
     outline = Shape(_outline(item, x, top, box), stroke, FILLS[item.form], 0.6 if stroke == FAINT else 0.9, dash)
     out: list[Shape | Label] = [outline]
     if item.form == "node":
@@ -188,7 +189,7 @@ def _outline(item: Item, x: float, top: float, box: Box) -> tuple[Move, ...]:
         return polygon((x, top), (x + w - 6, top), (x + w, top + h / 2), (x + w - 6, top + h), (x, top + h), (x + 6, top + h / 2))
     if item.form == "motor":
         return polygon((x + 6, top), (x + w - 6, top), (x + w, top + h / 2), (x + w - 6, top + h), (x + 6, top + h), (x, top + h / 2))
-    return rectangle(x, top, w, h, {"field": 2.5, "source": 8.0, "coupling": 4.0}.get(item.form, 2.5))
+    return rectangle(x, top, w, h, {"field": 2.5, "source": 8.0, "coupling": 4.0, "group": 5.0}.get(item.form, 2.5))
 
 
 def _node_picture(x: float, y: float, r: float) -> list[Shape | Label]:

@@ -9,13 +9,13 @@ from typing import Literal
 from deodar.numerics.axes import Axes
 from deodar.numerics.signs import Sign
 
-Form = Literal["field", "node", "source", "sensor", "motor", "coupling", "missing"]
+Form = Literal["field", "node", "source", "sensor", "motor", "coupling", "missing", "group"]
 Group = tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Item:
-    """One element.
+    """One element, or a group that is drawn as one box.
 
     Attributes:
         id: what wires name.

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.diagrams import paint, paper, svg
+from deodar.diagrams.folded import fold
 from deodar.errors import ModelError, RecordError
 from deodar.model import output
 from deodar.model.document import Document
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 FORMATS = ("svg", "pdf", "png")
 
 
-def draw(model: Model, legend: bool = True) -> Diagram:
+def draw(model: Model, legend: bool = True, depth: int | None = None) -> Diagram:
     """Draw an architecture: fields with their axes, nodes, stimuli, sensors and motors, couplings with their signs, groups.
 
     Couplings with one connection in and one out are text on that connection. An arrow is excitation, a dot inhibition, an arrow with a dot both.
@@ -28,20 +29,27 @@ def draw(model: Model, legend: bool = True) -> Diagram:
     Args:
         model: the model; one with problems is drawn too.
         legend: whether the marks that occur are explained below the picture.
+        depth: how many levels of groups are drawn open; each group below is one box. With 0 every group is a box; none: all are open.
 
     Returns:
         A `Diagram`: a notebook shows it, `save` writes it.
+
+    Raises:
+        ModelError: this is no model, or `depth` is below 0.
     """
     if not isinstance(model, Model):
         raise ModelError(f"expected a Model, got {show(model)}", fix="Give a model: dd.draw(model)")
-    return Diagram(model.document, legend)
+    if depth is not None and depth < 0:
+        raise ModelError(f"depth is {show(depth)}; it counts levels of groups, from 0", fix="Write depth=0 to draw every group as one box")
+    return Diagram(model.document, legend, depth)
 
 
 class Diagram:
     """The picture of an architecture, as `dd.draw` returns it."""
 
-    def __init__(self, document: Document, legend: bool = True) -> None:
-        self._scene = paint.paint(sketch(document), legend)
+    def __init__(self, document: Document, legend: bool = True, depth: int | None = None) -> None:
+        graph = sketch(document)
+        self._scene = paint.paint(graph if depth is None else fold(graph, depth), legend)
 
     @property
     def svg(self) -> str:
