@@ -77,15 +77,22 @@ class Time:
         """Step of the element in float64, inside `exact()`."""
         return wide(self.step) * self.every
 
-    def since(self, moment: Any) -> Any:
-        """Time passed since `moment` (negative before it), in the working precision: exact to its last digit near the moment."""
+    @property
+    def moment(self) -> Exact:
+        """The time as two numbers of the working precision, for a state that stores when something happened. A state that counts steps or adds up
+        `dt` instead stops counting in single precision.
+        """
         dtype = self.step.high.dtype
         with exact():
             now, digits = self.wide, jnp.finfo(dtype)
             high = lax.reduce_precision(now, digits.nexp, digits.nmant)  # a cast there and back would be left out as superfluous
-            parts = high.astype(dtype), (now - high).astype(dtype)
+            return Exact(high.astype(dtype), (now - high).astype(dtype))
+
+    def since(self, moment: Any) -> Any:
+        """Time passed since `moment` (negative before it), in the working precision: exact to its last digit near the moment."""
+        now = self.moment
         m = moment if isinstance(moment, Exact) else Exact(moment, 0.0)
-        return (parts[0] - m.high) + (parts[1] - m.low)
+        return (now.high - m.high) + (now.low - m.low)
 
     @property
     def now(self) -> Any:

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+from collections.abc import Callable
+
+import jax
 import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.couplings.delay_line import DelayLine
+from deodar.couplings.reward_gate import RewardGate
+from deodar.element import Element, Setting, Time
 from deodar.elements.boost import Boost
 from deodar.elements.history import History
 from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.elements.sampled_history import SampledHistory
 from deodar.elements.time_series import TimeSeries
 from deodar.errors import TimeError
 from deodar.leaves import leaves
 from deodar.model.model import Model
+from deodar.numerics.axes import shape
 from deodar.parameters import parameters
-from tests.contracts.build import KINDS, PARTS, any_example
+from tests.contracts.build import KINDS, PARTS, any_example, around, example, node
 
 DAY = 86_400_000.0
 RING = dd.Axis("phi", 0, 360, 36, periodic=True)
@@ -121,10 +130,115 @@ MULTIPLY_THE_STEP = {("Attractor", "fastest"), ("Integrator", "rate"), ("Adaptiv
 """Rates that multiply the step and never the time that has passed: single precision is enough for them."""
 
 
-def test_every_moment_is_exact() -> None:
+WINDOWED = sorted(kind for kind, cls in KINDS.items() if any(p.name == "windows" for p in parameters(cls)))
+"""Kinds that windows switch on and off."""
+
+
+def windowed(kind: str, t0: float) -> Model:
+    """The example of a kind, on in two windows, with a source for each input."""
+    model = around(dc.replace(example(kind), windows=[(t0 + 3, t0 + 5), (t0 + 8, t0 + 9)]))  # type: ignore[call-arg]
+    model.describe(t0=t0)
+    return model
+
+
+def alone(t0: float, element: Element, given: np.ndarray | None = None) -> Model:
+    """An element called `example`, with a time series from t0 on as its input."""
+    model = begun(t0)
+    model.add(element)
+    if given is not None:
+        model.add(TimeSeries("s", [], t0 + np.arange(len(given)), given)) >> model["example"]
+    return model
+
+
+RISING = np.arange(15.0)
+SLOTS = dd.Axis("slot", 0, 2, 3)
+SCENES: dict[str, Callable[[float], Model]] = {
+    "DelayLine": lambda t0: alone(t0, DelayLine("example", [], 4.0, 4), RISING),
+    "History": lambda t0: alone(t0, History("example", [], SLOTS, interval=3.0), RISING),
+    "MovingGaussian": lambda t0: alone(
+        t0, MovingGaussian("example", [RING], center=20.0, sigma=30.0, velocity=0.1, path=[[t0, 0.0], [t0 + 6, 60.0]])
+    ),
+    "RewardGate": lambda t0: alone(t0, RewardGate(duration=4.0, name="example"), (RISING == 3) * 1.0),
+    "SampledHistory": lambda t0: alone(t0, SampledHistory("example", [], SLOTS, t0 + np.array([2.0, 5.0, 9.0])), RISING),
+    "TimeSeries": lambda t0: alone(t0, TimeSeries("example", [], t0 + np.array([1.0, 3.0, 3.5, 6.0]), [1.0, 2.0, -3.0, 5.0])),
+}
+"""For each kind that reads time in another way than by windows a model in which something happens within twelve steps after t0."""
+
+LONG = 30 * DAY + 7
+LASTING: dict[str, Callable[[], Model]] = {
+    "DelayLine": lambda: alone(0.0, DelayLine("example", [], LONG, 2, initial=-1.0), RISING + 5),
+    "History": lambda: alone(0.0, History("example", [], SLOTS, interval=LONG), RISING + 5),
+    "RewardGate": lambda: alone(0.0, RewardGate(duration=LONG, name="example"), (RISING == 0) * 1.0),
+    "TimeSeries": lambda: alone(0.0, TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=LONG)),
+}
+"""For each kind with a duration a model whose output changes when it has lasted 30 days and 7 ms."""
+
+
+class Watched(Time):
+    """A time that knows whether it was read, and not only the step."""
+
+    read: set[str] = set()
+
+    @property
+    def wide(self) -> object:
+        self.read.add("wide")
+        return super().wide
+
+
+def reads_time(kind: str) -> bool:
+    """Whether a step of the example of a kind depends on what time it is."""
+    given = example(kind)
+    element = dc.replace(given, windows=[(1, 2)]) if kind in WINDOWED else given  # type: ignore[call-arg]
+    here = node(around(element))
+    at = Setting(here.ins, here.outs, np.dtype("float32"))
+    inputs = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
+    inputs["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
+    noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
+    time = Watched.at(0.0, 1.0, at.dtype)
+
+    def step() -> object:
+        state, constants = element.init(at), element.settle(at, element.prepare(at))
+        shown = element.output(at, state, inputs, constants, time, noise)
+        return shown, element.advance(at, state, inputs, constants, time, noise) if state else {}
+
+    Watched.read.clear()
+    jax.eval_shape(step)
+    return bool(Watched.read)
+
+
+def test_every_kind_that_reads_time_is_among_those_that_are_tested() -> None:
+    found = {kind for kind in KINDS if reads_time(kind)}
+    lasting = {kind for kind, cls in KINDS.items() if any(p.role == "duration" for p in parameters(cls))}
+    assert found | lasting == {*WINDOWED, *SCENES}, "a kind that reads time needs an entry in SCENES"
+    assert lasting == set(LASTING), "a kind with a duration needs an entry in LASTING"
+
+
+@pytest.mark.parametrize("kind", sorted({*WINDOWED, *SCENES}))
+def test_what_a_kind_does_does_not_depend_on_how_late_it_is(kind: str) -> None:
+    scene = SCENES.get(kind, lambda t0: windowed(kind, t0))
+    seen, late = (dd.simulate(scene(t0), 12, dt=1, record=["example.output"])["example.output"].values for t0 in (0.0, 30 * DAY))
+    assert np.abs(np.diff(seen, axis=0)).max() > 0.01
+    np.testing.assert_allclose(late, seen, atol=1e-5 * np.abs(seen).max())
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("kind", LASTING)
+def test_a_duration_of_a_month_ends_in_its_step(kind: str, precision: str) -> None:
+    session = dd.Session(LASTING[kind](), precision=precision)
+    session.step(5)
+    then = session.snapshot()
+    session.restore(dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5)))  # what counts steps in its state misses the days between
+    seen: list[float] = []
+    for _ in range(12):
+        seen.append(float(np.ravel(session.read("example.output"))[0]))
+        session.step()
+    assert len(set(seen[:7])) == 1 and seen[7] != seen[6]
+
+
+def test_every_moment_and_every_duration_is_exact() -> None:
     for name, cls in {**KINDS, **PARTS}.items():
         found = {p.name: p for p in parameters(cls)}
         found |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}
         for p in found.values():
-            assert p.exact or p.role != "moment", (name, p.name)
+            assert p.exact or p.role not in ("moment", "duration"), (name, p.name)
             assert p.exact or "/time" not in p.unit or (name, p.name) in MULTIPLY_THE_STEP, (name, p.name)

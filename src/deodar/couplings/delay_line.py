@@ -10,12 +10,13 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import Interval, hull
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
 NEVER = 1e30
-"""Age of what has not arrived yet, in any time unit."""
+"""Age of what has not arrived yet, in any time unit; minus this, its moment."""
 
 NEAR = 1e-3
 """Share of a step by which the ages that are compared may differ by rounding."""
@@ -49,7 +50,7 @@ class DelayLine(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    delay: Annotated[float, Live("time", role="duration", lower=1e-6, meaning="how long")] = 100.0
+    delay: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="how long")] = 100.0
     slots: Annotated[int, Recompile(lower=1, upper=100_000, meaning="how many moments it keeps")] = 100
     initial: Annotated[float, Live(meaning="what it shows before anything has arrived")] = 0.0
 
@@ -65,27 +66,33 @@ class DelayLine(Element):
         # one slot more on either side of the delay: the moments around it are both there
         rows = self.slots + 2
         kept = jnp.broadcast_to(at.full(tuple(self.axes), self.initial), (rows, *(a.samples for a in self.axes)))
-        return {"kept": kept, "ages": jnp.full((rows,), NEVER, at.dtype), "newest": at.full((), 0.0)}
+        return {"kept": kept, "moments": jnp.full((rows,), -NEVER, at.dtype), "moments_low": jnp.zeros(rows, at.dtype), "newest": at.full((), 0.0)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         kept, rows = state["kept"], self.slots + 2
-        first = state["newest"].astype(int)
-        ages = jnp.roll(state["ages"], -first)
-        younger = jnp.clip(jnp.sum(ages < self.delay - NEAR * time.dt) - 1, 0, rows - 1)
-        older = jnp.minimum(younger + 1, rows - 1)
-        a, b = ages[younger], ages[older]
-        share = jnp.clip((self.delay - a) / jnp.where(b > a, b - a, 1.0), 0.0, 1.0)
-        # to what has not arrived there is no line: it stands until the first moment is old enough
-        share = jnp.where((b >= NEVER) | (b - self.delay < NEAR * time.dt), 1.0, share)
-        share = jnp.where((a >= self.delay - NEAR * time.dt), 0.0, share)
+        first = state["newest"].astype(jnp.int32)
+        with exact():
+            delay, near = wide(self.delay), NEAR * time.wide_dt
+            ages = jnp.roll(self._ages(state, time), -first)
+            younger = jnp.clip(jnp.sum(ages < delay - near) - 1, 0, rows - 1).astype(jnp.int32)
+            older = jnp.minimum(younger + 1, rows - 1)
+            a, b = ages[younger], ages[older]
+            share = jnp.clip((delay - a) / jnp.where(b > a, b - a, 1.0), 0.0, 1.0)
+            # to what has not arrived there is no line: it stands until the first moment is old enough
+            share = jnp.where((b >= NEVER) | (b - delay < near), 1.0, share)
+            share = jnp.where(a >= delay - near, 0.0, share).astype(at.dtype)
         young, old = kept[jnp.mod(first + younger, rows)], kept[jnp.mod(first + older, rows)]
         return {"output": (1 - share) * young + share * old}
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        kept, ages, newest = state["kept"], state["ages"], state["newest"]
-        due = ages[newest.astype(int)] >= self.delay / self.slots - NEAR * time.dt
+        newest, now = state["newest"], time.moment
+        with exact():
+            due = self._ages(state, time)[newest.astype(jnp.int32)] >= wide(self.delay) / self.slots - NEAR * time.wide_dt
         newest = jnp.where(due, jnp.mod(newest - 1, self.slots + 2), newest)
-        place = newest.astype(int)
-        kept = kept.at[place].set(jnp.where(due, inputs["input"], kept[place]))
-        ages = jnp.minimum(ages.at[place].set(jnp.where(due, 0.0, ages[place])) + time.dt, NEVER)
-        return {"kept": kept, "ages": ages, "newest": newest}
+        place = newest.astype(jnp.int32)
+        new = {"kept": inputs["input"], "moments": now.high, "moments_low": now.low}
+        return {"newest": newest} | {name: state[name].at[place].set(jnp.where(due, value, state[name][place])) for name, value in new.items()}
+
+    def _ages(self, state: Arrays, time: Time) -> Any:
+        """Age of each of the moments in float64, inside `exact()`."""
+        return jnp.where(state["moments"] > -0.5 * NEVER, time.wide - wide(Exact(state["moments"], state["moments_low"])), NEVER)

@@ -10,9 +10,13 @@ import jax.numpy as jnp
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, cell
+from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
+
+NEVER = -1e30
+"""Moment of the last onset before there was one, in any time unit."""
 
 
 @register
@@ -43,7 +47,7 @@ class RewardGate(Coupling):
     """
 
     threshold: Annotated[float, Live(lower=0, meaning="what the reward must exceed")] = 0.5
-    duration: Annotated[float, Live("time", role="duration", lower=0, meaning="how long a window is open; 0: while reward lasts")] = 0.0
+    duration: Annotated[float, Live("time", role="duration", exact=True, lower=0, meaning="how long a window is open; 0: while reward lasts")] = 0.0
     strength: Annotated[float, Live(meaning="output while open, or its factor")] = 1.0
     graded: Annotated[bool, Recompile(meaning="whether the output follows the reward")] = False
     gated: Annotated[bool, Recompile(meaning="whether reward waits for the gate")] = False
@@ -65,18 +69,24 @@ class RewardGate(Coupling):
         return {"output": ()}
 
     def init(self, at: Setting) -> Arrays:
-        return {"left": at.full((), 0.0), "rewarded": at.full((), 0.0)}
+        return {"onset": at.full((), NEVER), "onset_low": at.full((), 0.0), "rewarded": at.full((), 0.0)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         reward = self._reward(at, inputs)
-        held = self._onset(state, reward) | (state["left"] > 0.5 * time.dt)  # to half a step, so that rounding moves no edge
-        is_open = jnp.where(self.duration > 0, held, reward > self.threshold)
+        with exact():
+            duration, passed = wide(self.duration), time.wide - wide(Exact(state["onset"], state["onset_low"]))
+            lasts, bounded = passed < duration - 0.5 * time.wide_dt, duration > 0  # to half a step, so that rounding moves no edge
+        is_open = jnp.where(bounded, self._onset(state, reward) | lasts, reward > self.threshold)
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 
     def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        reward = self._reward(at, inputs)
-        left = jnp.where(self._onset(state, reward), self.duration, state["left"])
-        return {"left": jnp.maximum(left - time.dt, 0.0), "rewarded": (reward > self.threshold).astype(at.dtype)}
+        reward, now = self._reward(at, inputs), time.moment
+        begins = self._onset(state, reward)
+        return {
+            "onset": jnp.where(begins, now.high, state["onset"]),
+            "onset_low": jnp.where(begins, now.low, state["onset_low"]),
+            "rewarded": (reward > self.threshold).astype(at.dtype),
+        }
 
     def _reward(self, at: Setting, inputs: Arrays) -> Any:
         reward = cell(at.ins["input"]) * jnp.sum(inputs["input"])
