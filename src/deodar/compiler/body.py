@@ -39,6 +39,11 @@ class Body:
         """What makes another program when it changes."""
         return (type(self.world), self.world.structure(), tuple(sorted(self.sensors)), tuple(sorted(self.motors)))
 
+    @property
+    def reads(self) -> Hashable:
+        """What sensors of the model read, and over which axes."""
+        return tuple((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items()))
+
     def begin(self, shared: Tree, own: Tree, now: Tree) -> Tree:
         """The state of a copy whose world stands somewhere."""
         told = {name: jnp.zeros(signal.shape or (), jnp.result_type(float)) for name, signal in self.world.motors.items()}

@@ -132,9 +132,10 @@ class Executable:
 
     def embodied(self, world: Any, state: Tree, keys: Tree) -> tuple[Tree, Tree, Tree]:
         """What all copies share of a world inside the step, which has begun, and state and keys with what each has of it."""
-        assert self.body is not None and isinstance(world, PureWorld)
+        body = self.body
+        assert body is not None and isinstance(world, PureWorld)
         shared, own, now = world.parts()
-        joined = world.call(("begin", self.body.key), jax.vmap(self.body.begin, in_axes=(None, 0, 0)), shared, own, now)
+        joined = world.call(body.reads, lambda of: jax.vmap(dc.replace(body, world=of).begin, in_axes=(None, 0, 0)), shared, own, now)
         return shared, {**state, "world": batched(joined, self.batch.shape)}, {**keys, "world": batched(own, self.batch.shape)}
 
     def init(self, values: Tree, seed: int, trials: Sequence[int]) -> tuple[Tree, Tree]:

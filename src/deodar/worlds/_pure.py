@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import copy
+import functools
 import hashlib
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import jax
@@ -63,25 +66,28 @@ class PureWorld(World):
         self._trials = tuple(trials)
         self._dtype: Any = np.dtype(precision)
         numbers = np.asarray([number(name) for name in self.noises], np.uint32)
-        words = self.call("keys", jax.vmap(element_keys, in_axes=(None, 0, None)), np.uint32(seed), np.asarray(trials, np.uint32), numbers)
+        words = self.call("keys", _keys, np.uint32(seed), np.asarray(trials, np.uint32), numbers)
         self._keys = {name: np.asarray(words)[:, k] for k, name in enumerate(self.noises)}
-        self._state: Tree = self.call("start", jax.vmap(self.start, in_axes=(None, 0)), *self._values())
+        self._state: Tree = self.call("start", lambda world: jax.vmap(world.start, in_axes=(None, 0)), *self._values())
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
         shared, own, state = *self._values(), self._now()
 
-        def read(shared: Tree, own: Tree, state: Tree) -> Any:
-            return jnp.broadcast_to(self.read(shared, own, state, sensor, axes), shape(axes))
+        def reading(world: PureWorld) -> Callable[..., Any]:
+            def read(shared: Tree, own: Tree, state: Tree) -> Any:
+                return jnp.broadcast_to(world.read(shared, own, state, sensor, axes), shape(axes))
 
-        return np.asarray(self.call((sensor, tuple(axes)), jax.vmap(read, in_axes=(None, 0, 0)), shared, own, state))
+            return jax.vmap(read, in_axes=(None, 0, 0))
+
+        return np.asarray(self.call((sensor, tuple(axes)), reading, shared, own, state))
 
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
         shared, own, state = *self._values(), self._now()
         copies = len(self._trials)
         told = {name: motors.get(name, np.zeros((copies, *(signal.shape or ())))) for name, signal in self.motors.items()}
         told = {name: np.asarray(value, self._dtype) for name, value in told.items()}
-        self._state = self.call("advance", jax.vmap(self.advance, in_axes=(None, 0, 0, 0)), shared, own, state, told)
+        self._state = self.call("advance", lambda world: jax.vmap(world.advance, in_axes=(None, 0, 0, 0)), shared, own, state, told)
 
     def keep(self) -> Any:
         return jax.tree.map(np.asarray, self._now())
@@ -89,10 +95,6 @@ class PureWorld(World):
     def put(self, kept: Any) -> None:
         if kept is not None:
             self._state = kept
-
-    def __getstate__(self) -> dict[str, Any]:
-        """What travels to another process: all but what was compiled here."""
-        return {k: v for k, v in self.__dict__.items() if k != "_compiled"}
 
     def structure(self) -> Hashable:
         """All that the functions use of the object itself: worlds that agree in it share compiled programs."""
@@ -115,15 +117,39 @@ class PureWorld(World):
         array = np.asarray(values)
         return array.astype(self._dtype) if array.dtype.kind == "f" else array
 
-    def call(self, name: Hashable, function: Callable[..., Any], *args: Any) -> Any:
-        """Run a function compiled, in the precision of the model; it is traced once for each precision."""
-        if not hasattr(self, "_compiled"):
-            self._compiled: dict[Hashable, Any] = {}
-        key = (name, self._dtype)
-        if key not in self._compiled:
-            self._compiled[key] = jax.jit(function)
+    def call(self, name: Hashable, make: Callable[[Any], Callable[..., Any]], *args: Any) -> Any:
+        """Run a function of this world compiled, in the precision of the model. Worlds of one structure share it.
+
+        Args:
+            name: what tells this function from others of the world; all that it uses beside the world and `args` is part of it.
+            make: gives the function of a world.
+            args: its arguments.
+        """
+        function = _compiled(_Program(type(self), self.structure(), name, self._dtype, self, make))
         with jax.enable_x64(True) if self._dtype == np.float64 else contextlib.nullcontext():
-            return self._compiled[key](*args)
+            return function(*args)
+
+
+@dataclass(frozen=True)
+class _Program:
+    """A function of a world: equal where kind, structure, name and precision are."""
+
+    kind: type
+    structure: Hashable
+    name: Hashable
+    dtype: Any
+    world: PureWorld = field(compare=False)
+    make: Callable[[Any], Callable[..., Any]] = field(compare=False)
+
+
+@functools.lru_cache(maxsize=64)
+def _compiled(program: _Program) -> Callable[..., Any]:
+    """The function compiled, from a copy of the world: what the original becomes later does not reach it."""
+    return jax.jit(program.make(copy.copy(program.world)))
+
+
+def _keys(_: Any) -> Callable[..., Any]:
+    return jax.vmap(element_keys, in_axes=(None, 0, None))
 
 
 def number(name: str) -> int:

@@ -1,0 +1,70 @@
+"""Worlds of pure functions: those of one structure share what was compiled."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from deodar.numerics.axes import Axis
+from deodar.worlds import _pure
+from deodar.worlds._base import Signal
+from deodar.worlds._pure import PureWorld
+
+LINE = (Axis("x", 0, 2, 3),)
+
+
+class Counter(PureWorld):
+    """A number that grows by a step, which is compiled in, from a start, which is an array."""
+
+    period = 1.0
+    sensors = {"count": Signal("how often", each=True)}
+    motors = {}
+
+    def __init__(self, step: float, start: float = 0.0) -> None:
+        self.by, self.first = step, start
+
+    def structure(self):
+        return self.by
+
+    def own(self, trials):
+        return {"start": np.full(len(trials), self.first)}
+
+    def start(self, shared, own):
+        return own["start"]
+
+    def advance(self, shared, own, state, motors):
+        return state + self.by
+
+    def read(self, shared, own, state, sensor, axes):
+        return state
+
+
+def compiled() -> int:
+    return _pure._compiled.cache_info().misses
+
+
+def counted(world: Counter, axes=(), copies: int = 1):
+    world.reset(1, range(copies))
+    world.act({}, 0.0)
+    return world.sense("count", axes, 0.0).tolist()
+
+
+def test_a_second_world_of_the_same_structure_compiles_nothing() -> None:
+    assert counted(Counter(2.0)) == [2.0]
+    before = compiled()
+    assert counted(Counter(2.0, 5.0)) == [7.0]
+    assert compiled() == before
+
+
+def test_worlds_of_another_structure_and_other_axes_do_not_share() -> None:
+    assert (counted(Counter(2.0)), counted(Counter(3.0))) == ([2.0], [3.0])
+    before = compiled()
+    assert counted(Counter(3.0), LINE) == [[3.0, 3.0, 3.0]]
+    assert compiled() == before + 1, "the sensor over other axes"
+
+
+def test_what_a_world_becomes_later_does_not_reach_another_one() -> None:
+    one = Counter(4.0)
+    assert counted(one) == [4.0]
+    one.by = 9.0
+    assert counted(one) == [9.0]
+    assert counted(Counter(4.0), copies=2) == [4.0, 4.0], "another number of copies: traced anew, from the copy that was taken"
