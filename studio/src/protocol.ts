@@ -116,6 +116,13 @@ export type Changed = {
   redo: number;
 };
 
+// The problems and warnings of that version of the document, where single changes led to it; of a whole document it holds them itself.
+export type Checked = {
+  type: "checked";
+  version: number;
+  problems: Problem[];
+};
+
 // Where the run is. Sent after the frames of the same number, and whenever something changes.
 //
 // `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as possible); `abstract` time
@@ -557,6 +564,7 @@ export type ToPage =
   | Opened
   | Trouble
   | Changed
+  | Checked
   | Clock
   | Costs
   | Scene

@@ -80,6 +80,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
     }
     case "changed":
       return state.document === null ? {} : changed(state.document, message);
+    case "checked":
+      return state.document === null || state.version !== message.version ? {} : { document: { ...state.document, problems: message.problems } };
     case "trouble":
       return { trouble: message.problems.length > 0 ? message : null };
     case "clock":

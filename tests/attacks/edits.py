@@ -52,11 +52,15 @@ class Editor(Page):
     """A page that keeps its document up to date from single changes, as the page in the browser does."""
 
     version = -1
+    checked = -1
 
     async def _take(self, m: dict[str, Any]) -> None:
         await super()._take(m)
         if m["type"] == "opened":
-            self.version = m["version"]
+            self.version = self.checked = m["version"]
+        elif m["type"] == "checked":
+            self.checked = m["version"]
+            self.document["problems"] = m["problems"]
         elif m["type"] == "changed":
             self.version = m["version"]
             element = next(e for e in self.document["elements"] if e["id"] == m["element"])
@@ -187,7 +191,7 @@ async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
         done = [(k, m, answer) for k, log in enumerate(logs) for m, answer in log]
         last = max(answer["version"] for _, _, answer in done)
         for one in editors:
-            await one.until(lambda one=one: one.version >= last)
+            await one.until(lambda one=one: one.version >= last and one.checked >= last)
         shown = await _running(editors[0], ids["s"])
         outcome = _outcome(done, [one.document for one in editors], last)
         wanted = next(e for e in editors[0].document["elements"] if e["path"] == "s")["values"]["amplitude"]

@@ -88,6 +88,25 @@ def test_a_dragged_slider_is_one_step_of_undo(root: Path) -> None:
         play(address, scene)
 
 
+def test_a_warning_appears_and_goes_as_a_slider_is_dragged(root: Path) -> None:
+    """Single changes do not send the document again, and its warnings depend on the values."""
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        before = p.document["problems"]
+        level = p.document["elements"][0]["values"]["resting_level"]
+        for value, warned in ((30, True), (level, False)):
+            await p.do("set", element=p.element("u"), parameter="resting_level", value=value)
+            await p.until(lambda warned=warned: "checked" in p.said and (p.said["checked"]["problems"] != before) == warned)
+            if warned:
+                (problem,) = p.said["checked"]["problems"]
+                assert problem["element"] == p.element("u") and problem["severity"] == "warning" and "always above" in problem["what"]
+        assert p.said["checked"]["version"] == p.said["changed"]["version"]
+
+    with studio(root, root / "node.json") as address:
+        play(address, scene)
+
+
 def test_a_structural_change_compiles_beside_the_run_and_keeps_the_state(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()

@@ -36,6 +36,7 @@ async def aside(function: Callable[[], T], where: str) -> T:
     future.set_running_or_notify_cancel()
     threading.Thread(target=work, name="deodar-aside", daemon=True).start()
     try:
-        return await asyncio.wait_for(asyncio.wrap_future(future), SECONDS)
+        async with asyncio.timeout(SECONDS):
+            return await asyncio.wrap_future(future)
     except TimeoutError:
         raise DocumentError(f"took longer than {SECONDS:g} s to read or write", where=where, fix="Does its disk or network folder answer?") from None

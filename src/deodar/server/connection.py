@@ -21,7 +21,7 @@ from deodar.server import requests, scene, view
 from deodar.server.project import Asks
 from deodar.server.scene import Follower
 from deodar.server.stream import Stream
-from deodar.server.to_page import Answer, Clock, Costs, Folder, Gallery, Opened, Problem, Scene, ToPage, Trouble
+from deodar.server.to_page import Answer, Checked, Clock, Costs, Folder, Gallery, Opened, Problem, Scene, ToPage, Trouble
 from deodar.server.to_server import Drawn, ToServer
 
 if TYPE_CHECKING:
@@ -141,8 +141,9 @@ class Connection:
                 self._news.clear()
                 if self._ready:
                     await self._say()
-                with contextlib.suppress(TimeoutError):
-                    await asyncio.wait_for(self._news.wait(), IDLE)
+                with contextlib.suppress(TimeoutError):  # `wait_for` of Python 3.11 loses a cancellation that comes together with news
+                    async with asyncio.timeout(IDLE):
+                        await self._news.wait()
         except (WebSocketDisconnect, RuntimeError, OSError):
             pass  # it is gone; the receiving side ends the connection
 
@@ -191,13 +192,15 @@ class Connection:
             self._session, self._version = project.session, project.version
             file, problems = project.trouble
             self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
+        if project.checker.found is not None:
+            self._new("checked", project.checker.found, out)
         self._new("costs", self.hub.costs(), out)
         track = self.hub.engine.track
         self._new("scene", scene.scene(track.scene), out)
         moved = None if self.follower is None else self.follower.news(track)
         return out if moved is None else [*out, moved]
 
-    def _new(self, what: str, message: Gallery | Trouble | Clock | Costs | Scene, out: list[ToPage]) -> None:
+    def _new(self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[ToPage]) -> None:
         if self._known.get(what) != message:
             self._known[what] = message
             out.append(message)

@@ -21,6 +21,7 @@ from deodar.runtime.engine import Engine
 from deodar.runtime.session import Session
 from deodar.server import content, view
 from deodar.server.aside import aside
+from deodar.server.checker import Checker
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper
 from deodar.server.recent_changes import RecentChanges
@@ -54,6 +55,7 @@ class Project:
         trouble: the file that could not be opened, and what is wrong with it.
         failure: why the document does not run.
         busy: what is being made, in words.
+        checker: finds the warnings after single changes.
     """
 
     def __init__(
@@ -68,6 +70,7 @@ class Project:
         self.trouble: tuple[str, Sequence[Wrong]] = ("", ())
         self.failure: Sequence[Wrong] = ()
         self.busy = ""
+        self.checker = Checker(lambda: (self.version, None if self.model is None else self.model.document), self.turns, changed)
         self._name = ""
         self._saved: Document | None = None
         self._kept: Document | None = None
@@ -349,6 +352,7 @@ class Project:
             )  # fmt: skip
             self._recent.add(change)
             self._changed()
+            self.checker.start()
         return cost
 
     async def _adopt(self, doc: Document) -> Cost:
@@ -389,5 +393,6 @@ class Project:
     def _moved(self) -> None:
         """Every page needs the whole document again."""
         self.version += 1
+        self.checker.found = None
         self._recent.clear()
         self._changed()

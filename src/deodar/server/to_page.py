@@ -191,6 +191,13 @@ class Changed(Message, frozen=True, tag="changed"):
     redo: int
 
 
+class Checked(Message, frozen=True, tag="checked"):
+    """The problems and warnings of that version of the document, where single changes led to it; of a whole document it holds them itself."""
+
+    version: int
+    problems: list[Problem]
+
+
 class Clock(Message, frozen=True, tag="clock"):
     """Where the run is. Sent after the frames of the same number, and whenever something changes.
 
@@ -346,4 +353,4 @@ class Answer(Message, frozen=True, tag="answer"):
     version: int = 0
 
 
-ToPage = Welcome | Gallery | Opened | Trouble | Changed | Clock | Costs | Scene | Bodies | Announced | Lost | Folder | Answer
+ToPage = Welcome | Gallery | Opened | Trouble | Changed | Checked | Clock | Costs | Scene | Bodies | Announced | Lost | Folder | Answer

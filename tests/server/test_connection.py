@@ -1,0 +1,44 @@
+"""One page, without a socket."""
+
+from __future__ import annotations
+
+import asyncio
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from deodar.server.connection import Connection
+from deodar.server.to_page import ToPage
+
+
+class Silent(Connection):
+    """Sends nothing."""
+
+    async def _text(self, message: ToPage) -> None: ...
+
+    async def _say(self) -> None: ...
+
+    def sending(self) -> asyncio.Task[None]:
+        """The task that sends."""
+        return asyncio.create_task(self._send())
+
+
+@pytest.mark.parametrize("between", range(5))
+def test_the_sending_ends_when_its_page_goes_at_the_moment_of_news(between: int) -> None:
+    """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone would stay for ever."""
+
+    async def main() -> None:
+        one = Silent(cast("Any", None), cast("Any", SimpleNamespace(numbered=lambda: 1, welcome=None)))
+        task = one.sending()
+        for _ in range(5):
+            await asyncio.sleep(0)
+        one.wake()
+        for _ in range(between):
+            await asyncio.sleep(0)
+        task.cancel()
+        for _ in range(10):
+            await asyncio.sleep(0)
+        assert task.cancelled()
+
+    asyncio.run(main())
