@@ -25,10 +25,14 @@ class Outcome:
     errors: list[str] = dc.field(default_factory=list[str])
 
 
-def start(folder: Path) -> tuple[subprocess.Popen[str], str]:
+ROOT = Path(__file__).parents[2]
+
+
+def start(folder: Path, module: str = "deodar", **variables: str) -> tuple[subprocess.Popen[str], str]:
     """A studio in a process of its own, and its address."""
-    command = [sys.executable, "-m", "deodar", "studio", "m.json", "--no-browser", "--port", "0"]
-    environment = os.environ | {"DEODAR_STATE": str(folder / "state")}
+    command = [sys.executable, "-m", module, "studio", "m.json", "--no-browser", "--port", "0"]
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")]))
+    environment = os.environ | {"DEODAR_STATE": str(folder / "state"), "PYTHONPATH": path} | variables
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment)
     assert process.stdout is not None
     return process, process.stdout.readline().split()[-1]

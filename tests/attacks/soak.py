@@ -1,11 +1,17 @@
-"""A studio under load for a long time: pages come, watch, edit and go while the model runs, and the process does not grow."""
+"""A studio under load for a long time: pages come, watch, edit and go while the model runs, and the process holds no more than before.
+
+What it holds is counted while no page is connected and a document was just opened: then it owes nothing to any page, and nothing to any edit.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
 import dataclasses as dc
+import json
 import random
+import signal
+import subprocess
 import time
 from pathlib import Path
 
@@ -16,14 +22,39 @@ from tests.attacks.edits import small
 from tests.attacks.kills import start, stop
 from tests.server.page import page
 
+AT_ONCE = 4
+"""Pages that visit at the same time."""
+
+MOST_KIB = 8.0
+"""Memory in KiB that each visit may add, above `ROOM` (a guess)."""
+
+ROOM = 32.0
+"""Memory in MiB that allocators and caches may add, whatever the number of visits (a guess)."""
+
+MOST_OBJECTS = 5.0
+"""Python objects that each visit may add, above `CACHED`. A page that is not let go holds hundreds."""
+
+CACHED = 2000
+"""Python objects that caches may add, whatever the number of visits."""
+
+POOL = 8
+"""Threads that the pools of asyncio and of JAX may start late."""
+
+PATIENCE = 60.0
+"""Longest wall time, in seconds, until what belonged to pages must be gone."""
+
 
 @dc.dataclass(frozen=True)
-class Size:
+class Held:
     """What a process holds."""
 
     mebibytes: float
-    threads: int
     files: int
+    objects: int
+    tasks: int
+    threads: int
+    sessions: int
+    connections: int
 
 
 @dc.dataclass
@@ -31,45 +62,102 @@ class Outcome:
     """What a process held after a quarter of the time, and at the end."""
 
     visits: int
-    early: Size
-    late: Size
+    early: Held
+    late: Held
+    errors: list[str]
 
 
-def size(process: psutil.Process) -> Size:
+def beyond(early: Held, late: Held, visits: int) -> list[str]:
+    """The limits that were exceeded, in words.
+
+    Args:
+        early: what the process held before.
+        late: what it holds now.
+        visits: pages that came and went in between.
+    """
+    limits = {
+        "mebibytes": early.mebibytes + ROOM + visits * MOST_KIB / 1024,
+        "files": early.files,
+        "objects": early.objects + CACHED + visits * MOST_OBJECTS,
+        "tasks": early.tasks,
+        "threads": early.threads + POOL,
+        "sessions": 1,
+        "connections": 0,
+    }
+    return [
+        f"{getattr(late, name):g} {name} after {visits} visits, at most {limit:g} expected"
+        for name, limit in limits.items()
+        if getattr(late, name) > limit
+    ]
+
+
+def held(process: subprocess.Popen[str], counts: Path) -> Held:
     """What a process holds now."""
-    return Size(process.memory_info().rss / 2**20, process.num_threads(), len(process.open_files()) + len(process.net_connections()))
+    counts.unlink(missing_ok=True)
+    process.send_signal(signal.SIGUSR1)
+    end = time.monotonic() + PATIENCE
+    while not counts.exists():
+        assert process.poll() is None and time.monotonic() < end, "the studio does not count what it holds"
+        time.sleep(0.02)
+    there = psutil.Process(process.pid)
+    with there.oneshot():
+        return Held(there.memory_info().rss / 2**20, len(there.open_files()) + len(there.net_connections()), **json.loads(counts.read_text()))
+
+
+def settled(process: subprocess.Popen[str], counts: Path, before: Held | None, visits: int) -> tuple[Held, list[str]]:
+    """What a process holds once what belonged to pages is gone, and the limits that it still exceeds after some time.
+
+    Args:
+        process: the studio.
+        counts: the file of its numbers.
+        before: what it held before the visits; None: there were none before, and its number of tasks must have stopped to fall.
+        visits: pages that came and went.
+    """
+    end, last = time.monotonic() + PATIENCE, held(process, counts)
+    while True:
+        time.sleep(0.2)
+        now = held(process, counts)
+        errors = beyond(before or dc.replace(now, tasks=min(now.tasks, last.tasks)), now, visits)
+        if (not errors and now.tasks >= last.tasks) or time.monotonic() > end:
+            return now, errors
+        last = now
+
+
+async def visit(address: str, random: random.Random) -> None:
+    """Connect, watch, run and edit, and go."""
+    async with page(address) as one:
+        await one.runs()
+        u = one.element("u")
+        await one.do("watch", stream=1, element=u, port="activation")
+        await one.do("trace", stream=2, element=u, port="activation", reduce="max")
+        await one.do("play")
+        for _ in range(random.randrange(1, 10)):
+            await one.do("set", element=u, parameter="tau", value=random.uniform(10, 90), gesture=1)
+        await one.do("undo")
 
 
 async def visits(address: str, seconds: float, random: random.Random) -> int:
-    """Let pages visit for some time, four at once."""
+    """Let pages visit for some time; each round ends with the document opened anew."""
     end, count = time.monotonic() + seconds, 0
-
-    async def visitor() -> None:
-        nonlocal count
-        while time.monotonic() < end:
-            async with page(address) as one:
-                await one.runs()
-                u = one.element("u")
-                await one.do("watch", stream=1, element=u, port="activation")
-                await one.do("play")
-                for _ in range(random.randrange(1, 10)):
-                    await one.do("set", element=u, parameter="tau", value=random.uniform(10, 90), gesture=1)
-                await one.do("undo")
-                count += 1
-
-    await asyncio.gather(*(visitor() for _ in range(4)))
+    while count == 0 or time.monotonic() < end:
+        await asyncio.gather(*(visit(address, random) for _ in range(AT_ONCE)))
+        async with page(address) as one:
+            await one.open("open_file", path="m.json", discard=True)
+        count += AT_ONCE + 1
     return count
 
 
 def attack(folder: Path, seconds: float, seed: int = 0) -> Outcome:
     """Load a studio for some seconds."""
     dd.save(small(), folder / "m.json", force=True)
-    process, address = start(folder)
+    counts = folder / "counts"
+    process, address = start(folder, "tests.attacks.counted", COUNTS=str(counts))
     try:
         with contextlib.closing(asyncio.new_event_loop()) as loop:
-            count = loop.run_until_complete(visits(address, seconds / 4, random.Random(f"{seed} early")))
-            early = size(psutil.Process(process.pid))
-            count += loop.run_until_complete(visits(address, 3 * seconds / 4, random.Random(f"{seed} late")))
-        return Outcome(count, early, size(psutil.Process(process.pid)))
+            first = loop.run_until_complete(visits(address, seconds / 4, random.Random(f"{seed} early")))
+            early, errors = settled(process, counts, None, first)
+            then = loop.run_until_complete(visits(address, 3 * seconds / 4, random.Random(f"{seed} late")))
+            late, more = settled(process, counts, early, then)
+        return Outcome(first + then, early, late, [*errors, *more])
     finally:
         stop(process)

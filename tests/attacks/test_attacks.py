@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from pathlib import Path
+
+import pytest
 
 from tests.attacks import documents, kills, messages, soak
 
@@ -24,7 +27,17 @@ def test_a_studio_that_is_killed_leaves_a_whole_file(tmp_path: Path) -> None:
     assert outcome.errors == [] and outcome.kills == 1
 
 
-def test_pages_that_come_and_go_leave_no_threads_and_no_connections(tmp_path: Path) -> None:
-    outcome = soak.attack(tmp_path, 3)
-    assert outcome.visits > 3
-    assert outcome.late.files <= outcome.early.files + 4 and outcome.late.threads <= outcome.early.threads + 8
+def test_pages_that_come_and_go_leave_nothing(tmp_path: Path) -> None:
+    outcome = soak.attack(tmp_path, 1)
+    assert outcome.visits >= 10 and outcome.errors == []
+
+
+@pytest.mark.parametrize(
+    ("more", "visits"),
+    [({"mebibytes": 60.0}, 100), ({"files": 1}, 1), ({"objects": 30_000}, 1000), ({"tasks": 1}, 1), ({"threads": 9}, 1), ({"sessions": 1}, 1)],
+)
+def test_a_studio_that_keeps_what_pages_left_is_found_out(more: dict[str, float], visits: int) -> None:
+    early = soak.Held(500, 10, 300_000, 8, 20, 1, 0)
+    (error,) = soak.beyond(early, dc.replace(early, **{name: getattr(early, name) + value for name, value in more.items()}), visits)
+    assert next(iter(more)) in error and f"after {visits} visits" in error
+    assert soak.beyond(early, early, visits) == []
