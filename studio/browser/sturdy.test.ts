@@ -116,7 +116,7 @@ test("an element that fails stops the run, is named, and leaves the rest intact"
   expect(await bar.innerText()).toMatch(/grow|gain/);
   await button(page, "Play").waitFor();
   const failed = observer.clock?.failure[0]?.element === observer.element("grow").id ? "grow" : "gain";
-  await page.getByRole("img", { name: /^Problem: / }).or(page.getByRole("button", { name: /^gain, .*infinite/ })).first().waitFor();
+  await page.getByRole("button", { name: /^Problem: / }).or(page.getByRole("button", { name: /^gain, .*infinite/ })).first().waitFor();
   await shot(page, "failure");
   if (failed === "grow") await select(page, "grow");
   else await page.getByRole("button", { name: /^gain, / }).click();

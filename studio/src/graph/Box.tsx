@@ -1,14 +1,14 @@
 // An element on the canvas: its name, its kind, its live values, its ports.
 
-import { IconAlertTriangle } from "@tabler/icons-react";
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
 import { useStudio } from "../store";
 import { BOX, LIVE, liveHeight, livePort, portHeight } from "./boxes";
 import { useHover } from "./hover";
 import { LiveBox } from "./LiveBox";
+import { Mark } from "./Mark";
 import type { BoxNode } from "./scene";
-import { useTrouble } from "./trouble";
+import { useTrouble, useWarning } from "./trouble";
 
 export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<BoxNode>) {
   const { element: id, path, name, title, inputs, outputs } = data;
@@ -16,12 +16,14 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
   const port = useStudio((state) => known(state.elements.get(id), livePort));
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
   const trouble = useTrouble(id);
+  const warning = useWarning(id);
   const { enter, leave } = useHover.getState();
   return (
     <div
       className="graph-box"
       data-selected={selected || undefined}
       data-trouble={trouble !== "" || undefined}
+      data-marked={trouble !== "" || warning !== "" || undefined}
       onPointerEnter={(event) => enter(id, event.currentTarget)}
       onPointerLeave={leave}
     >
@@ -31,7 +33,7 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
           {name}
         </div>
         <div className="graph-box-kind one-line">{title}</div>
-        {trouble !== "" && <IconAlertTriangle className="graph-box-alert" size={16} role="img" aria-label={`Problem: ${trouble}`} />}
+        <Mark element={id} />
       </div>
       {port !== null && <LiveBox element={id} port={port} label={`${port} of ${path}, live`} width={LIVE.width} height={live} />}
       <Ports names={outputs} side="source" height={height} />

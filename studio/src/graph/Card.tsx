@@ -1,13 +1,13 @@
 // What the pointer rests on, in short: what it is, its equation, its main values, what is wrong with it.
 
 import { Popover } from "@mantine/core";
-import { IconAlertTriangle } from "@tabler/icons-react";
 import { useEffect } from "react";
 import { Tex } from "../inspector/Tex";
 import { useStudio } from "../store";
 import { facts } from "./facts";
 import { useHover } from "./hover";
-import { useTrouble } from "./trouble";
+import { MarkIcon } from "./Mark";
+import { useTrouble, useWarning } from "./trouble";
 
 export function Card() {
   const target = useHover((state) => state.target);
@@ -41,6 +41,7 @@ function Said({ element: id }: { element: string }) {
   const kinds = useStudio((state) => state.kinds);
   const document = useStudio((state) => state.document);
   const trouble = useTrouble(id);
+  const warning = useWarning(id);
   const kind = kinds.get(element?.kind ?? "");
   if (element === undefined || document === null) {
     return null;
@@ -51,8 +52,14 @@ function Said({ element: id }: { element: string }) {
       <div className="graph-box-kind">{kind?.title ?? element.kind}</div>
       {trouble !== "" && (
         <div className="graph-card-trouble">
-          <IconAlertTriangle size={14} aria-hidden />
+          <MarkIcon problem size={14} />
           <span>{trouble}</span>
+        </div>
+      )}
+      {warning !== "" && (
+        <div className="graph-card-trouble" data-warning>
+          <MarkIcon problem={false} size={14} />
+          <span>{warning}</span>
         </div>
       )}
       {(kind?.equation ?? []).map((line) => (

@@ -1,17 +1,20 @@
 // A folded group: one box with its name and how much is in it.
 
 import { ActionIcon } from "@mantine/core";
-import { IconAlertTriangle, IconChevronRight } from "@tabler/icons-react";
+import { IconChevronRight } from "@tabler/icons-react";
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
 import { useStudio } from "../store";
 import { fold } from "./arrange";
+import { MarkIcon } from "./Mark";
 import type { FoldedNode } from "./scene";
-import { troubleOf } from "./trouble";
+import { troubleOf, warningOf } from "./trouble";
 import { keyOf } from "./tree";
 
 export const Folded = memo(function Folded({ data: { key, name, count } }: NodeProps<FoldedNode>) {
   const inside = useStudio((state) => state.document?.elements.some((e) => within(e.group, key) && troubleOf(e.id, state) !== "") ?? false);
+  const warned = useStudio((state) => state.document?.elements.some((e) => within(e.group, key) && warningOf(e.id, state) !== "") ?? false);
+  const mark = inside ? "A problem is in this group" : warned ? "A warning is in this group" : "";
   const selected = useStudio((state) => state.selected.some((id) => within(state.elements.get(id)?.group ?? [], key)));
   return (
     <div
@@ -33,7 +36,11 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
         </div>
         <div className="graph-box-kind">{count === 1 ? "1 element" : `${count} elements`}</div>
       </div>
-      {inside && <IconAlertTriangle className="graph-box-alert" size={16} role="img" aria-label="A problem is in this group" />}
+      {mark !== "" && (
+        <span className="graph-mark" role="img" aria-label={mark} title={mark}>
+          <MarkIcon problem={inside} size={16} />
+        </span>
+      )}
       <Handle type="source" position={Position.Right} />
     </div>
   );

@@ -1,12 +1,12 @@
 // A coupling on an edge: its name and the number it is known by.
 
-import { IconAlertTriangle } from "@tabler/icons-react";
 import { useStudio } from "../store";
 import { openPlot } from "../panels/openPlot";
 import { mainNumber } from "./facts";
 import { useHover } from "./hover";
 import { labelOf } from "./label";
-import { useTrouble } from "./trouble";
+import { MarkIcon } from "./Mark";
+import { useTrouble, useWarning } from "./trouble";
 
 export function Pill({ element: id }: { element: string }) {
   const path = useStudio((state) => state.elements.get(id)?.path ?? "");
@@ -16,6 +16,8 @@ export function Pill({ element: id }: { element: string }) {
   });
   const selected = useStudio((state) => state.selected.includes(id));
   const trouble = useTrouble(id);
+  const warning = useWarning(id);
+  const said = trouble !== "" ? trouble : warning !== "" ? `Warning: ${warning}` : "";
   const number = useStudio(({ elements, kinds, document }) => {
     const element = elements.get(id);
     return element === undefined || document === null ? "" : mainNumber(element, kinds.get(element.kind), document);
@@ -27,7 +29,8 @@ export function Pill({ element: id }: { element: string }) {
       className="graph-pill nodrag nopan"
       data-selected={selected || undefined}
       data-trouble={trouble !== "" || undefined}
-      aria-label={[path, number, trouble].filter((part) => part !== "").join(", ")}
+      title={said || undefined}
+      aria-label={[path, number, said].filter((part) => part !== "").join(", ")}
       aria-pressed={selected}
       onClick={(event) => {
         event.stopPropagation();
@@ -42,7 +45,7 @@ export function Pill({ element: id }: { element: string }) {
       onPointerEnter={(event) => enter(id, event.currentTarget)}
       onPointerLeave={leave}
     >
-      {trouble !== "" && <IconAlertTriangle size={12} aria-hidden />}
+      {said !== "" && <MarkIcon problem={trouble !== ""} size={12} />}
       <span className="one-line">{label}</span>
       {number !== "" && <b className="numbers">{number}</b>}
     </button>

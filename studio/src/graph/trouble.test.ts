@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Clock } from "../protocol";
 import { fakeDocument } from "./fakes";
 import { labelOf } from "./label";
-import { troubleOf } from "./trouble";
+import { troubleOf, warningOf } from "./trouble";
 
 test("the failure of the run comes before the problems of the document", () => {
   const document = fakeDocument([], [], { problems: [{ what: "axes", fix: "Project", element: "u" }] });
@@ -15,6 +15,21 @@ test("the failure of the run comes before the problems of the document", () => {
 test("a warning marks no element as broken", () => {
   const document = fakeDocument([], [], { problems: [{ what: "never on", element: "u", severity: "warning" }] });
   expect(troubleOf("u", { document, clock: null })).toBe("");
+});
+
+test("all warnings of an element are said, with what to type, and problems are none of them", () => {
+  const warning = { element: "u", severity: "warning" } as const;
+  const document = fakeDocument([], [], {
+    problems: [
+      { what: "axes", element: "u" },
+      { what: "never on", fix: "Longer", ...warning },
+      { what: "too weak", fix: "", ...warning },
+      { what: "beside", ...warning, element: "v" },
+    ],
+  });
+  expect(warningOf("u", { document, clock: null })).toBe("never on\nLonger\n\ntoo weak");
+  expect(warningOf("v", { document, clock: null })).toBe("beside");
+  expect(warningOf("w", { document: null, clock: null })).toBe("");
 });
 
 test("a name made from a connection gives way to the kind", () => {

@@ -1,12 +1,32 @@
-// What is wrong with an element, in words; empty where nothing is. Warnings do not count: the element runs.
+// What is wrong with an element, in words; empty where nothing is. A warning marks an element too: it runs, but probably not as it was meant.
 
+import { isWarning } from "../pages/problems";
+import type { Problem } from "../protocol";
 import { useStudio, type Studio } from "../store";
+
+type Said = Pick<Studio, "document" | "clock">;
 
 export function useTrouble(element: string): string {
   return useStudio((state) => troubleOf(element, state));
 }
 
-export function troubleOf(element: string, { document, clock }: Pick<Studio, "document" | "clock">): string {
-  const problem = clock?.failure.find((p) => p.element === element) ?? document?.problems.find((p) => p.element === element && p.severity !== "warning");
-  return problem === undefined ? "" : [problem.what, problem.fix].filter((line) => line !== undefined && line !== "").join("\n");
+export function useWarning(element: string): string {
+  return useStudio((state) => warningOf(element, state));
+}
+
+// The failure of the run first, then the first problem of the document.
+export function troubleOf(element: string, { document, clock }: Said): string {
+  const own = (problem: Problem) => problem.element === element && !isWarning(problem);
+  const problem = clock?.failure.find(own) ?? document?.problems.find(own);
+  return problem === undefined ? "" : text(problem);
+}
+
+// All warnings: each of them is a mistake of its own.
+export function warningOf(element: string, { document }: Said): string {
+  const found = document?.problems.filter((problem) => problem.element === element && isWarning(problem)) ?? [];
+  return found.map(text).join("\n\n");
+}
+
+function text({ what, fix }: Problem): string {
+  return [what, fix].filter((line) => line !== undefined && line !== "").join("\n");
 }

@@ -1,6 +1,6 @@
 // What is wrong with an element: in the document, and in the run.
 
-import { IconAlertTriangle } from "@tabler/icons-react";
+import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
 
 import { isWarning } from "../pages/problems";
 import type { Problem } from "../protocol";
@@ -15,9 +15,11 @@ export function ProblemBanner({ element }: { element: string }) {
   if (problems.length === 0) {
     return null;
   }
+  const warning = problems.every(isWarning);
+  const Icon = warning ? IconAlertTriangle : IconAlertOctagon; // the same shapes as on the boxes
   return (
-    <div className="problem-banner" role="alert" data-warning={problems.every(isWarning) || undefined}>
-      <IconAlertTriangle size={16} />
+    <div className="problem-banner" role="alert" data-warning={warning || undefined}>
+      <Icon size={16} />
       <ul>
         {problems.map((problem, i) => (
           <li key={i}>

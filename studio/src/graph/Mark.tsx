@@ -1,0 +1,33 @@
+// What is wrong with an element, as a mark on its box: an octagon for a problem, a triangle for a warning. It selects the element.
+
+import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
+import { useStudio } from "../store";
+import { useTrouble, useWarning } from "./trouble";
+
+export function Mark({ element }: { element: string }) {
+  const trouble = useTrouble(element);
+  const warning = useWarning(element);
+  if (trouble === "" && warning === "") {
+    return null;
+  }
+  const text = trouble !== "" ? `Problem: ${trouble}` : `Warning: ${warning}`;
+  return (
+    <button
+      type="button"
+      className="graph-mark nodrag nopan"
+      title={text}
+      aria-label={text}
+      onClick={(event) => {
+        event.stopPropagation();
+        useStudio.getState().select([element]);
+      }}
+    >
+      <MarkIcon problem={trouble !== ""} size={16} />
+    </button>
+  );
+}
+
+export function MarkIcon({ problem, size }: { problem: boolean; size: number }) {
+  const Icon = problem ? IconAlertOctagon : IconAlertTriangle;
+  return <Icon className="graph-mark-icon" data-severity={problem ? "problem" : "warning"} size={size} aria-hidden />;
+}
