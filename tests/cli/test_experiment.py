@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import errno
+import io
 import json
+import re
+import sys
 
 import pytest
 
 from deodar import cli
+from deodar.cli import _long
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.results import load
+from deodar.runtime import simulate
 from tests.experiments.robots import decider
 
 
@@ -91,6 +96,21 @@ def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
     assert "there is no such file. Did you mean 'when.json'?" in capsys.readouterr().err
     assert cli.main(["experiment", "when.model.json"]) == 1
     assert "is no experiment" in capsys.readouterr().err
+
+
+def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(simulate, "LONG_STEPS", 16 * 400)
+    monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
+    monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
+    assert call("--out", "out") == 1 and not (tmp_path / "out").exists()
+    told = capsys.readouterr().err.replace("\n", " ")
+    assert re.search(r"deodar experiment: 16 trials of at most 400 steps of dt = 1 take about \S+ \w+ on this machine", told)
+    assert "nobody can be asked" in told and "--yes" in told
+    assert call("--out", "out", "--yes") == 0
+    assert "16 trials of at most 400 steps" in capsys.readouterr().err
+    assert call("--out", "out") == 0, "nothing is left to be run"
+    assert call("--out", "fewer", "--trials", "7") == 0
+    assert "on this machine" not in capsys.readouterr().err
 
 
 def test_a_disk_that_fills_keeps_what_is_done_and_says_how_to_go_on(file, capsys, tmp_path, monkeypatch):

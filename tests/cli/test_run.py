@@ -205,6 +205,19 @@ def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(here: Path, monkeyp
     assert "steps of dt = 1 take about" in capsys.readouterr().err
 
 
+def test_a_very_long_record_is_not_repeated_without_yes(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "small.json", "--duration", "40", "--record", "u.activation", "--trials", "2", "--out", "first"]) == 0
+    monkeypatch.setattr(simulate, "LONG_STEPS", 40)
+    monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
+    monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
+    capsys.readouterr()
+    assert main(["run", "first", "--out", "second"]) == 1 and not (here / "second").exists()
+    assert re.search("40 steps of dt = 1 take about .* nobody can be asked .* --yes", capsys.readouterr().err.replace("\n", " "))
+    assert main(["run", "first", "--out", "second", "--yes"]) == 0
+    told = capsys.readouterr()
+    assert "same bits" in told.out and "deodar run: 40 steps of dt = 1 take about" in told.err
+
+
 def test_a_wall_time_in_words() -> None:
     seconds = [3.2, 90, 7200, 86400 * 3.25, 86400 * 365 * 4000]
     assert [_long.duration(s) for s in seconds] == ["3 seconds", "1.5 minutes", "2 hours", "3.2 days", "4,000 years"]

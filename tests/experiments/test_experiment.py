@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 import json
+import warnings
 
 import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import DocumentError, OutputExists, ParameterError
+from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning
 from deodar.experiments.actions import End, Move, Push, Ramp, Record, Reset, Set, Snapshot
 from deodar.experiments.events import All, AnyOf, Appears, Crosses, Reached, Vanishes
 from deodar.experiments.experiment import Experiment
@@ -18,6 +19,7 @@ from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load
 from deodar.experiments.run import run
 from deodar.recording import files
+from deodar.runtime import simulate
 from tests.experiments.robots import decider, room, straight
 
 
@@ -178,6 +180,18 @@ def test_workers_give_the_same_table(tmp_path, monkeypatch):
     experiment = Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])
     here = experiment.run()
     assert experiment.run(tmp_path / "out", workers=1).drop_attrs().identical(here.drop_attrs())
+
+
+def test_very_many_steps_in_total_are_announced(monkeypatch):
+    experiment = Experiment("d", decider(), 50, 4)
+    monkeypatch.setattr(simulate, "LONG_STEPS", 200)
+    with pytest.warns(RunWarning, match=r"200 steps in total \(4 trials of at most 50 steps of dt = 1\): a smaller number may be meant") as told:
+        experiment.run()
+    assert [t.filename for t in told] == [__file__]
+    monkeypatch.setattr(simulate, "LONG_STEPS", 201)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        experiment.run()
 
 
 @pytest.mark.parametrize(

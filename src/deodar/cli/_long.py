@@ -1,4 +1,4 @@
-"""Runs of very many steps: how long they take, and whether that is meant."""
+"""The question before runs of 10^9 steps and more: state the expected time, and ask whether to begin."""
 
 from __future__ import annotations
 
@@ -21,14 +21,15 @@ def add_yes(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--yes", action="store_true", help="begin runs of 1e9 steps and more without asking")
 
 
-def confirm(args: argparse.Namespace, steps: int, dt: float, run: Callable[[int], object]) -> None:
-    """State how long a run of very many steps takes, and ask whether to begin; fewer steps begin without a word.
+def confirm(args: argparse.Namespace, command: str, steps: int, what: str, seconds: Callable[[], float]) -> None:
+    """State how long a run takes, and ask whether to begin; a run of fewer than 10^9 steps begins without a question.
 
     Args:
         args: of the command; `yes` answers the question.
-        steps: steps of the run.
-        dt: the Euler step.
-        run: runs some steps of it, for the speed.
+        command: its name.
+        steps: steps of the run in total.
+        what: the run in words, the subject of a sentence.
+        seconds: measures how long it takes.
 
     Raises:
         TimeError: the answer is no, or nobody can be asked.
@@ -37,9 +38,9 @@ def confirm(args: argparse.Namespace, steps: int, dt: float, run: Callable[[int]
 
     if steps < LONG_STEPS:
         return
-    says = f"{steps:.3g} steps of dt = {dt:g} take about {duration(steps * seconds_a_step(run))} on this machine"
-    fix = "Take a larger dt or a shorter duration; --yes begins without asking"
-    print(f"deodar run: {says}", file=sys.stderr)
+    says = f"{what} take about {duration(seconds())} on this machine"
+    fix = "Take a larger dt, a shorter time or fewer trials; --yes begins without asking"
+    print(f"deodar {command}: {says}", file=sys.stderr)
     if args.yes:
         return
     if not sys.stdin.isatty() or not sys.stderr.isatty():

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar.cli import _options
+from deodar.cli import _long, _options
 from deodar.cli._bar import Bar
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=_options.whole, metavar="N", help="seed of all noise and of what is drawn, instead of the file's")
     parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to go on with (default: NAME-001, NAME-002, ... here)")
     parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the trials among N processes of one core each")
+    _long.add_yes(parser)
     _options.add_world(parser)
     parser.add_argument("--check", action="store_true", help="only say whether it could be run, and in which pieces")
     _options.add_json(parser)
@@ -56,6 +57,7 @@ def run(args: argparse.Namespace) -> int:
     if args.check:
         return _check(args, bench)
     out: Path = args.out or places.free(Path.cwd(), experiment.name)
+    _confirm(args, bench, out)
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
             data = carry(bench, out, args.workers or None, bar.show)
@@ -64,12 +66,31 @@ def run(args: argparse.Namespace) -> int:
             raise
         options = {"--trials": args.trials, "--seed": args.seed, "--world": args.world, "--workers": args.workers}
         again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
-        again += [f"{name} {value}" for name, value in options.items() if value is not None] + (["--trust"] if args.trust else [])
+        again += [f"{name} {value}" for name, value in options.items() if value is not None]
+        again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
         why = f"{stop}" if isinstance(stop, OutputError) else "stopped"
         print(f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Go on with: {' '.join(again)}", file=sys.stderr)
         return 1
     _tell(args, out, data)
     return 1 if _diverged(data) == data.sizes["trial"] else 0
+
+
+def _confirm(args: argparse.Namespace, bench: Any, out: Path) -> None:
+    """Ask before very many steps; trials whose rows are in the folder are not counted."""
+    from deodar.experiments.results import ROWS, load
+    from deodar.runtime.simulate import LONG_STEPS
+
+    if bench.trials * bench.steps < LONG_STEPS:
+        return
+    left = bench.trials - (load(out).sizes["trial"] if (out / ROWS).is_file() else 0)
+    what = f"{left} trials of at most {bench.steps:.3g} steps of dt = {bench.dt:g}"
+
+    def seconds() -> float:
+        first = bench.pieces()[0]
+        a_step = _long.seconds_a_step(lambda n: bench.shortened(n).rows(first))
+        return a_step * bench.steps * left / len(first) / min(args.workers or 1, len(bench.pieces()))
+
+    _long.confirm(args, "experiment", left * bench.steps, what, seconds)
 
 
 def _check(args: argparse.Namespace, bench: Any) -> int:

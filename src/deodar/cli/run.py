@@ -6,7 +6,7 @@ import argparse
 import contextlib
 import json
 import sys
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -87,7 +87,7 @@ def _is_record(path: Path) -> bool:
 def _simulate(args: argparse.Namespace) -> int:
     from deodar.errors import Interrupted
     from deodar.importers.opening import load
-    from deodar.runtime.simulate import expected_steps, simulate
+    from deodar.runtime.simulate import simulate
 
     if args.duration is None and args.file.is_file():
         args.wrong("a document needs --duration, for example --duration 500")
@@ -110,12 +110,19 @@ def _simulate(args: argparse.Namespace) -> int:
     data, stopped = None, ""
     try:
         with _said_here():
-            steps = expected_steps(args.duration or 0.0, step)
-            _long.confirm(args, steps, step, lambda n: simulated(n * step))
+            _confirm(args, args.duration, step, simulated)
             data = simulated(args.duration or 0.0, False if args.no_progress or args.json else None)
     except Interrupted as error:
         data, stopped = error.data, str(error)
     return _finish(args, place, data, model.document, stopped, None)
+
+
+def _confirm(args: argparse.Namespace, duration: float | None, dt: float, run: Callable[[float], object]) -> None:
+    """Ask before a very long run; `run` runs a document time of it."""
+    from deodar.runtime.simulate import expected_steps
+
+    steps = expected_steps(duration or 0.0, dt)
+    _long.confirm(args, "run", steps, f"{steps:.3g} steps of dt = {dt:g}", lambda: steps * _long.seconds_a_step(lambda n: run(n * dt)))
 
 
 def _show_warnings(model: Model, file: Path) -> None:
@@ -141,9 +148,15 @@ def _repeat(args: argparse.Namespace) -> int:
     _options.use_cores(args.cores, provenance.cores_of(about(old)))
     place = _Place(args, str(old.attrs.get("title") or "record"))
     stopped = ""
+
+    def simulated(model: Model, duration: float, **settings: Any) -> xarray.Dataset:
+        quiet: dict[str, Any] = {**settings, "progress": False}
+        _confirm(args, duration, settings["dt"], lambda time: simulate(model, time, **quiet))
+        return simulate(model, duration, **settings)
+
     try:
         with _said_here():
-            done = repeat(old, simulate, _options.world(args.world), args.trust, False if args.no_progress or args.json else None, args.device)
+            done = repeat(old, simulated, _options.world(args.world), args.trust, False if args.no_progress or args.json else None, args.device)
     except Interrupted as error:
         done, stopped = compare(old, error.data), str(error)
     return _finish(args, place, done.data, provenance.document(about(old)), stopped, done)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -66,6 +67,25 @@ class Bench:
     def cells(self) -> list[tuple[int, ...]]:
         """For each trial the level (its number) of each factor."""
         return self.experiment.cells
+
+    @property
+    def trials(self) -> int:
+        """Trials in total."""
+        return len(self.cells)
+
+    @property
+    def dt(self) -> float:
+        """Euler step."""
+        return float(self.experiment.dt or self.model.document.step)
+
+    @property
+    def steps(self) -> int:
+        """Steps of a trial that no condition ends."""
+        return round(self.experiment.limit / self.dt)
+
+    def shortened(self, steps: int) -> Bench:
+        """The same with another limit, in steps, to measure how long a step takes."""
+        return Bench(dc.replace(self.experiment, limit=steps * self.dt), self.model, self.world)
 
     @cached_property
     def batched(self) -> bool:

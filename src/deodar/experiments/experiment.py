@@ -150,15 +150,21 @@ class Experiment(Part):
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: did not happen) and measures as variables.
             A trial that diverges has the outcome `diverged`, and NaN for every number; the variable `diverged` gives its reason, the attribute
-            `diverged` counts such trials, and a `RunWarning` repeats it. The rows of the other trials are not affected.
+            `diverged` counts such trials, and a `RunWarning` repeats it. The rows of the other trials are not affected. A `RunWarning` is also
+            given before trials that may take 10^9 steps in total.
 
         Raises:
             OutputExists: the folder holds another experiment, or something else.
             KeyboardInterrupt: on Ctrl-C, when the pieces that run are done; their rows are kept.
         """
         from deodar.experiments.results import carry
+        from deodar.runtime.simulate import LONG_STEPS
 
-        data = carry(self.bench(trust), out, workers, progress)
+        bench = self.bench(trust)
+        if bench.trials * bench.steps >= LONG_STEPS:
+            total = f"{bench.trials * bench.steps:.3g} steps in total ({bench.trials} trials of at most {bench.steps:.3g} steps of dt = {bench.dt:g})"
+            warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
+        data = carry(bench, out, workers, progress)
         if DIVERGED in data.attrs:
             warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
         return data
