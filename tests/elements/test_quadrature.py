@@ -91,3 +91,28 @@ def test_a_document_without_the_entry_means_points(tmp_path):
     del data["elements"]["u"]["quadrature"]
     (tmp_path / "old.json").write_text(json.dumps(data))
     assert dd.load(tmp_path / "old.json")["u"].element.quadrature == "point"
+
+
+@pytest.mark.parametrize("g", SIGMOIDS, ids=lambda g: type(g).__name__)
+def test_the_sum_of_output_times_slope_is_zero_round_a_ring_as_the_integral_is(g):
+    """A symmetric kernel therefore exerts no net force on a peak, wherever the peak lies between samples."""
+    axis = dd.Axis("x", 0, 40, 40, periodic=True)
+    u = 9 * np.exp(-0.5 * ((axis.points - 17.3) / 2.2) ** 2) - 4
+    sharp = u - 3 / 8 * (np.roll(u, 1) - 2 * u + np.roll(u, -1))
+    sharp += 3 / 16 * (np.roll(u, 2) - 4 * np.roll(u, 1) + 6 * u - 4 * np.roll(u, -1) + np.roll(u, -2))
+    slope = (np.roll(sharp, -1) - np.roll(sharp, 1)) / 2
+    with jax.enable_x64(True):
+        cells, points = (np.asarray(rule) @ slope for rule in (cell_means(g, jnp.asarray(u), (axis,)), g(jnp.asarray(u))))
+    assert abs(cells) < 1e-12
+    assert abs(points) > 1e-3 or type(g) is Linear
+
+
+def test_a_memory_stays_between_two_samples():
+    axis = dd.Axis("x", 0, 100, 51)
+    model = dd.Model("between")
+    u = model.add(dd.Field("u", [axis], kernel=[dd.Gaussian(18, 5, normalized=True)], global_inhibition=0.3, quadrature="cell"))
+    model.add(dd.GaussianStimulus("s", [axis], center=50.6, amplitude=8, windows=[(0, 400)])) >> u
+    for quadrature in ("cell", "point"):
+        model.set("u.quadrature", quadrature)
+        g = dd.simulate(model, 3800, dt=4, record="u.output", every=3800)["u.output"].values[-1].astype(float)
+        assert (abs(g @ axis.points / g.sum() - 50.6) < 0.02) == (quadrature == "cell")

@@ -58,16 +58,24 @@ def beside(u, place, d, away, axis):
 
 
 def cell_means(g, u, axes):
-    """On a line both halves of a cell, with activation in straight lines between samples less an eighth of the second difference; beyond
+    """On a line weights 1, 3, 3, 1 for the halves of both neighbouring intervals, whose ends differ by what the rule's differences D give; beyond
     one axis the range of one sample along the steepest axis."""
     out = np.zeros(u.shape)
     for place in np.ndindex(*u.shape):
         if len(axes) == 1:
-            w = {}
-            for k in (-1, 0, 1):
-                one, two, three = (beside(u, place, 0, k + e, axes[0]) for e in (-1, 0, 1))
-                w[k] = two - (one - 2 * two + three) / 8
-            out[place] = sum(mean(g, w[0], (w[0] + w[k]) / 2) for k in (-1, 1)) / 2
+            at = {k: beside(u, place, 0, k, axes[0]) for k in range(-5, 6)}
+            second = {k: at[k - 1] - 2 * at[k] + at[k + 1] for k in range(-4, 5)}
+            fourth = {k: second[k - 1] - 2 * second[k] + second[k + 1] for k in range(-3, 4)}
+            sharp = {k: at[k] - 3 / 8 * second[k] + 3 / 16 * fourth[k] for k in range(-3, 4)}
+            d = {k: (sharp[k + 1] - sharp[k - 1]) / 2 for k in range(-2, 3)}
+            v = {0: sharp[0] + (sharp[-1] - 2 * sharp[0] + sharp[1]) / 4}
+            for k in (0, 1):
+                v[k + 0.5] = v[k] + (3 * d[k] + d[k + 1]) / 8
+                v[k + 1] = v[k + 0.5] + (d[k] + 3 * d[k + 1]) / 8
+            for k in (0, -1):
+                v[k - 0.5] = v[k] - (3 * d[k] + d[k - 1]) / 8
+                v[k - 1] = v[k - 0.5] - (d[k] + 3 * d[k - 1]) / 8
+            out[place] = sum(c / 8 * (mean(g, v[s * k], v[s * (k + 0.5)])) for s in (-1, 1) for k, c in ((0, 3), (0.5, 1)))
         else:
             slopes = [abs(beside(u, place, d, 1, a) - beside(u, place, d, -1, a)) / 2 for d, a in enumerate(axes)]
             out[place] = mean(g, u[place] - max(slopes) / 2, u[place] + max(slopes) / 2)

@@ -1,10 +1,22 @@
 """The mean of a field's output over the cells of its grid.
 
 Point sums are exact where the output changes little from sample to sample. Where the edge of a peak is narrower than a sample, a point sum
-jumps when the edge crosses a sample: peaks stick to the grid and thresholds belong to it. The mean over a cell grows continuously instead.
+jumps when the edge crosses a sample: peaks stick to the grid and thresholds depend on it. A mean over cells grows continuously instead.
 
-Over one axis activation runs in straight lines from the sample to the middles between neighbours: g is averaged over both halves of the cell.
-A straight line would lie above a curve that bends upwards, hence w = u - (second difference) / 8, which makes the rule exact for linear g.
+Over one axis activation runs in straight lines through v(i) and v(i + 1/2), values at the samples and halfway between them. With q the mean of g
+over such a half of an interval, the output at sample i is
+
+    o(i) = (q(i - 3/4) + 3 q(i - 1/4) + 3 q(i + 1/4) + q(i + 3/4)) / 8.
+
+These weights preserve the first three moments of an edge at the grid's own wavelength, so that the place of an edge between two samples reaches the
+kernels right. v is chosen such that its differences are the same weights applied to an antisymmetric difference D of u,
+
+    v(i + 1/2) - v(i) = (3 (D u)(i) + (D u)(i + 1)) / 8,    v(i + 1) - v(i + 1/2) = ((D u)(i) + 3 (D u)(i + 1)) / 8.
+
+Then sum_i o(i) (D u)(i) telescopes to zero for a peak away from the ends, as the integral of g(u) du/dx does: a symmetric kernel exerts no net force
+on a peak, wherever it lies between samples. D is the central difference of u - 3/8 (second difference) + 3/16 (fourth difference). The first factor
+makes the rule exact for linear g up to fourth differences. The second was chosen by measurement: it lets edges respond to noise at single samples
+about as much as on a fine grid, so that memories drift about as far (without it about 40 % less at 5 samples a kernel width).
 
 Over more axes g is averaged over the activations u - s / 2 to u + s / 2, where s is the slope along the steepest axis, in activation per sample. An
 average over one whole sample of that axis removes everything that repeats from sample to sample along it, so that edges in any
@@ -13,6 +25,7 @@ direction move freely. The cost does not grow with the number of axes.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import jax
@@ -22,6 +35,13 @@ from jax.lax import optimization_barrier, slice_in_dim
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.sigmoids._base import Sigmoid
+
+AT_SAMPLES = tuple(c / 64 for c in (3, -12, 13, 56, 13, -12, 3))
+"""v(i) from u(i - 3) to u(i + 3)."""
+BETWEEN = tuple(c / 256 for c in (3, 3, -59, 181, 181, -59, 3, 3))
+"""v(i + 1/2) from u(i - 3) to u(i + 4)."""
+BESIDE = 4
+"""Samples beyond the ends that the rule reads."""
 
 
 def cell_means(g: Sigmoid, u: Array, axes: Axes) -> Array:
@@ -39,16 +59,13 @@ def cell_means(g: Sigmoid, u: Array, axes: Axes) -> Array:
 
 def _line(g: Sigmoid, u: Array, axes: Axes, d: int) -> Array:
     n = u.shape[d]
-    wide = _padded(u, d, 2, axes[d].periodic)
-    w = _cut(wide, d, 1, n + 2)
-    w = w - 0.125 * (_cut(wide, d, 0, n + 2) - 2.0 * w + _cut(wide, d, 2, n + 2))
-    between = 0.5 * (_cut(w, d, 0, n + 1) + _cut(w, d, 1, n + 1))
-    w = _cut(w, d, 1, n)
-    at_w, at_between = jax.tree.map(optimization_barrier, (g.ends(w), g.ends(between)))  # one each: what nobody reads is not computed
-    left, right = (_cut(between, d, k, n) for k in (0, 1))
-    at_left, at_right = (None if at_between is None else tuple(_cut(e, d, k, n) for e in at_between) for k in (0, 1))
-    (p, q), (r, s) = g.fraction(w, left, at_w, at_left), g.fraction(w, right, at_w, at_right)
-    return 0.5 * (p * s + r * q) / (q * s)
+    wide = optimization_barrier(_padded(u, d, BESIDE, axes[d].periodic))
+    knots, middles = _weighted(wide, d, n + 2, AT_SAMPLES), _weighted(wide, d, n + 1, BETWEEN)  # from sample -1, and from -1/2
+    at_knots, at_middles = jax.tree.map(optimization_barrier, (g.ends(knots), g.ends(middles)))  # one each: what nobody reads is not computed
+    (first, at_first), (last, at_last) = ((_cut(knots, d, k, n + 1), _ends(at_knots, d, k, n + 1)) for k in (0, 1))
+    near, far = g.mean(first, middles, at_first, at_middles), g.mean(last, middles, at_last, at_middles)
+    left, right = optimization_barrier((0.375 * near + 0.125 * far, 0.125 * near + 0.375 * far))  # what an interval gives to either side
+    return _cut(left, d, 1, n) + _cut(right, d, 0, n)
 
 
 def _space(g: Sigmoid, u: Array, axes: Axes, long: list[int]) -> Array:
@@ -66,6 +83,15 @@ def _space(g: Sigmoid, u: Array, axes: Axes, long: list[int]) -> Array:
     u, half = optimization_barrier((u, half))
     low, high = u - half, u + half
     return g.mean(low, high)
+
+
+def _weighted(y: Array, d: int, count: int, weights: Sequence[float]) -> Array:
+    """Weighted sums of successive samples along axis d."""
+    return sum((c * _cut(y, d, k, count) for k, c in enumerate(weights) if k), weights[0] * _cut(y, d, 0, count))
+
+
+def _ends(at: tuple[Array, ...] | None, d: int, start: int, count: int) -> tuple[Array, ...] | None:
+    return None if at is None else tuple(_cut(e, d, start, count) for e in at)
 
 
 def _cut(y: Array, d: int, start: int, count: int) -> Array:

@@ -22,28 +22,23 @@ class Sigmoid(Part):
         raise NotImplementedError
 
     def ends(self, u: Any) -> tuple[Any, ...] | None:
-        """What `fraction` needs at an end of a range of activation and what is costly: neighbouring ranges share it. None where nothing is."""
+        """What `mean` needs at an end of a range of activation and what is costly: neighbouring ranges share it. None where nothing is."""
         return None
 
-    def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
-        """The mean of g over the activations between a and b as numerator and denominator, so that several means take one division.
+    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
+        """The mean of g over the activations between a and b, g(a) where they are equal; same shape.
 
         A sigmoid that knows its antiderivative gives the exact mean; this is Gauss-Legendre's rule with five points.
 
         Args:
             a: one end.
             b: the other; it may lie below a, or be equal.
-            at_a: `ends(a)`.
-            at_b: `ends(b)`.
+            at_a: `ends(a)`, where it is known.
+            at_b: `ends(b)`, where it is known.
         """
         places, weights = np.polynomial.legendre.leggauss(POINTS)
         middle, half = 0.5 * (a + b), 0.5 * (b - a)
-        return sum(float(w) / 2 * self(middle + float(p) * half) for p, w in zip(places, weights, strict=True)), 1.0
-
-    def mean(self, a: Any, b: Any) -> Any:
-        """The mean of g over the activations between a and b, g(a) where they are equal; same shape."""
-        above, below = self.fraction(a, b, self.ends(a), self.ends(b))
-        return above / below
+        return sum(float(w) / 2 * self(middle + float(p) * half) for p, w in zip(places, weights, strict=True))
 
     def bounds(self, u: Interval) -> Interval:
         """Between which values the output lies for activation in an interval."""

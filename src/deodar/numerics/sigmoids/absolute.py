@@ -39,7 +39,7 @@ class Absolute(Sigmoid):
         v = self.beta * (u - self.threshold)
         return 0.5 * (1.0 + v / (1.0 + jnp.abs(v)))
 
-    def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
+    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
         """(1 + (F(b) - F(a)) / (v(b) - v(a))) / 2 with F = |v| - log(1 + |v|), v = beta (u - theta); on one side of theta as a single logarithm."""
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         wa, wb = jnp.abs(va), jnp.abs(vb)
@@ -50,7 +50,7 @@ class Absolute(Sigmoid):
         crosses = (va < 0) != (vb < 0)
         signed = (vb - jnp.sign(vb) * jnp.log1p(wb)) * jnp.sign(vb) - (va - jnp.sign(va) * jnp.log1p(wa)) * jnp.sign(va)
         over = signed / jnp.where(crosses, vb - va, 1.0)
-        return 0.5 * (1.0 + jnp.where(crosses, over, jnp.where(va + vb > 0, one_side, -one_side))), 1.0
+        return 0.5 * (1.0 + jnp.where(crosses, over, jnp.where(va + vb > 0, one_side, -one_side)))
 
     def bounds(self, u: Interval) -> Interval:
         low, high = (max(min(self.beta * (v - self.threshold), 1e300), -1e300) for v in u)

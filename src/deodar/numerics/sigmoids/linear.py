@@ -36,9 +36,9 @@ class Linear(Sigmoid):
     def __call__(self, u: Any) -> Any:
         return self.slope * (u - self.threshold)
 
-    def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
+    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
         """The output in the middle."""
-        return self(0.5 * (a + b)), 1.0
+        return self(0.5 * (a + b))
 
     def bounds(self, u: Interval) -> Interval:
         return times((self.slope, self.slope), (u[0] - self.threshold, u[1] - self.threshold))

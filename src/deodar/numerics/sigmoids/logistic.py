@@ -49,7 +49,7 @@ class Logistic(Sigmoid):
         return jax.nn.sigmoid(self.beta * (u - self.threshold))
 
     def ends(self, u: Any) -> tuple[Any, ...]:
-        """The part of the antiderivative that decays, log(1 + exp(-|v|)) with v = beta (u - theta), and g."""
+        """log(1 + exp(-|v|)) with v = beta (u - theta), the part of the antiderivative that decays, and exp(-|v|)."""
         v = self.beta * (u - self.threshold)
         small = jnp.exp(-jnp.abs(v))
         if small.dtype == jnp.float32:
@@ -59,16 +59,17 @@ class Logistic(Sigmoid):
             decaying = small * series
         else:
             decaying = jnp.log1p(small)
-        return decaying, jnp.where(v > 0, 1.0, small) / (1.0 + small)
+        return decaying, small
 
-    def fraction(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> tuple[Any, Any]:
+    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
         """(log(1 + exp(beta (b - theta))) - log(1 + exp(beta (a - theta)))) / (beta (b - a)); near a = b the Taylor series about a."""
-        (low, g), (high, _) = at_a or self.ends(a), at_b or self.ends(b)
+        (low, s), (high, _) = at_a or self.ends(a), at_b or self.ends(b)
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         d = vb - va
         near = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
-        series = g + 0.5 * g * (1.0 - g) * d
-        return jnp.where(near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)), jnp.where(near, 1.0, d)
+        q = 1.0 + s  # near a = b: g + g (1 - g) d / 2, over the denominator q^2, so that both forms take one division
+        series = jnp.where(va > 0, 1.0, s) * q + 0.5 * s * d
+        return jnp.where(near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)) / jnp.where(near, q * q, d)
 
     def bounds(self, u: Interval) -> Interval:
         low, high = (self.beta * (v - self.threshold) for v in u)
