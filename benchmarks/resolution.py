@@ -1,8 +1,11 @@
 """Prints what a field's behaviour owes to its grid, with `quadrature="point"` and `"cell"`: `python benchmarks/resolution.py [--quick]`.
 
+`python benchmarks/resolution.py cost` prints how much longer a step takes with `cell`. `python benchmarks/resolution.py edges` prints the error of
+the boost that erases a memory over the steepness of the peak's edge, which is what `deodar check` estimates.
+
 A field with a memory over 100 degrees (kernel of width 5, integral 18) and one over a torus of 60 x 60 (integral 22), on grids of 2.5
 samples a kernel width and more. Three things are measured: the boost at which a memory is forgotten, how far memories drift under white noise,
-and how far they move without any. For the step function on a line the boost is known (Amari 1977). Nothing is asserted.
+and how far from their inputs they come to lie without any. For the step function on a line the boost is known (Amari 1977). Nothing is asserted.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ import os
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 os.environ.setdefault("NPROC", "1")
 
@@ -21,6 +25,7 @@ import numpy as np
 
 import deodar as dd
 from deodar.elements.boost import Boost
+from deodar.model.checks.resolution import steepness
 from deodar.numerics.sigmoids._base import Sigmoid
 from deodar.numerics.sigmoids.step import Step
 
@@ -31,22 +36,24 @@ LENGTH, NOISE = {1: 100.0, 2: 60.0}, {1: 0.5, 2: 1.0}
 GRIDS = {1: (51, 101, 201, 501), 2: (31, 61, 121)}
 
 
-def memory(dimensions: int, samples: int, g: Sigmoid, quadrature: str, noise: float = 0.0, dt: float = 1.0) -> dd.Model:
+def memory(dimensions: int, samples: int, g: Sigmoid, quadrature: str, noise: float = 0.0, dt: float = 1.0, center: float | None = None) -> dd.Model:
     """A field with an input that makes a memory, and a boost that follows."""
     periodic = dimensions == 2
     axes = [dd.Axis(n, 0, LENGTH[dimensions], samples=samples - periodic, periodic=periodic, unit="deg") for n in "xy"[:dimensions]]
     kernel, inhibition = [dd.Gaussian(18 if dimensions == 1 else 22, 5, normalized=True)], 0.3 if dimensions == 1 else 0.01
     model = dd.Model("memory", dt=dt)
     u = model.add(dd.Field("u", axes, tau=20, sigmoid=g, kernel=kernel, global_inhibition=inhibition, noise=noise, quadrature=quadrature))
-    middle = [LENGTH[dimensions] / 2] * dimensions
+    middle = [LENGTH[dimensions] / 2 if center is None else center] * dimensions
     model.add(dd.GaussianStimulus("input", axes, center=middle, sigma=5, amplitude=8, windows=[(0, MADE)])) >> u
     model.add(Boost("boost", axes, amplitude=0.0, windows=[(2 * MADE, 1e6)])) >> u
     return model
 
 
-def forgetting(dimensions: int, samples: int, g: Sigmoid, quadrature: str, precise: float = 1e-3, lasting: float = 6000.0) -> float:
+def forgetting(
+    dimensions: int, samples: int, g: Sigmoid, quadrature: str, precise: float = 1e-3, lasting: float = 6000.0, center: float | None = None
+) -> float:
     """The boost below which a memory is lost, to `precise`; Euler steps of a fifth of the time constant."""
-    model = memory(dimensions, samples, g, quadrature, dt=4.0)
+    model = memory(dimensions, samples, g, quadrature, dt=4.0, center=center)
     model["u"]["activation"] >> model.add(dd.Project([], reduce="max", name="top"))
     low, high = -2.5, 0.0
     while high - low > precise:
@@ -67,6 +74,51 @@ def amari() -> float:
     return float(5 - np.max(excitation - 0.3 * widths[::10]))
 
 
+def edges() -> None:
+    """The error of the boost that erases a memory, with sums over points, over beta times the change of activation over a sample at its edge.
+
+    The memory lies on a sample, and between two of them: the larger error of both counts. A grid of 20 samples a kernel width is the reference.
+    """
+    print(f"{'beta':>6}{'samples a width':>17}{'steepness':>11}{'boost':>10}{'error':>9}")
+    for beta in (2.0, 4.0, 8.0):
+        exact = forgetting(1, 401, dd.Logistic(beta), "cell")
+        for samples in (51, 76, 101, 126, 151, 201):
+            u = memory(1, samples, dd.Logistic(beta), "point")["u"].element
+            assert isinstance(u, dd.Field)
+            (steep,), step = steepness(u), LENGTH[1] / (samples - 1)
+            if 2.5 < steep < 15:
+                found = [forgetting(1, samples, dd.Logistic(beta), "point", center=50 + away * step) for away in (0.0, 0.5)]
+                worst = max(found, key=lambda boost: abs(boost - exact))
+                print(f"{beta:6g}{5 / step:17.4g}{steep:11.2f}{worst:10.4f}{abs(worst / exact - 1):9.1%}", flush=True)
+
+
+def cost(rounds: int, seconds: float) -> None:
+    """How much longer a step takes with `cell`: pairs of runs in turn, CPU time on one core, the median of their ratios and its quartiles."""
+    sys.path.insert(0, str(Path(__file__).parent))
+    import workloads
+
+    print(f"{'workload':10}{'point, us a step':>18}{'cell more':>12}{'quartiles':>20}")
+    for name in ("W1_200", "W2_100", "W5"):
+        work = workloads.WORKLOADS[name]
+        models = [work.model() for _ in range(2)]
+        models[1].set("u.quadrature", "cell")
+
+        def timed(model: dd.Model, steps: int, trials: int | None = work.trials or None) -> float:
+            began = time.process_time()
+            dd.simulate(model, steps, trials=trials, progress=False)
+            return time.process_time() - began
+
+        n = 100
+        for model in models:
+            timed(model, n)
+        while (taken := timed(models[0], n)) < seconds:
+            n = 2 * n if taken < seconds / 4 else math.ceil(1.2 * n * seconds / taken)
+        pairs = [[timed(model, 2 * n) - timed(model, n) for model in models] for _ in range(rounds)]
+        ratios = [b / a - 1 for a, b in pairs]
+        low, middle, high = np.quantile(ratios, [0.25, 0.5, 0.75])
+        print(f"{name:10}{1e6 * float(np.median([a for a, _ in pairs])) / n:18.2f}{middle:12.0%}{f'{low:.0%} to {high:.0%}':>20}", flush=True)
+
+
 def places(model: dd.Model, dimensions: int, until: float, **how: object) -> np.ndarray:
     """Where the memory is at 800 ms and at the end: shape (runs, 2, dimensions)."""
     data = dd.simulate(model, 2 * MADE + until, record=["u.output"], every=400.0, progress=False, **how)["u.output"]  # type: ignore[arg-type]
@@ -84,14 +136,13 @@ def drift(dimensions: int, samples: int, g: Sigmoid, quadrature: str, trials: in
 
 
 def motion(dimensions: int, samples: int, g: Sigmoid, quadrature: str) -> float:
-    """The farthest that a memory moves without noise in 3,000 ms, in samples, over places between two samples."""
+    """How far from its input a memory lies at most after 3,000 ms without noise, in samples, for inputs on a sample and between two."""
     step = LENGTH[dimensions] / (samples - 1)
     model, most = memory(dimensions, samples, g, quadrature), 0.0
-    for share in (0.1, 0.25, 0.4, 0.5):
-        away = [share * step, 0.6 * share * step][:dimensions]
-        model.set("input.center", [LENGTH[dimensions] / 2 + a for a in away])
-        found = places(model, dimensions, HELD)
-        most = max(most, float(np.abs(found[:, 1] - found[:, 0]).max()) / step)
+    for share in (0.0, 0.1, 0.25, 0.4, 0.5):
+        center = [LENGTH[dimensions] / 2 + part * share * step for part in (1, 0.6)[:dimensions]]
+        model.set("input.center", center)
+        most = max(most, float(np.abs(places(model, dimensions, HELD)[:, 1] - center).max()) / step)
     return most
 
 
@@ -108,18 +159,25 @@ def table(title: str, dimensions: int, grids: tuple[int, ...], measure: Callable
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", nargs="?", choices=("behaviour", "cost", "edges"), default="behaviour", help="what is measured (default: behaviour)")
+    parser.add_argument("--rounds", type=int, default=15, help="pairs of runs that the cost is taken over (default 15)")
+    parser.add_argument("--seconds", type=float, default=0.5, help="CPU time of the shorter run of the cost (default 0.5)")
     parser.add_argument("--quick", action="store_true", help="one dimension, three grids, 400 trials")
     parser.add_argument("--trials", type=int, default=1000, help="runs that the variance of drift is taken over (default 1000)")
     parser.add_argument("--dimensions", type=int, choices=(1, 2), help="one of them alone")
     given = parser.parse_args()
     began = time.time()
+    if given.what != "behaviour":
+        cost(given.rounds, given.seconds) if given.what == "cost" else edges()
+        print(f"\n{time.time() - began:.0f} s; deodar {dd.__version__}, single precision")
+        return 0
     trials = 400 if given.quick else given.trials
     for dimensions in (given.dimensions,) if given.dimensions else (1,) if given.quick else (1, 2):
         grids = GRIDS[dimensions][:3] if given.quick else GRIDS[dimensions]
         where = "a line" if dimensions == 1 else "a plane"
         known = f"; Amari's value for the step: {amari():.4f}" if dimensions == 1 else ""
         table(f"Boost at which a memory is forgotten, on {where}{known}", dimensions, grids, forgetting, "12.4f", SIGMOIDS)
-        table(f"Farthest motion without noise in {HELD} ms, in samples, on {where}", dimensions, grids[:2], motion, "12.3f", SIGMOIDS)
+        table(f"Farthest from its input after {HELD} ms without noise, in samples, on {where}", dimensions, grids[:2], motion, "12.3f", SIGMOIDS)
         noisy = functools.partial(drift, trials=trials if dimensions == 1 else min(trials, 400))
         title = f"Variance of the place after {HELD} ms of noise {NOISE[dimensions]:g}, squared degrees, {noisy.keywords['trials']} runs, on {where}"
         table(title, dimensions, grids[:3], noisy, "12.4f", SIGMOIDS if not given.quick else dict([*SIGMOIDS.items()][:1]))

@@ -1,0 +1,104 @@
+"""Memories whose edges are narrower than a sample, where sums over points depend on the grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from deodar.elements.field import Field
+from deodar.errors import Problem
+from deodar.leaves import per_axis
+from deodar.model.wiring import Wiring, warning
+from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids.step import Step
+
+STEEP, STEEP_BEYOND = 5.0, 10.0
+"""Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over one axis, and over several, where edges
+cross samples at different places. Measured by the boost that erases a memory: on a line it is 3 % to 14 % off at 5.5 and below 1 % off at 3.7
+(`python benchmarks/resolution.py edges`), on a plane 5 % off at 14 and 1.5 % at 7 (`--dimensions 2`)."""
+
+WIDTHS = np.linspace(0.05, 12.0, 240)
+"""Widths of a peak that are tried, in widths of the excitation."""
+
+WHOLE = 0.75
+"""Share of an axis from which on a region is no peak."""
+
+_erf = np.vectorize(math.erf, otypes=[float])
+
+
+def check(wiring: Wiring) -> Iterator[Problem]:
+    """Fields with Gaussian kernels of their own that hold peaks without input."""
+    for n in wiring.declared:
+        e = n.element
+        if not isinstance(e, Field) or not e.axes or e.quadrature != "point":
+            continue
+        limit = STEEP if len(e.axes) == 1 else STEEP_BEYOND
+        steep = [(s, axis) for s, axis in zip(steepness(e), e.axes, strict=False) if s > limit]
+        if not steep:
+            continue
+        most, at = max(steep, key=lambda pair: pair[0])
+        finite = math.isfinite(most)
+        edge = f"from sample to sample of {at.name!r} beta times activation changes by {most:.2g}" if finite else "its sigmoid is a step"
+        what = f"holds peaks without input whose edges are narrower than a sample ({edge}): peaks stick to samples, and thresholds depend on the grid"
+        finer = " and ".join(f"samples={math.ceil(axis.samples * s / limit)} on {axis.name!r}" for s, axis in steep) if finite else ""
+        yield warning(n, what, 'Write quadrature="cell"' + (f"; or {finer}" if finer else ""))
+
+
+def steepness(field: Field) -> list[float]:
+    """Along each axis, by how much beta u changes from sample to sample at the edge of a peak that needs no input; empty where none is known.
+
+    A region of g = 1 with straight borders stands for the peak (Amari 1977 on a line). Its width is the largest at which activation at the border
+    is at the threshold and falls with the width: u = theta there, so that h - theta + integral of k over the region - c volume = 0. The slope at
+    the border is k(0) - k(width), times the part of the kernel that the region covers along other axes. Known for kernels that are sums of Gaussians
+    and for sigmoids that saturate; an estimate, since true peaks are round and their edges not sharp.
+    """
+    axes, terms, beta = tuple(field.axes), _terms(field), _beta(field)
+    main = max(terms, key=lambda t: t[0], default=(0.0, []))
+    if main[0] <= 0 or beta <= 0:
+        return []
+    wide = [np.minimum(WIDTHS * s, a.range) for s, a in zip(main[1], axes, strict=True)]
+    threshold: float = getattr(field.sigmoid, "threshold", 0.0)
+    alone = field.resting_level - threshold - field.global_inhibition * np.prod(wide, axis=0)
+    borders, slopes = [], []
+    for d in range(len(axes)):
+        u, slope = alone, np.zeros(len(WIDTHS))
+        for amplitude, sigmas in terms:
+            beside = [_erf(wide[e] / (2 * math.sqrt(2) * s)) for e, s in enumerate(sigmas) if e != d]
+            part, across = amplitude * np.prod([np.ones(len(WIDTHS)), *beside], axis=0), wide[d] / sigmas[d]
+            u = u + part * 0.5 * _erf(across / math.sqrt(2))
+            slope = slope + part * (1 - np.exp(-0.5 * across**2)) / (math.sqrt(2 * math.pi) * sigmas[d])
+        borders.append(u)
+        slopes.append(slope)
+    border = np.min(borders, axis=0)
+    stable = np.flatnonzero((border[:-1] > 0) & (border[1:] <= 0))
+    if not len(stable) or all(w[stable[-1]] > WHOLE * a.range for w, a in zip(wide, axes, strict=True)):
+        return []
+    return [float(beta * max(slope[stable[-1]], 0.0) * a.step) for slope, a in zip(slopes, axes, strict=True)]
+
+
+def _beta(field: Field) -> float:
+    """Four times the steepest slope of a sigmoid that saturates (the beta of a logistic one); 0 for others."""
+    g = field.sigmoid
+    return g.beta if isinstance(g, Logistic) else 2 * g.beta if isinstance(g, Absolute) else math.inf if isinstance(g, Step) else 0.0
+
+
+def _terms(field: Field) -> list[tuple[float, list[float]]]:
+    """Integral and widths of each Gaussian of the kernel; none where there is another kernel."""
+    found: list[tuple[float, list[float]]] = []
+    for k in field.kernel:
+        if isinstance(k, MexicanHat):
+            parts = [(k.excitation, k.sigma_excitation, k.normalized), (-k.inhibition, k.sigma_inhibition, k.normalized)]
+        elif isinstance(k, (Gaussian, TruncatedGaussian)):
+            parts = [(k.amplitude, k.sigma, k.normalized)]
+        else:
+            return []
+        for amplitude, sigma, normalized in parts:
+            sigmas = [float(s) for s in per_axis(sigma, field.axes)]
+            found.append((amplitude * (1.0 if normalized else math.prod(math.sqrt(2 * math.pi) * s for s in sigmas)), sigmas))
+    return found
