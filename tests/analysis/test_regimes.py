@@ -12,7 +12,9 @@ from PIL import Image
 from scipy import optimize
 
 import deodar as dd
+from deodar.analysis.discretisation import discretisation, obstacle, refined
 from deodar.analysis.isolated import isolate
+from deodar.analysis.memory import forgetting
 from deodar.analysis.phase import phase
 from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
@@ -20,6 +22,7 @@ from deodar.analysis.selection import selects
 from deodar.analysis.settle import settle
 from deodar.analysis.thresholds import thresholds
 from deodar.cli import main
+from deodar.numerics.kernels.custom import Custom
 
 x = dd.Axis("x", 0, 60, samples=61)
 
@@ -183,3 +186,56 @@ def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -
                 low, high = getattr(found, name).interval
                 assert low <= value <= high, (precision, accuracy, name, low - value, high - value)
                 assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * one.scale) + (2e-3 if precision == "float32" else 1.1e-5)
+
+
+def held(samples: int, quadrature: str) -> dd.Field:
+    """A memory whose edges are narrower than a sample on the coarse grid."""
+    kernel = [dd.Gaussian(18, 5, normalized=True)]
+    return dd.Field("u", [dd.Axis("x", 0, 60, samples)], kernel=kernel, global_inhibition=0.3, quadrature=quadrature)
+
+
+def test_the_discretisation_error_is_the_move_on_a_grid_twice_as_fine_and_shrinks_with_cells() -> None:
+    moved = {}
+    for quadrature in ("point", "cell"):
+        one = isolate(held(25, quadrature), sigma=5.0)
+        lost = forgetting(one, 6.0, accuracy=1e-3)
+        moved[quadrature] = discretisation(one, {"forgetting": lost}, 1.2, accuracy=1e-3)["forgetting"]  # type: ignore[dict-item]
+        fine = forgetting(isolate(held(49, quadrature), sigma=5.0), 6.0, accuracy=1e-3)
+        assert moved[quadrature] == pytest.approx(fine.value - lost.value, abs=2e-3)  # type: ignore[union-attr]
+    assert abs(moved["point"]) > 0.05 > 5 * abs(moved["cell"])
+
+
+def test_the_finer_grid_keeps_every_sample() -> None:
+    field = dd.Field("u", [dd.Axis("x", 0, 10, 11), dd.Axis("phi", 0, 360, 12, periodic=True), dd.Axis("one", 0, 1, 1, periodic=True)])
+    for old, new, samples in zip(field.axes, refined(field).axes, (21, 24, 1), strict=True):
+        assert new.samples == samples and np.allclose(new.points[::2], old.points)
+
+
+@pytest.mark.parametrize(
+    ("field", "says"),
+    [
+        (dd.Field("n", [], kernel=[dd.Gaussian(3.0)]), "a node has no grid"),
+        (dd.Field("u", [dd.Axis(name, 0, 9, 100) for name in "xy"]), "39601 samples, more than 20000"),
+        (dd.Field("u", [x], kernel=[Custom(np.ones(3))]), "custom kernel"),
+    ],
+    ids=["node", "large", "custom"],
+)
+def test_where_no_finer_grid_is_measured_the_reason_is_given(field: dd.Field, says: str) -> None:
+    assert says in obstacle(isolate(field))
+
+
+def test_the_command_prints_the_interval_and_discretisation_error_of_every_threshold(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = dd.Model("m")
+    model.add(held(25, "cell"))
+    dd.save(model, tmp_path / "m.json")
+    given = ["regimes", str(tmp_path / "m.json"), "u", "-o", str(tmp_path / "m.png")]
+    assert main(given) == 0
+    page = capsys.readouterr().out
+    for line in ("detection threshold", "erased by a homogeneous input below", "by a localised input below"):
+        (said,) = [text for text in page.splitlines() if line in text]
+        assert " ± " in said and "discretisation error " in said
+    assert main([*given, "--json", "--force"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["intervals"].keys() == answer["discretisation_error"].keys() >= {"detection", "forgetting", "suppression"}
+    low, high = answer["intervals"]["forgetting"]
+    assert low < answer["forgetting_boost"] < high and answer["discretisation_not_measured"] is None

@@ -114,6 +114,7 @@ def isolate(
     path: str = "",
     *,
     sigma: Any = None,
+    center: Sequence[float] | None = None,
     precision: str = "float32",
     dt: float | None = None,
     inputs: Sequence[str] = (),
@@ -124,6 +125,7 @@ def isolate(
         model: the model, or a field that stands in none.
         path: the field in the model.
         sigma: width of the localised input, one or one for each axis; none: that of the interaction kernel's excitation.
+        center: where the localised input stands, one number for each axis; none: the sample nearest to the middle.
         precision: float32 or float64.
         dt: Euler step; none: the document's own, kept between a hundredth and a tenth of the time constant (where the field
             settles does not depend on it).
@@ -145,7 +147,7 @@ def isolate(
         raise AnalysisError(f"{type(entry.element).__name__} is not a Field; only fields and nodes can be measured", where=entry.path, fix=near)
     field = dc.replace(entry.element, name="field", noise=0.0, noise_length=0.0)
     axes = tuple(field.axes)
-    center = tuple(float(a.points[a.samples // 2]) for a in axes)
+    center = tuple(float(c) for c in center) if center is not None else tuple(float(a.points[a.samples // 2]) for a in axes)
     widths = _widths(field, sigma)
     small = Model(doc.name, time_unit=doc.time_unit, trusted=model.trusted)
     target = small.add(field)

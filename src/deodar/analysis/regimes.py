@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from deodar.analysis.discretisation import discretisation, obstacle
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.memory import Memory, forgetting, outlives, suppression
 from deodar.analysis.peaks import Peak, Peaks
@@ -16,7 +17,7 @@ from deodar.analysis.preshape import SHARES, Boosted, boosted
 from deodar.analysis.ramp import Ramp, ramp
 from deodar.analysis.selection import Selection, selects, separation
 from deodar.analysis.settle import LIMIT
-from deodar.analysis.thresholds import Thresholds, thresholds
+from deodar.analysis.thresholds import Thresholds, Transition, thresholds
 from deodar.elements.field import Field
 from deodar.model.model import Model
 
@@ -44,6 +45,9 @@ class Regimes:
         separation: smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None where there is none.
         boosts: pre-shapes, and the homogeneous boost that makes a peak of each; empty on a node, where a boost is an input.
         ramp: the field over a slow ramp of its input.
+        transitions: the thresholds that exist with their intervals: `detection`, `reverse`, `forgetting`, `suppression`.
+        discretisation: how far each of these moves on a grid twice as fine (None: it does not exist there); None where that was not measured.
+        coarse_alone: why it was not measured; empty where it was.
     """
 
     isolated: Isolated
@@ -58,6 +62,9 @@ class Regimes:
     separation: float | None
     boosts: tuple[Boosted, ...]
     ramp: Ramp
+    transitions: Mapping[str, Transition]
+    discretisation: Mapping[str, float | None] | None
+    coarse_alone: str
 
     @property
     def detection(self) -> float | None:
@@ -149,6 +156,9 @@ class Regimes:
             "unbounded": self.unbounded,
             "forgetting_boost": self.forgetting,
             "suppressing_input": self.suppression,
+            "intervals": {name: list(t.interval) for name, t in self.transitions.items()},
+            "discretisation_error": None if self.discretisation is None else dict(self.discretisation),
+            "discretisation_not_measured": self.coarse_alone or None,
             "detection_by_boost": [{"preshape": b.preshape, "boost": b.boost, "at_the_preshape": b.localised} for b in self.boosts],
             "separation": self.separation,
             "selective": self.selection.selects if self.selection is not None else None,
@@ -180,6 +190,7 @@ def regimes(
     inputs: Sequence[str] = (),
     accuracy: float = 0.01,
     limit: float = LIMIT,
+    finer: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> Regimes:
     """Measure the instabilities of one field of a model.
@@ -193,6 +204,7 @@ def regimes(
         inputs: elements of the model kept as constant inputs.
         accuracy: of the thresholds, relative.
         limit: of each settling, in time constants.
+        finer: measure thresholds on a grid twice as fine, too, if that has at most 20,000 samples.
         progress: called with what is measured next.
 
     Raises:
@@ -210,6 +222,7 @@ def regimes(
     found = thresholds(isolated, accuracy=accuracy, limit=limit)
     above, driven, memory, forgets, suppressed, selection, apart = None, None, None, None, None, None, None
     boosts: tuple[Boosted, ...] = ()
+    lost, pressed = None, None
     up = found.detection
     if up is not None:
         tell("working memory")
@@ -230,7 +243,13 @@ def regimes(
             boosts = tuple(boosted(isolated, share * up.before, accuracy, limit) for share in SHARES)
     tell("ramp")
     swept = ramp(isolated, _span(isolated, found), limit=limit)
-    return Regimes(isolated, found, rest, above, driven, memory, forgets, suppressed, selection, apart, boosts, swept)
+    named = {"detection": up, "reverse": found.reverse, "forgetting": lost, "suppression": pressed}
+    transitions = {name: t for name, t in named.items() if t is not None}
+    moved, why = None, obstacle(isolated) if finer else "not asked for"
+    if transitions and not why:
+        tell("a grid twice as fine")
+        moved = discretisation(isolated, transitions, STRONG, accuracy, limit)
+    return Regimes(isolated, found, rest, above, driven, memory, forgets, suppressed, selection, apart, boosts, swept, transitions, moved, why)
 
 
 def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from deodar.analysis.peaks import Peak
     from deodar.analysis.preshape import Boosted
     from deodar.analysis.regimes import Regimes
-    from deodar.analysis.thresholds import Transition
 
 HELP = "measure the instabilities of one field or node: detection, reverse detection, working memory, selection"
 
@@ -48,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
     output.claim(target, args.force)
     sigma = args.sigma[0] if args.sigma is not None and len(args.sigma) == 1 else args.sigma
     with Console(stderr=True).status("compiling") as status:
-        found = regimes(model, args.element, sigma=sigma, precision=args.precision, inputs=args.input, progress=status.update)
+        found = regimes(model, args.element, sigma=sigma, precision=args.precision, inputs=args.input, finer=True, progress=status.update)
     figure = figures.regimes_figure(found)
     output.claim(target, args.force)
     output.write(target, lambda path: figures.save(figure, path))
@@ -89,10 +88,10 @@ def _table(found: Regimes) -> str:
     what = "peak" if isolated.axes else "activation above threshold"
     if up is not None:
         kind = "the activation jumps: an instability" if up.jump else "the activation grows gradually: no instability"
-        rows.append(("detection threshold", f"{_bracket(up)}  ({kind})"))
+        rows.append(("detection threshold", f"{_bracket(found, 'detection')}  ({kind})"))
         low = "0" if isolated.axes else f"-{found.thresholds.searched:g}"
         stays = f"none: the {what} stays down to an input of {low}"
-        rows.append(("reverse detection", _bracket(down) if down is not None else stays))
+        rows.append(("reverse detection", _bracket(found, "reverse") if down is not None else stays))
         both = found.bistable
         rows.append(("bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none"))
     if found.peak is not None:
@@ -105,9 +104,9 @@ def _table(found: Regimes) -> str:
         )
     if found.forgetting is not None:
         stays = "is erased by a homogeneous input below" if found.self_sustained else "would stay with a homogeneous input above"
-        rows.append(("memory", f"a peak {stays} {found.forgetting:.4g}"))
+        rows.append(("memory", f"a peak {stays} {_bracket(found, 'forgetting')}"))
         if found.suppression is not None:
-            rows.append(("", f"or by a localised input below {found.suppression:.4g}"))
+            rows.append(("", f"or by a localised input below {_bracket(found, 'suppression')}"))
     if found.boosts:
         rows.append(("boost on a pre-shape", "; ".join(_boosted(found, b) for b in found.boosts)))
     if found.selection is not None:
@@ -116,14 +115,25 @@ def _table(found: Regimes) -> str:
         apart = f"; both stay from a distance of {_distance(found)} on" if found.separation else "; at no distance do both stay"
         rows.append(("two equal inputs", _count(len(s.equal)) + apart))
         rows.append(("two inputs, one stronger", _count(len(s.different)) + stronger))
+    if found.transitions and found.coarse_alone and isolated.axes:
+        rows.append(("discretisation error", f"not measured: {found.coarse_alone}"))
     swept = found.ramp
     if not (swept.up.settled.all() and swept.down.settled.all()):
         rows.append(("note", "the field did not settle at some inputs; their values are where it stood at the limit"))
     return "\n".join([*lines, "", *(f"  {label:26}{text}" for label, text in rows)])
 
 
-def _bracket(t: Transition) -> str:
-    return f"{t.value:.4g} ± {(t.interval[1] - t.interval[0]) / 2:.1g}"
+def _bracket(found: Regimes, name: str) -> str:
+    """A threshold, half of its interval, and how far it moves on a grid twice as fine, if that is more than half the interval."""
+    t = found.transitions[name]
+    half = (t.interval[1] - t.interval[0]) / 2
+    text = f"{t.value:.4g} ± {half:.1g}"
+    if found.discretisation is None:
+        return text
+    moved = found.discretisation[name]
+    if moved is None:
+        return text + ", none on a grid twice as fine"
+    return text + (f", discretisation error {moved:.2g}" if abs(moved) > half else f", discretisation error below {half:.1g}")
 
 
 def _peak(found: Regimes, peak: Peak) -> str:

@@ -1,0 +1,63 @@
+"""What thresholds owe to the grid: the same measurements on a grid twice as fine."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Mapping
+
+from deodar.analysis.isolated import Isolated, isolate
+from deodar.analysis.memory import forgetting, suppression
+from deodar.analysis.settle import LIMIT
+from deodar.analysis.thresholds import Transition, thresholds
+from deodar.elements.field import Field
+from deodar.numerics.axes import Axis
+from deodar.numerics.kernels.custom import Custom
+
+MOST = 20_000
+"""Samples of the finer grid up to which it is measured: about a minute on one core (a guess from 75 microseconds a step of 100 x 100 samples)."""
+
+
+def refined(field: Field) -> Field:
+    """The field with twice as many steps along each axis: 2 n - 1 samples, or 2 n on a periodic axis. Every sample of the field is one of the new."""
+    axes = [dc.replace(a, samples=2 * a.samples if a.periodic else 2 * a.samples - 1) if a.samples > 1 else a for a in field.axes]
+    return dc.replace(field, axes=tuple(axes))
+
+
+def obstacle(isolated: Isolated) -> str:
+    """Why a field is not measured on a finer grid; empty where it is."""
+    fine: tuple[Axis, ...] = tuple(refined(isolated.field).axes)
+    count = math.prod(a.samples for a in fine)
+    if not fine:
+        return "a node has no grid"
+    if any(isinstance(k, Custom) for k in isolated.field.kernel):
+        return "a custom kernel is given on this grid alone"
+    if isolated.background:
+        return "the inputs that are kept have the field's own grid"
+    if count > MOST:
+        return f"the grid twice as fine has {count} samples, more than {MOST}"
+    return ""
+
+
+def discretisation(
+    isolated: Isolated, found: Mapping[str, Transition], strength: float, accuracy: float = 0.01, limit: float = LIMIT
+) -> dict[str, float | None]:
+    """How far each threshold moves on a grid twice as fine: its value there less its value here; None where it does not exist there.
+
+    Args:
+        isolated: the field.
+        found: its thresholds, by `detection`, `reverse`, `forgetting` and `suppression`, all or some of them.
+        strength: localised input that makes the peak of a memory, relative to the detection threshold.
+        accuracy: of the thresholds, relative: the one they were found with.
+        limit: of each settling, in time constants.
+    """
+    session = isolated.session
+    fine = isolate(refined(isolated.field), sigma=isolated.sigma, center=isolated.center, precision=session.precision, dt=session.dt)
+    both = thresholds(fine, accuracy=accuracy, limit=limit)
+    there: dict[str, Transition | None] = {"detection": both.detection, "reverse": both.reverse}
+    if both.detection is not None:
+        made = strength * both.detection.after
+        for name, measure in (("forgetting", forgetting), ("suppression", suppression)):
+            if name in found:
+                there[name] = measure(fine, made, accuracy, limit)
+    return {name: t.value - here.value if (t := there.get(name)) else None for name, here in found.items()}
