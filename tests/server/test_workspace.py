@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 import socket
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ import pytest
 import deodar as dd
 from deodar.couplings.weights import Weights
 from deodar.errors import DeodarError, DocumentError, OutputError
+from deodar.server import content
 from deodar.server.keeper import Keeper, state_folder
 from deodar.server.workspace import UNREADABLE, Workspace
 
@@ -127,12 +130,62 @@ def test_a_link_that_appears_after_the_check_is_not_followed(tmp_path: Path) -> 
     assert not (outside / "target.json").exists()
 
 
+def weighted(seed: int) -> dd.Model:
+    """A model with an array."""
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)]))
+    u >> Weights(weights=np.random.default_rng(seed).normal(size=(10, 10)), axes=[dd.Axis("x", 0, 9, samples=10)]) >> u
+    return model
+
+
+@pytest.mark.parametrize("exchanged", ["folder", "document", "arrays"])
+def test_a_link_that_appears_while_a_document_is_opened_is_not_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, exchanged: str) -> None:
+    """The exchange happens at the last moment: just before the file is opened."""
+    root, outside = tmp_path / "root", tmp_path / "outside"
+    for folder in (root / "sub", outside):
+        folder.mkdir(parents=True)
+        dd.save(weighted(1), folder / "m.json")
+    space = Workspace(root)
+    place = space.inside("sub/m.json")
+    assert content.load(space, place) == weighted(1).document
+    opens, arrays = os.open, next((root / "sub").glob("m.*.npz"))
+
+    def exchange(path: Any, *given: Any, **named: Any) -> int:
+        name = {"folder": "sub", "document": "m.json", "arrays": arrays.name}[exchanged]
+        target = root / "sub" if exchanged == "folder" else root / "sub" / name
+        if path == name and not target.is_symlink():
+            target.rename(tmp_path / "old")
+            target.symlink_to(outside if exchanged == "folder" else outside / name)
+        return opens(path, *given, **named)
+
+    monkeypatch.setattr(os, "open", exchange)
+    with pytest.raises(DeodarError, match=r"symbolic links|Not a directory"):
+        content.load(space, place)
+    assert not content.is_foreign(space, place)
+
+
+def test_a_package_is_opened_from_the_workspace(tmp_path: Path) -> None:
+    dd.save(weighted(1), tmp_path / "m.deodar")
+    space = Workspace(tmp_path)
+    assert content.load(space, space.inside("m.deodar")) == weighted(1).document
+    with pytest.raises(DocumentError, match="no such file") as refused:
+        content.load(space, space.inside("n.deodar"))
+    assert "m.deodar" in refused.value.problems[0].fix
+
+
+def test_a_package_that_was_dropped_is_read_from_its_content(tmp_path: Path) -> None:
+    dd.save(weighted(1), tmp_path / "m.deodar")
+    dropped = base64.b64encode((tmp_path / "m.deodar").read_bytes()).decode()
+    assert content.read_package(dropped, "m.deodar") == weighted(1).document
+    for wrong, why in (("?", "base64"), ("", "no package"), (base64.b64encode(b"{}").decode(), "no package"), (dropped[:400], "damaged")):
+        with pytest.raises(DocumentError, match=why):
+            content.read_package(wrong, "m.deodar")
+
+
 def test_a_document_is_saved_with_its_arrays_and_the_old_ones_go(tmp_path: Path) -> None:
     space = Workspace(tmp_path)
     for seed in (1, 2):
-        model = dd.Model("m")
-        u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)]))
-        u >> Weights(weights=np.random.default_rng(seed).normal(size=(10, 10)), axes=[dd.Axis("x", 0, 9, samples=10)]) >> u
+        model = weighted(seed)
         space.save(model.document, space.target("m"))
         assert dd.load(tmp_path / "m.json").document == model.document
     assert len(list(tmp_path.iterdir())) == 2

@@ -13,7 +13,7 @@ import math
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, BinaryIO, cast
 
 import numpy as np
 import psutil
@@ -170,8 +170,24 @@ def load(path: str | Path) -> Document:
         raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
 
-def _load_package(path: Path) -> Document:
-    with package.Package(path, MOST_BYTES, _require_room) as packed:
+def loads(content: bytes, beside: Callable[[str], bytes | None]) -> Document:
+    """Read a document, or a package, from the content of its file.
+
+    Args:
+        content: what the file holds.
+        beside: gives the content of the array file that a document names; None where there is none. A package holds its own.
+
+    Raises:
+        DocumentError: with every problem found.
+    """
+    if package.is_content(content):
+        return _load_package(io.BytesIO(content))
+    data = parse(content)
+    return from_data(data, _arrays(data, beside))
+
+
+def _load_package(file: Path | BinaryIO) -> Document:
+    with package.Package(file, MOST_BYTES, require_room) as packed:
         data = parse(packed.read(packed.document) or b"")
         arrays = _arrays(data, packed.read)
         packed.require_only(data["arrays"]["file"] if arrays else "")
@@ -184,7 +200,7 @@ def _beside(path: Path) -> bytes | None:
         raise DocumentError(f"the array file {path.name!r} lies outside the document's folder", where="arrays")
     if not path.is_file():
         return None
-    _require_room(path.stat().st_size, path.name)
+    require_room(path.stat().st_size, path.name)
     return path.read_bytes()
 
 
@@ -243,7 +259,7 @@ def _inside(item: Any) -> list[Any]:
     return cast("list[Any]", item) if isinstance(item, list) else []
 
 
-def _require_room(size: int, name: str) -> None:
+def require_room(size: int, name: str) -> None:
     """Refuse arrays that would not fit into memory, before they are unpacked."""
     free = psutil.virtual_memory().available
     if size > ARRAY_SHARE * free:
@@ -273,7 +289,7 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
     """The arrays of an array file; objects that would need pickle are refused."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as z:
-            _require_room(sum(entry.file_size for entry in z.infolist()), name)
+            require_room(sum(entry.file_size for entry in z.infolist()), name)
         with np.load(io.BytesIO(content), allow_pickle=False) as z:
             out: dict[str, FrozenArray] = {}
             for key in z.files:
@@ -288,4 +304,4 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
         raise DocumentError(f"the array file {name!r} cannot be read as plain arrays ({type(error).__name__}: {error})", where="arrays") from None
 
 
-__all__ = ["dumps", "from_data", "load", "pack", "parse", "save", "to_data", "unpack"]
+__all__ = ["dumps", "from_data", "load", "loads", "pack", "parse", "require_room", "save", "to_data", "unpack"]

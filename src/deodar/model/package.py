@@ -10,6 +10,7 @@ import zipfile
 import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import BinaryIO
 
 from deodar.errors import DocumentError
 
@@ -36,14 +37,19 @@ def pack(entries: Mapping[str, bytes]) -> bytes:
 def is_package(path: Path) -> bool:
     """Tell whether a file is a zip file, by what it begins with."""
     with path.open("rb") as file:
-        return file.read(4) in (MAGIC, EMPTY)
+        return is_content(file.read(4))
+
+
+def is_content(content: bytes) -> bool:
+    """Tell whether content, or the beginning of it, is that of a zip file."""
+    return content[:4] in (MAGIC, EMPTY)
 
 
 class Package:
     """A package that is open for reading.
 
     Args:
-        path: the file.
+        file: the file, by its path or open.
         most: largest size of the document in bytes.
         require_room: called with the size in bytes and the name of each entry; raises if it would not fit into memory.
 
@@ -54,9 +60,9 @@ class Package:
         DocumentError: it is damaged, or holds something else than a document.
     """
 
-    def __init__(self, path: Path, most: int, require_room: Callable[[int, str], None]) -> None:
+    def __init__(self, file: Path | BinaryIO, most: int, require_room: Callable[[int, str], None]) -> None:
         try:
-            self._zip = zipfile.ZipFile(path)
+            self._zip = zipfile.ZipFile(file)
         except (zipfile.BadZipFile, ValueError, NotImplementedError) as error:
             raise DocumentError(f"is damaged: it cannot be read as a package ({error})") from None
         self._entries = {entry.filename: entry for entry in self._zip.infolist()}

@@ -1,43 +1,107 @@
-"""What is opened: files below the root, and the content of a file that has no place there because it was dropped on the page."""
+"""What is opened: files below the root, and the content of a file that has no place there because it was dropped on the page.
+
+Files are read from a folder that is held open, so that a path which becomes a link after its check leads nowhere (`OpenFolder`).
+"""
 
 from __future__ import annotations
 
+import base64
+import binascii
+from collections.abc import Callable
 from pathlib import Path
 
-from deodar.errors import DocumentError
+from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.importers import examples, opening
-from deodar.model import files
+from deodar.model import files, package
 from deodar.model.document import Document
-from deodar.server.workspace import Workspace
+from deodar.model.files import MOST_BYTES
+from deodar.server.open_folder import OpenFolder
+from deodar.server.workspace import DOCUMENTS, Workspace
 
 
 def read(text: str, title: str) -> Document:
     """A document of our own, or a file of another tool, given as text; arrays in a file beside it are refused."""
-    tool = opening.tool_for(text.encode())
-    if tool is not None:
-        return tool.read(text.encode(), title).model.document
-    data = files.parse(text)
-    if isinstance(data, dict) and "arrays" in data:
-        fix = "Put both files below the studio's folder and open the document by its name"
-        raise DocumentError("has its arrays in a file beside it, which was not dropped with it", where=title, fix=fix)
-    return files.from_data(data, {})
+    return _document(text.encode(), title, _nothing)
+
+
+def read_package(content: str, title: str) -> Document:
+    """A package (`NAME.deodar`), given as base64."""
+    try:
+        data = base64.b64decode(content, validate=True)
+    except (binascii.Error, ValueError):
+        raise DocumentError("the content is not base64", where=title) from None
+    if not package.is_content(data):
+        raise DocumentError("is no package", where=title, fix="deodar pack FILE makes one; a document without arrays ends in .json")
+    return files.loads(data, lambda name: None)
 
 
 def load(space: Workspace, place: Path) -> Document:
     """A document of our own, or a file of another tool, at a place that the workspace gave."""
-    _require(space, place)
-    return opening.load(place).document
+    if _is_example(space, place):
+        return opening.load(place).document
+    try:
+        with space.folder(place) as folder:
+            return _document(_content(folder, place.name), place.name, lambda name: _beside(folder, name))
+    except FileNotFoundError:
+        raise DocumentError("there is no such file", where=str(place), fix=_near(place)) from None
+    except OSError as error:
+        raise DocumentError(f"cannot be read: {error.strerror}", where=str(place)) from None
+    except DeodarError as error:
+        raise DocumentError([Problem(f"{place}: {p.where}" if p.where else str(place), p.what, p.fix) for p in error.problems]) from None
 
 
 def is_foreign(space: Workspace, place: Path) -> bool:
     """Whether a file is of another tool; what cannot be read is not."""
+    if _is_example(space, place):
+        return opening.tool_of(place) is not None
     try:
-        _require(space, place)
-    except DocumentError:
+        with space.folder(place) as folder, folder.open(place.name) as (file, _):
+            return opening.tool_for(file.read(opening.HEAD)) is not None
+    except (OSError, DeodarError):
         return False  # what is wrong with it, reading it says
-    return opening.tool_of(place) is not None
 
 
-def _require(space: Workspace, place: Path) -> None:
-    if space.holds(place) or not examples.holds(place):  # an example may have been named on the command line
-        space.require_file(place)
+def _is_example(space: Workspace, place: Path) -> bool:
+    """Whether a place is an example outside of the workspace, which may have been named on the command line."""
+    return not space.holds(place) and examples.holds(place)
+
+
+def _document(content: bytes, title: str, beside: Callable[[str], bytes | None]) -> Document:
+    tool = opening.tool_for(content)
+    return files.loads(content, beside) if tool is None else tool.read(content, title).model.document
+
+
+def _content(folder: OpenFolder, name: str) -> bytes:
+    """The content of a document or package."""
+    with folder.open(name) as (file, size):
+        head = file.read(4)
+        if package.is_content(head):
+            files.require_room(size, name)
+        elif size > MOST_BYTES:
+            raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
+        return head + file.read(size)
+
+
+def _beside(folder: OpenFolder, name: str) -> bytes | None:
+    """The content of an array file beside a document; None where there is none."""
+    try:
+        with folder.open(name) as (file, size):
+            files.require_room(size, name)
+            return file.read(size)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise DocumentError(f"the array file {name!r} cannot be read: {error.strerror}", where="arrays") from None
+
+
+def _nothing(name: str) -> bytes | None:
+    fix = "Put both files below the studio's folder and open the document by its name, or drop a package (deodar pack FILE)"
+    raise DocumentError("has its arrays in a file beside it, which was not dropped with it", where=name, fix=fix)
+
+
+def _near(place: Path) -> str:
+    """A file of the same folder with a similar name."""
+    try:
+        return did_you_mean(place.name, [path.name for path in place.parent.iterdir() if path.suffix.lower() in DOCUMENTS])
+    except OSError:
+        return ""

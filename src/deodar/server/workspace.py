@@ -1,7 +1,8 @@
 """The folder that the studio may read and write, and nothing beside it.
 
-Paths are resolved first and used later. What becomes a link in between is not followed when the studio writes: folders are opened one inside the
-other, without links (`OpenFolder`), and a file is written beside its name and renamed. Windows has no such calls; there the check alone holds.
+Paths are resolved first and used later. What becomes a link in between is not followed when a document is read or written: folders are opened one
+inside the other, without links (`OpenFolder`); a file is read there, or written beside its name and renamed. Windows has no such calls; there the
+check alone holds, and so it does everywhere for the files of worlds, which are read by their paths.
 """
 
 from __future__ import annotations
