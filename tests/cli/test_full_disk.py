@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar.cli import main
+from deodar.analysis.claims import Claim
+from deodar.cli import _demo_spa, main
 from deodar.model import output
 from deodar.recording import files
 from tests.recording.models import model
@@ -109,3 +110,18 @@ def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
     assert main([*RUN, "--format", "netcdf"]) == 1
     assert "NetCDF 3 holds" in capsys.readouterr().err
     assert files.load(here / "result-001" / "record.zarr").sizes["time"] == 5
+
+
+def test_a_demo_is_kept_in_a_second_place(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    claims = [Claim("arrives", 1, "1", True, "required", n=1, origin="ours")]
+    found = (claims, {}, "spa.png", "The robot arrived.", lambda folder: (folder / "results.json").write_text("{}"))
+    monkeypatch.setattr(_demo_spa, "run", lambda args: found)
+    assert main(["demo", "spa", "--out", "planned"]) == 1
+    told = capsys.readouterr()
+    (place,) = (here.parent / "data").rglob("planned-001")
+    assert (place / "results.json").is_file() and "The robot arrived." in told.out
+    assert "No space left on device" in told.err and str(place) in told.err
+    assert main(["demo", "spa", "--out", "planned", "--json"]) == 1
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["instead_of"] == "planned" and Path(answer["out"]).name == "planned-002"
+    assert [p.name for p in here.iterdir()] == ["small.json"]

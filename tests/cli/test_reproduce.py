@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import types
 
 import pytest
@@ -12,6 +14,7 @@ from deodar import cli, papers
 from deodar.analysis.claims import Claim
 from deodar.cli._bar import lasting
 from deodar.experiments.jobs import Job
+from deodar.model import output
 from deodar.papers._report import Report
 from tests.experiments import decisions
 
@@ -131,3 +134,44 @@ def test_an_unknown_paper_is_told(capsys):
 
 def test_times_in_words():
     assert [lasting(s) for s in (4.2, 100, 3000, 11000)] == ["4 s", "2 min", "50 min", "3 h 3 min"]
+
+
+def test_a_report_that_finds_no_room_is_written_to_a_second_place(toy, monkeypatch, capsys, tmp_path):
+    full, data = tmp_path / "toy-001", tmp_path / "data"
+    sync = output.sync
+
+    def refuse(path):
+        if full in path.parents:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        sync(path)
+
+    monkeypatch.setattr(output, "sync", refuse)
+    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: data)
+    assert call() == 1
+    told = capsys.readouterr()
+    (second,) = (data / "results").iterdir()
+    assert {p.name for p in second.iterdir()} == {"runs.jsonl", "results.json", "table.md", "nothing.png"}
+    assert (second / "runs.jsonl").read_bytes() == (full / "runs.jsonl").read_bytes()
+    assert str(second.relative_to(tmp_path)) in told.out
+    assert "No space left on device" in told.err and "deodar reproduce toy --out toy-001" in told.err
+    monkeypatch.setattr(output, "sync", sync)
+    toy.ran = []
+    assert call("--out", "toy-001") == 0 and toy.ran == [] and (full / "results.json").is_file()
+
+
+def test_runs_that_find_no_room_end_it_and_those_before_are_kept(toy, monkeypatch, capsys):
+    sync, room = os.fsync, [None] * 4  # the line of what makes the experiment, and three runs
+
+    def full(file):
+        if not room:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        room.pop()
+        sync(file)
+
+    monkeypatch.setattr("deodar.experiments.rows.os.fsync", full)
+    assert call("--out", "part") == 1
+    told = capsys.readouterr().err
+    assert "No space left on device" in told and "3 runs are kept" in told and "Go on with: deodar reproduce toy --out part" in told
+    room.extend([None] * 99)
+    toy.ran = []
+    assert call("--out", "part") == 0 and toy.ran == [3, 4, 5]

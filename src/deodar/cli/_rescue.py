@@ -41,6 +41,29 @@ def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Pa
     raise OutputError([*(p for e in tried for p in e.problems), lost]) from None
 
 
+def elsewhere(error: DeodarError, out: Path, fill: Callable[[Path], None], ask: bool) -> Path:
+    """Write a whole folder to a second place, under the name that it was to have and a number.
+
+    Args:
+        error: why it could not be written to `out`; where that has come to exist meanwhile, the second place is beside it.
+        out: where it was asked for.
+        fill: fills a folder.
+        ask: whether a person may be asked.
+
+    Raises:
+        OutputError: no folder takes it.
+    """
+    from deodar.errors import OutputExists
+    from deodar.recording import places
+
+    def write(parent: Path) -> Path:
+        second = places.free(parent, out.name)
+        places.write_folder(second, fill)
+        return second
+
+    return rescue(error, write, [out.parent] if isinstance(error, OutputExists) else [], ask)
+
+
 def _folders(tried: list[DeodarError], first: Sequence[Path], ask: bool) -> Iterator[Path]:
     yield from first
     while ask:

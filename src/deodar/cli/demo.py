@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -63,30 +64,49 @@ def run(args: argparse.Namespace) -> int:
     if args.name == "spa":
         from deodar.cli import _demo_spa
 
-        return _tell(args, out, *_demo_spa.run(args, out))
-    return _tell(args, out, *_saliency(args, out))
+        return _tell(args, out, *_demo_spa.run(args))
+    return _tell(args, out, *_saliency(args))
 
 
-Told = tuple["list[Claim]", dict[str, Any], str, str]
-"""What a demo found: claims, settings, the names of what it wrote, and a sentence."""
+Told = tuple["list[Claim]", dict[str, Any], str, str, "Callable[[Path], None]"]
+"""What a demo found: claims, settings, the names of what it writes, a sentence, and what fills the folder."""
 
 
-def _tell(args: argparse.Namespace, out: Path, claims: list[Claim], settings: dict[str, Any], written: str, sentence: str) -> int:
+def _tell(
+    args: argparse.Namespace, wanted: Path, claims: list[Claim], settings: dict[str, Any], written: str, sentence: str, fill: Callable[[Path], None]
+) -> int:
     from deodar.analysis.claims import failed, results
-    from deodar.cli._options import shown
+    from deodar.cli._options import paragraph, shown
 
+    out, why = _written(args, wanted, fill)
     if args.json:
-        print(json.dumps({"out": str(out), "claims": json.loads(results(claims, settings))["claims"]}, indent=2, ensure_ascii=False))
+        elsewhere = {"instead_of": str(wanted)} if why else {}
+        print(json.dumps({"out": str(out), "claims": json.loads(results(claims, settings))["claims"], **elsewhere}, indent=2, ensure_ascii=False))
     else:
         for c in claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"
             print(f"  {mark:4}{c.name}" + (f" -> {c.value}" if c.holds is not True or isinstance(c.value, int) else ""))
         print(f"Written to {shown(out)}: {written} and results.json.")
         print(sentence)
-    return 1 if failed(claims) else 0
+    if why:
+        print(f"deodar demo: {paragraph([why, f'The demo is written to {shown(out)} instead'])}", file=sys.stderr)
+    return 1 if why or failed(claims) else 0
 
 
-def _saliency(args: argparse.Namespace, out: Path) -> Told:
+def _written(args: argparse.Namespace, out: Path, fill: Callable[[Path], None]) -> tuple[Path, str]:
+    """Write the folder, to a second place where this one fails; the place, and why it is not the one that was asked for."""
+    from deodar.cli import _rescue
+    from deodar.errors import OutputError, OutputExists
+    from deodar.recording import places
+
+    try:
+        places.write_folder(out, fill, replace=args.force)
+        return out, ""
+    except (OutputError, OutputExists) as error:
+        return _rescue.elsewhere(error, out, fill, not args.json), str(error)
+
+
+def _saliency(args: argparse.Namespace) -> Told:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
@@ -94,14 +114,14 @@ def _saliency(args: argparse.Namespace, out: Path) -> Told:
     from deodar.demos import saliency
     from deodar.demos.saliency_figure import figure, overview
     from deodar.figures._files import save as save_figure
-    from deodar.recording import files, places
+    from deodar.recording import files
 
     scenes = _scenes(args)
     console = Console(file=sys.stderr)
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
     done: list[saliency.Result] = []
     with Progress(*columns, console=console, transient=True, disable=args.no_progress) as bar:
-        task = bar.add_task("compiling", total=4 * len(scenes))
+        task = bar.add_task("compiling", total=3 * len(scenes))
         drawn = []
         for scene in scenes:
             bar.update(task, description=f"looking at {scene.title}")
@@ -109,20 +129,18 @@ def _saliency(args: argparse.Namespace, out: Path) -> Told:
             drawn.append(figure(done[-1]))
             bar.advance(task)
 
-        def fill(folder: Path) -> None:
-            for result, picture in zip(done, drawn, strict=True):
-                save_figure(picture, folder / f"{result.scene.name}.png")
-                files.save(result.record, folder / f"{result.scene.name}.zarr")
-                bar.advance(task)
-            if len(done) > 1:
-                save_figure(overview(done), folder / "overview.png")
-            (folder / "results.json").write_text(results(claims, settings))
+    def fill(folder: Path) -> None:
+        for result, picture in zip(done, drawn, strict=True):
+            save_figure(picture, folder / f"{result.scene.name}.png")
+            files.save(result.record, folder / f"{result.scene.name}.zarr")
+        if len(done) > 1:
+            save_figure(overview(done), folder / "overview.png")
+        (folder / "results.json").write_text(results(claims, settings))
 
-        claims = [*(c for result in done for c in saliency.claims(result)), *saliency.totals(done)]
-        settings = {"demo": args.name, "seed": args.seed, "duration": saliency.DURATION, "cue_at": saliency.CUE_AT}
-        places.write_folder(out, fill, replace=args.force)
+    claims = [*(c for result in done for c in saliency.claims(result)), *saliency.totals(done)]
+    settings = {"demo": args.name, "seed": args.seed, "duration": saliency.DURATION, "cue_at": saliency.CUE_AT}
     names = ", ".join([*(f"{r.scene.name}.png" for r in done), *(["overview.png"] if len(done) > 1 else [])])
-    return claims, settings, f"{names}, the records (*.zarr)", saliency.sentence(done)
+    return claims, settings, f"{names}, the records (*.zarr)", saliency.sentence(done), fill
 
 
 def _scenes(args: argparse.Namespace) -> list[saliency.Scene]:

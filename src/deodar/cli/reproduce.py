@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -44,6 +45,7 @@ def run(args: argparse.Namespace) -> int:
     """Status 1 if a required claim is false, or if the runs were stopped."""
     from deodar import papers
     from deodar.compiler.device import find
+    from deodar.errors import OutputError
     from deodar.experiments.jobs import carry_out
     from deodar.recording import places
     from deodar.recording.provenance import made_by
@@ -57,12 +59,20 @@ def run(args: argparse.Namespace) -> int:
         with Bar(args.no_progress or args.json, "runs") as bar:
             carry_out(jobs, rows, bar.show, args.workers or None)
     except KeyboardInterrupt:
-        again = " ".join(["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)])
-        again += f" --only {' '.join(args.only)}" if args.only else ""
-        print(f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Go on with: {again}", file=sys.stderr)
+        print(f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Go on with: {_again(args, out)}", file=sys.stderr)
+        return 1
+    except OutputError as error:
+        why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
+        print(f"deodar reproduce: {why} Go on with: {_again(args, out)}", file=sys.stderr)
         return 1
     settings = {"paper": args.paper, "quick": args.quick, "runs": len(rows.found), "of": sum(len(j.keys) for j in paper.jobs(args.quick))}
     return _write(args, out, paper.report(rows.found, args.quick), settings)
+
+
+def _again(args: argparse.Namespace, out: Path) -> str:
+    """The call that resumes this one."""
+    again = " ".join(["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)])
+    return again + (f" --only {' '.join(args.only)}" if args.only else "")
 
 
 def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
@@ -84,19 +94,34 @@ def _open(out: Path, about: Mapping[str, Any], by_condition: Sequence[str]) -> R
     return Rows(out / ROWS, about, by_condition)
 
 
-def _write(args: argparse.Namespace, out: Path, report: Report, settings: Mapping[str, Any]) -> int:
+def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Any]) -> int:
     from deodar.analysis.claims import failed, results
+    from deodar.cli import _rescue
+    from deodar.errors import OutputError
     from deodar.figures import _files
     from deodar.model import output
 
     text = results(report.claims, settings)
-    for name, figure in report.figures.items():
-        _files.save(figure, out / f"{name}.png", force=True)
-    for name, table in report.tables.items():
-        output.write(out / f"{name}.md", table.encode())
-    output.write(out / RESULTS, text.encode())
+
+    def fill(folder: Path) -> None:
+        for name, figure in report.figures.items():
+            _files.save(figure, folder / f"{name}.png", force=True)
+        for name, table in report.tables.items():
+            output.write(folder / f"{name}.md", table.encode())
+        output.write(folder / RESULTS, text.encode())
+
+    def fill_second(folder: Path) -> None:
+        shutil.copyfile(asked / ROWS, folder / ROWS)
+        fill(folder)
+
+    out, why = asked, ""
+    try:
+        fill(asked)
+    except OutputError as error:
+        out, why = _rescue.elsewhere(error, asked, fill_second, not args.json), str(error)
     if args.json:
-        print(json.dumps({"out": str(out), **json.loads(text)}, indent=2, ensure_ascii=False))
+        elsewhere = {"instead_of": str(asked)} if why else {}
+        print(json.dumps({"out": str(out), **json.loads(text), **elsewhere}, indent=2, ensure_ascii=False))
     else:
         for c in report.claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"
@@ -109,4 +134,7 @@ def _write(args: argparse.Namespace, out: Path, report: Report, settings: Mappin
         required = [c for c in report.claims if c.kind == "required"]
         held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
         print(f"{settings['runs']} of {settings['of']} runs. Of {len(required)} required claims {held} hold, {open_} are undecided.")
-    return 1 if failed(report.claims) else 0
+    if why:
+        told = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]
+        print(f"deodar reproduce: {_options.paragraph(told)} With room there, write it with: {_again(args, asked)}", file=sys.stderr)
+    return 1 if why or failed(report.claims) else 0
