@@ -12,6 +12,8 @@ from deodar.errors import ParameterError, WorldError
 from deodar.experiments import batch
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Crosses, Within
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.measures import Measure
 from deodar.experiments.run import run
 from deodar.worlds.picture import Picture
 from tests.experiments.robots import decider, room, straight
@@ -80,6 +82,27 @@ def test_each_trial_has_a_world_of_its_own_and_leaves_with_it():
         np.testing.assert_array_equal(course.times, one.times)
         np.testing.assert_allclose(course.values["pose.output"], one.values["pose.output"], atol=1e-10)
         assert course.values["pose.output"][0, 0] == starts[trial][0]
+
+
+def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_change(tmp_path, monkeypatch):
+    """Single precision; half of the trials of each batch end early, so that it becomes narrower on the way."""
+    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
+    model = decider()
+    model.add(dd.Field("v", [dd.Axis("x", 0, 500, 501)], tau=10, global_inhibition=0.1, noise=1.0))
+    measures = [Measure("strongest", "v.activation", "max"), Measure("mean", "v.activation", "mean")]
+    experiment = Experiment("decide", model, 1e6, 8, [DECIDED], measures=measures, every=5)  # with much left, so that a narrower batch pays
+    whole = experiment.run(tmp_path / "whole")
+    assert sizes(model) == [1, 2, 4] and len(set(whole["duration"].values.tolist())) > 4
+
+    def stop(standing):
+        if standing.rows == 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        experiment.run(tmp_path / "part", progress=stop)
+    assert experiment.run(tmp_path / "part").identical(whole)
+    shared = experiment.run(tmp_path / "shared", workers=2)
+    assert shared.drop_attrs().identical(whole.drop_attrs())
 
 
 def test_what_cannot_be_is_refused():
