@@ -1,3 +1,4 @@
+import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -5,6 +6,7 @@ import { afterAll, beforeAll, expect, onTestFinished, test } from "vitest";
 
 import { button, drop, file, number, openExample, select, type } from "./hands";
 import type { Observer } from "./observer";
+import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
 const SELECTION = join(import.meta.dirname, "../../examples/selection.json");
@@ -86,10 +88,17 @@ test("a document that is dropped is opened, and asks first where there are unsav
   await page.getByRole("banner").getByText("not in a file yet").waitFor();
 });
 
+test("a package that is dropped is opened", async () => {
+  const { page, folder } = studio;
+  execFileSync(python(), ["-m", "deodar", "pack", "example:binding", "--out", "packed.deodar"], { cwd: folder });
+  await drop(page, "packed.deodar", "", readFileSync(join(folder, "packed.deodar")));
+  await observer.until(() => observer.document?.title === "binding" && observer.document.file === "");
+});
+
 test("what is no document is refused in words", async () => {
   const { page } = studio;
   await drop(page, "notes.txt", "text/plain", new TextEncoder().encode("hello"));
-  const message = page.getByRole("region", { name: "Messages" }).getByText("notes.txt is neither a document (.json) nor a picture.");
+  const message = page.getByRole("region", { name: "Messages" }).getByText("notes.txt is neither a document (.json, .deodar) nor a picture.");
   await message.waitFor();
   await button(page, "Dismiss").click();
   await message.waitFor({ state: "detached" });

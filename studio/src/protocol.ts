@@ -375,6 +375,16 @@ export type OpenFile = {
   discard?: boolean;
 };
 
+// Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document without a file.
+export type OpenPackage = {
+  type: "open_package";
+  request?: number;
+  session?: number;
+  name: string;
+  content: string;
+  discard?: boolean;
+};
+
 // Open the content of a file that was dropped on the page, as a document without a file.
 export type OpenText = {
   type: "open_text";
@@ -578,6 +588,7 @@ export type ToServer =
   | OpenFile
   | OpenExample
   | OpenText
+  | OpenPackage
   | Recover
   | Forget
   | Close

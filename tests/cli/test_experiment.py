@@ -46,6 +46,18 @@ def test_a_table_a_dataset_and_what_made_them(file, capsys, tmp_path):
     assert again == 0 and load(tmp_path / "again").identical(load(tmp_path / "when-001"))
 
 
+def test_the_model_may_be_an_example(file, capsys, tmp_path):
+    data = json.loads((tmp_path / "when.json").read_text())
+    data |= {"model": "example:node", "limit": 20, "factors": {}, "conditions": {"decided": {"kind": "Crosses", "of": "u.activation"}}}
+    (tmp_path / "when.json").write_text(json.dumps(data))
+    assert call("--trials", "2", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["trials"] == 2
+    data["model"] = "example:nod"
+    (tmp_path / "when.json").write_text(json.dumps(data))
+    assert call() != 0
+    assert "node" in capsys.readouterr().err
+
+
 def test_after_a_stop_the_same_call_goes_on(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
     assert call("--out", "whole") == 0

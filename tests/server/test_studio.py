@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 import contextlib
 import json
 import shutil
@@ -17,6 +18,7 @@ import websockets
 import deodar as dd
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.runtime import engine
+from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 
 
@@ -428,6 +430,23 @@ def test_a_dropped_document_is_content_and_saved_only_under_a_name(root: Path) -
     with studio(root) as address:
         play(address, scene)
     assert (root / "kept.json").is_file() and not (root / "dropped.json").exists()
+
+
+def test_a_package_that_is_dropped_is_opened_with_its_arrays(root: Path) -> None:
+    dd.save(weighted(), root / "m.deodar")
+    dropped = (root / "m.deodar").read_bytes()
+
+    async def scene(p: Page) -> None:
+        await p.open("open_package", name="m.deodar", content=base64.b64encode(dropped).decode())
+        assert p.document["file"] == "" and p.document["title"] == "m"
+        await p.do("save", path="mine.deodar")
+        await p.do("open_package", name="cut.deodar", content=base64.b64encode(dropped[:300]).decode())
+        await p.until(lambda: "trouble" in p.said and p.said["trouble"]["problems"])
+        assert "damaged" in p.said["trouble"]["problems"][0]["what"]
+
+    with studio(root) as address:
+        play(address, scene)
+    assert dd.load(root / "mine.deodar").document == weighted().document
 
 
 def test_a_document_with_a_function_is_shown_and_never_run_without_trust(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,15 +9,14 @@ import socket
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.weights import Weights
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.server import content
 from deodar.server.keeper import Keeper, state_folder
 from deodar.server.workspace import UNREADABLE, Workspace
+from tests.server.models import weighted
 
 
 @pytest.mark.parametrize("path", ["..", "../x.json", "/etc/passwd", "a/../../x.json", "link/x.json", "a\0b", "folder/../../../x"])
@@ -128,14 +127,6 @@ def test_a_link_that_appears_after_the_check_is_not_followed(tmp_path: Path) -> 
     with pytest.raises(DeodarError, match="not a regular file"):
         space.save(doc, place)
     assert not (outside / "target.json").exists()
-
-
-def weighted(seed: int) -> dd.Model:
-    """A model with an array."""
-    model = dd.Model("m")
-    u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)]))
-    u >> Weights(weights=np.random.default_rng(seed).normal(size=(10, 10)), axes=[dd.Axis("x", 0, 9, samples=10)]) >> u
-    return model
 
 
 @pytest.mark.parametrize("exchanged", ["folder", "document", "arrays"])

@@ -271,9 +271,15 @@ class Experiment(Part):
         }
 
 
+EXAMPLE = "example:"
+"""What the name of an example begins with, which the commands open in the place of a file."""
+
+
 def _beside(text: Any, folder: Path | None, world: bool) -> Any:
     """The path of a file that an experiment names, which stands in its folder."""
     if not isinstance(text, str) or folder is None or not text:
+        return text
+    if not world and text.startswith(EXAMPLE):
         return text
     kind, sign, argument = text.partition(":") if world else ("", "", text)
     if world and not (argument and (folder / argument).exists()):

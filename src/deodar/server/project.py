@@ -13,7 +13,7 @@ from typing import Any, Literal
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
 from deodar.importers import examples, opening
-from deodar.model import edit, files, find
+from deodar.model import edit, find
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -123,9 +123,9 @@ class Project:
         await self._open(lambda: content.load(self.workspace, path), own, str(path), discard)
         return self._reported() if foreign else ""
 
-    async def open_copy(self, path: Path, title: str, discard: bool) -> None:
-        """Open a document as one without a file: an example."""
-        await self._open(lambda: files.load(path), None, title, discard)
+    async def open_copy(self, read: Callable[[], Document], title: str, discard: bool) -> None:
+        """Open a document as one without a file: an example, or a package that was dropped on the page."""
+        await self._open(read, None, title, discard)
 
     async def open_text(self, text: str, title: str, discard: bool) -> str:
         """Open a document, or a file of another tool, given as text; answers as `open_file` does."""

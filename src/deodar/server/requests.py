@@ -14,7 +14,7 @@ import numpy as np
 from deodar.errors import DocumentError, ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
-from deodar.model import edit, find
+from deodar.model import edit, files, find
 from deodar.numerics.axes import Axes
 from deodar.runtime.engine import Hand
 from deodar.runtime.session import Session
@@ -64,7 +64,12 @@ async def _open_file(page: Connection, m: to_server.OpenFile) -> Answer:
 
 
 async def _open_example(page: Connection, m: to_server.OpenExample) -> None:
-    await page.hub.project.open_copy(gallery.example_file(m.name), m.name, m.discard)
+    path = gallery.example_file(m.name)
+    await page.hub.project.open_copy(lambda: files.load(path), m.name, m.discard)
+
+
+async def _open_package(page: Connection, m: to_server.OpenPackage) -> None:
+    await page.hub.project.open_copy(lambda: content.read_package(m.content, m.name), m.name, m.discard)
 
 
 async def _open_text(page: Connection, m: to_server.OpenText) -> Answer:
@@ -301,8 +306,9 @@ def _require_room(page: Connection, stream: int) -> None:
 
 
 _DO: dict[type[Any], Callable[[Connection, Any], Awaitable[Any]]] = {
-    to_server.OpenFile: _open_file, to_server.OpenExample: _open_example, to_server.OpenText: _open_text, to_server.Recover: _recover,
-    to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save, to_server.ListFolder: _list_folder, to_server.Set: _set,
+    to_server.OpenFile: _open_file, to_server.OpenExample: _open_example, to_server.OpenText: _open_text, to_server.OpenPackage: _open_package,
+    to_server.Recover: _recover, to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save,
+    to_server.ListFolder: _list_folder, to_server.Set: _set,
     to_server.Describe: _describe, to_server.AddKnob: _add_knob, to_server.Link: _link, to_server.Unlink: _unlink,
     to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.ApplyPreset: _apply_preset,
     to_server.ApplyPresetText: _apply_preset_text,

@@ -50,6 +50,14 @@ class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
     discard: bool = False
 
 
+class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"):
+    """Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document without a file."""
+
+    name: Text
+    content: str
+    discard: bool = False
+
+
 class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
     """Open unsaved edits that were kept."""
 
@@ -290,7 +298,7 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 
 ToServer = (
-    OpenFile | OpenExample | OpenText | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink | RemoveKnob
-    | Arrange | ApplyPreset | ApplyPresetText | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
+    OpenFile | OpenExample | OpenText | OpenPackage | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink
+    | RemoveKnob | Arrange | ApplyPreset | ApplyPresetText | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
     | Release | UseWorld | UseWorldContent | WatchWorld | MoveThing | PlaceThing | RemoveThing | Watch | Trace | Unwatch | Drawn
 )  # fmt: skip

@@ -9,7 +9,7 @@ import type { Asking } from "./dialogs";
 import { parent } from "./paths";
 import { useFolder } from "./useFolder";
 
-const ACCEPTED = { files: "application/json,.json", pictures: "image/*", values: "application/json,.json" };
+const ACCEPTED = { files: "application/json,.json,.deodar", pictures: "image/*", values: "application/json,.json" };
 
 export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) {
   const file = useStudio((state) => state.document?.file ?? "");

@@ -70,7 +70,7 @@ export function FolderBrowser({ path, listing: { folder, problem }, wants, onFol
             </button>
           </li>
         ))}
-        {empty && <li className={classes.empty}>{wants === "files" ? "No documents (.json) here" : "No pictures here"}</li>}
+        {empty && <li className={classes.empty}>{wants === "files" ? "No documents (.json, .deodar) here" : "No pictures here"}</li>}
         {problem !== null && (
           <li className={classes.empty}>
             <ProblemText problem={problem} />

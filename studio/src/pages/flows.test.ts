@@ -84,6 +84,13 @@ describe("opening", () => {
     expect(sent).toEqual([{ type: "open_text", name: "a.json", text: '{"deodar": 1}' }]);
   });
 
+  it("takes a package as its bytes", async () => {
+    server({});
+    person(new File(["PK\u0003\u0004"], "a.deodar"));
+    expect(await open()).toBe(true);
+    expect(sent).toEqual([{ type: "open_package", name: "a.deodar", content: "UEsDBA==" }]);
+  });
+
   it("says what became of a file of another tool, and offers the report", async () => {
     server({ imported: "Imported from a.json (another tool): 1 element." });
     expect(await takeFile(new File(["{}"], "a.json"))).toBe(true);

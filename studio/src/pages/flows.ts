@@ -1,6 +1,6 @@
 // Conversations with the person and the server that take several steps: opening, saving, reading a file of the person's own.
 
-import type { Answer, Close, OpenExample, OpenFile, OpenText, Problem, Recover } from "../protocol";
+import type { Answer, Close, OpenExample, OpenFile, OpenPackage, OpenText, Problem, Recover } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { ask } from "./dialogs";
@@ -9,7 +9,7 @@ import { sortOf } from "./paths";
 // What the server takes in one message, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;
 
-type Leaving = OpenFile | OpenExample | OpenText | Recover | Close;
+type Leaving = OpenFile | OpenExample | OpenText | OpenPackage | Recover | Close;
 
 // Go to another document, or to none. Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {
@@ -75,10 +75,12 @@ export async function takeFile(file: File): Promise<boolean> {
   switch (sortOf(file)) {
     case "document":
       return leave({ type: "open_text", name: file.name, text: await file.text() });
+    case "package":
+      return leave({ type: "open_package", name: file.name, content: await base64(file) });
     case "picture":
       return showPicture(file);
     case "other":
-      return refuse({ what: `${file.name} is neither a document (.json) nor a picture.` });
+      return refuse({ what: `${file.name} is neither a document (.json, .deodar) nor a picture.` });
   }
 }
 

@@ -36,6 +36,7 @@ describe("names of documents", () => {
     expect(withEnding(" selection ")).toBe("selection.json");
     expect(withEnding("selection.JSON")).toBe("selection.JSON");
     expect(withEnding("a.b")).toBe("a.b.json");
+    expect(withEnding("a.deodar")).toBe("a.deodar");
   });
 
   it("stay in their folder", () => {
@@ -50,6 +51,7 @@ describe("names of documents", () => {
 it("files are sorted by type and name", () => {
   expect(sortOf({ name: "a.json", type: "" })).toBe("document");
   expect(sortOf({ name: "a", type: "application/json" })).toBe("document");
+  expect(sortOf({ name: "a.deodar", type: "" })).toBe("package");
   expect(sortOf({ name: "a.png", type: "image/png" })).toBe("picture");
   expect(sortOf({ name: "a.txt", type: "text/plain" })).toBe("other");
 });

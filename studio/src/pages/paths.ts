@@ -36,13 +36,13 @@ export function belowRoot(root: string, path: string): string {
 
 export function withEnding(name: string): string {
   const trimmed = name.trim();
-  return /\.json$/i.test(trimmed) ? trimmed : `${trimmed}.json`;
+  return /\.(json|deodar)$/i.test(trimmed) ? trimmed : `${trimmed}.json`;
 }
 
 // Why a document cannot have this name; empty where it can.
 export function nameProblem(name: string): string {
   const trimmed = name.trim();
-  if (trimmed === "" || /^\.json$/i.test(trimmed)) {
+  if (trimmed === "" || /^\.(json|deodar)$/i.test(trimmed)) {
     return "Give the file a name.";
   }
   if (/[\\/]/.test(trimmed)) {
@@ -54,12 +54,15 @@ export function nameProblem(name: string): string {
   return trimmed.startsWith(".") ? "A name that does not begin with a dot." : "";
 }
 
-export type FileSort = "document" | "picture" | "other";
+export type FileSort = "document" | "package" | "picture" | "other";
 
 // What a file of the person's own is, from its type and its name.
 export function sortOf(file: { name: string; type: string }): FileSort {
   if (file.type === "application/json" || /\.json$/i.test(file.name)) {
     return "document";
+  }
+  if (/\.deodar$/i.test(file.name)) {
+    return "package";
   }
   return file.type.startsWith("image/") ? "picture" : "other";
 }
