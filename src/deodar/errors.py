@@ -1,7 +1,7 @@
 """Errors that say what is wrong, where, why, and what to type.
 
 Every error deodar raises on purpose is a `DeodarError`. Its message is one paragraph made of up to four parts:
-*what* is wrong, *where* it stands (a path, and the line that declared it), *why* it cannot be, and a *fix* to type.
+*what* is wrong, *where* (a path, and the line that declared it), *why* it cannot be, and a *fix* to type.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Severity = Literal["problem", "warning"]
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong: where it stands, what it is, and what to type instead.
+    """One thing that is wrong: where, what, and what to type instead.
 
     A `problem` stops a run. A `warning` never does: the model runs, but probably not as it was meant.
     """

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     import xarray
 
 HELP = "run the trials of an experiment, and write a table with a row for each"
-EPILOG = """What is done is kept as it is done: Ctrl-C, or a machine that goes down, loses nothing. The same call with --out FOLDER goes on,
-with the same results as if nothing had happened."""
+EPILOG = """Rows are written as trials end: Ctrl-C or a power failure loses none. The same call with --out FOLDER resumes,
+with the same results as without the stop."""
 
 MOST_CELLS = 24
 """Combinations of levels that are listed; the table holds them all."""
@@ -29,7 +29,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="an experiment (.json), which names its model")
     parser.add_argument("--trials", type=_options.whole, metavar="N", help="trials of each combination of levels, instead of the file's")
     parser.add_argument("--seed", type=_options.whole, metavar="N", help="seed of all noise and of what is drawn, instead of the file's")
-    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to go on with (default: NAME-001, NAME-002, ... here)")
+    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to resume (default: NAME-001, NAME-002, ... here)")
     parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the trials among N processes of one core each")
     _long.add_yes(parser)
     _options.add_world(parser)

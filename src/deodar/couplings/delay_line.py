@@ -36,7 +36,7 @@ class DelayLine(Element):
     Parameters:
         axes: where it is defined; none: one number.
         delay: how long, in the document's time unit; > 0. Shorter than a step: one step. Where it is made longer while the model runs, the
-            oldest moment that is kept stands until there are older ones.
+            oldest moment that is kept is shown until there are older ones.
         slots: how many moments it keeps.
         initial: what it shows before anything has arrived.
 
@@ -78,7 +78,7 @@ class DelayLine(Element):
             older = jnp.minimum(younger + 1, rows - 1)
             a, b = ages[younger], ages[older]
             share = jnp.clip((delay - a) / jnp.where(b > a, b - a, 1.0), 0.0, 1.0)
-            # to what has not arrived there is no line: it stands until the first moment is old enough
+            # no interpolation towards what has not arrived: the initial value holds until the first moment is old enough
             share = jnp.where((b >= NEVER) | (b - delay < near), 1.0, share)
             share = jnp.where(a >= delay - near, 0.0, share).astype(at.dtype)
         young, old = kept[jnp.mod(first + younger, rows)], kept[jnp.mod(first + older, rows)]

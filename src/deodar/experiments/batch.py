@@ -76,7 +76,7 @@ def run_batch(
         every: document time between looks; none: dt.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
-        between: told after each call of the program how many trials still run.
+        between: called after each call of the program with the number of trials that still run.
         values: for parameter paths the value that each trial has; not together with a world.
         measures: what is measured.
         tolerant: return the courses although all trials diverge, and do not warn.

@@ -1,4 +1,4 @@
-"""What may happen in a trial: it is seen when the trial is looked at, and may end it.
+"""Events of a trial: each is judged when the trial is sampled, and may end it.
 
 Events see arrays with the copies and the looks as their first two axes, so that a thousand trials are judged at once.
 """
@@ -40,7 +40,7 @@ class Event(Part):
 
     Attributes:
         name: what rows call it.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then; its name is the outcome.
     """
 
@@ -49,11 +49,11 @@ class Event(Part):
     ends: bool = True
 
     turns: ClassVar[bool] = False
-    """Whether it must not hold first, and then hold."""
+    """Edge-triggered: fires on a false-to-true transition."""
 
     @property
     def views(self) -> tuple[View, ...]:
-        """What has to be looked at."""
+        """What has to be sampled."""
         return ()
 
     @property
@@ -76,7 +76,7 @@ class Crosses(Event):
         level: the value.
         side: `above` or `below` it.
         reduce: what is compared of an array: max, min, mean or sum.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 
@@ -85,7 +85,7 @@ class Crosses(Event):
     level: Annotated[float, Recompile(meaning="the value")] = 0.0
     side: Annotated[str, Recompile(choices=tuple(COMPARES), meaning="on which side of the value")] = "above"
     reduce: Annotated[str, Recompile(choices=tuple(REDUCES), meaning="what is compared of an array")] = "max"
-    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
@@ -116,7 +116,7 @@ class Reached(Event):
 
 @dataclass(frozen=True)
 class Appears(Event):
-    """A peak stands in a field: its activation is above a threshold somewhere, or near a place.
+    """A peak appears in a field: its activation is above a threshold somewhere, or near a place.
 
     Attributes:
         name: what rows call it.
@@ -124,7 +124,7 @@ class Appears(Event):
         threshold: of the activation.
         near: a place, in axis units, one number or one for each axis; none: anywhere.
         radius: how far around that place, along every axis.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 
@@ -133,7 +133,7 @@ class Appears(Event):
     threshold: Annotated[float, Recompile("activation", meaning="of the activation")] = 0.0
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: anywhere")] = None
     radius: Annotated[float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")] = 0.0
-    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
@@ -159,7 +159,7 @@ class Vanishes(Appears):
         threshold: of the activation.
         near: a place, in axis units, one number or one for each axis; none: anywhere.
         radius: how far around that place, along every axis.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 
@@ -178,7 +178,7 @@ class Within(Event):
         radius: in the unit of the world.
         of: the sensor or port whose first two values are the place.
         goal: the sensor or port whose first two values are the goal.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 
@@ -186,7 +186,7 @@ class Within(Event):
     radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
     of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
     goal: Annotated[str, Recompile(meaning="sensor or port whose first two values are the goal")] = "goal"
-    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
@@ -206,14 +206,14 @@ class Leaves(Event):
         name: what rows call it.
         radius: in the unit of the world.
         of: the sensor or port whose first two values are the place.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
     radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
     of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
-    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = False
 
     @property
@@ -232,13 +232,13 @@ class All(Event):
     Attributes:
         name: what rows call it.
         of: their names.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
     of: Annotated[Sequence[str], Recompile(meaning="names of other events")]
-    times: Annotated[int, Recompile(lower=1, meaning="at so many looks")] = 1
+    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
@@ -260,7 +260,7 @@ class AnyOf(All):
     Attributes:
         name: what rows call it.
         of: their names.
-        times: at so many looks, not necessarily one after another.
+        times: number of samples at which it holds, not necessarily consecutive.
         ends: whether the trial ends then.
     """
 

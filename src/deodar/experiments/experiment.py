@@ -47,7 +47,7 @@ OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 
 @dataclass(frozen=True)
 class Experiment(Part):
-    """Many trials of a model, run without hands: each until something happens, with a row of a table for each.
+    """An unattended experiment: many trials of a model, each until a condition ends it, with one row of a table for each.
 
     Trials run beside each other in batches where nothing is done to them on the way and their world, if there is one, can be computed inside
     the step; otherwise one by one. Trial k has the noise of trial k of the seed, whatever runs beside it.
@@ -141,10 +141,10 @@ class Experiment(Part):
         """Run all trials that are not there yet, and give the table of all.
 
         Args:
-            out: folder of the results. One that an earlier call began is gone on with, with the same results as if nothing had stopped it. None:
+            out: folder of the results. The run of an earlier call in this folder is resumed, with the same results as without the stop. None:
                 nothing is kept.
-            workers: so many processes of one core each; none: here.
-            progress: told how far it has come, after each piece.
+            workers: number of processes of one core each; none: this process.
+            progress: called with a `Standing` after each piece.
             trust: whether functions that the document names may be imported and run.
 
         Returns:
@@ -234,7 +234,7 @@ class Experiment(Part):
 
     @classmethod
     def load(cls, path: str | Path) -> Experiment:
-        """Read a file; the model that it names stands beside it.
+        """Read a file; the model that it names is in the same folder.
 
         Raises:
             DocumentError: there is none, or it holds something else; every problem is listed.

@@ -69,8 +69,8 @@ def assign(factors: Sequence[Factor], design: str, trials: int, seed: int) -> li
 
     Args:
         factors: what trials differ in.
-        design: `crossed`: so many trials of each combination, one combination after another; `shuffled`: the same in an order drawn from the seed;
-            `random`: so many trials in all, each with levels drawn from the seed.
+        design: `crossed`: `trials` of each combination, one combination after another; `shuffled`: the same in an order drawn from the seed;
+            `random`: `trials` in total, each with levels drawn from the seed.
         trials: how many.
         seed: of the order and the draws.
     """

@@ -53,14 +53,14 @@ class Standing:
 
 
 def carry_out(jobs: Sequence[Job], rows: Rows, progress: Callable[[Standing], None] | None = None, workers: int | None = None) -> None:
-    """Run what is missing of the jobs and keep their rows. After a kill at any moment the same call goes on, with the same results.
+    """Run the jobs whose rows are missing, and keep their rows. After a kill at any moment the same call resumes, with the same results.
 
     Args:
         jobs: all of the experiment.
         rows: where they are kept; jobs whose rows are all there are not run again.
-        progress: told how far it has come, after each job.
-        workers: so many processes of one core each; none: here, one after another. A script that is run itself, and calls this with workers,
-            does so below `if __name__ == "__main__":`.
+        progress: called with a `Standing` after each job.
+        workers: number of processes of one core each; none: this process, one job after another. A script that is run itself, and calls this
+            with workers, does so below `if __name__ == "__main__":`.
 
     Raises:
         KeyboardInterrupt: on Ctrl-C, when the jobs that run are done; the rows are kept.

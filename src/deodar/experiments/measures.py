@@ -35,7 +35,7 @@ class Measure(Part):
 
     @property
     def view(self) -> View:
-        """What has to be looked at."""
+        """What has to be sampled."""
         near = () if self.near is None else tuple(map(float, self.near)) if isinstance(self.near, Sequence) else (float(self.near),)
         return View(self.of, self.reduce, near, self.radius, threshold=self.threshold)
 

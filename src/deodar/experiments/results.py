@@ -1,4 +1,4 @@
-"""The results of an experiment: a folder with a row for each trial, which goes on where it was stopped, and the table made of them."""
+"""The results of an experiment: a folder with a row for each trial, which can be resumed, and the table made of the rows."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def carry(bench: Bench, out: str | Path | None, workers: int | None = None, prog
     Args:
         bench: the experiment, opened.
         out: the folder; None: nothing is kept.
-        workers: so many processes of one core each; none: here.
-        progress: told how far it has come, after each piece.
+        workers: number of processes of one core each; none: this process.
+        progress: called with a `Standing` after each piece.
     """
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:

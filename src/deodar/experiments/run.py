@@ -1,4 +1,4 @@
-"""One trial: a model in its world, looked at at regular times, with actions on the way, until an event or the limit ends it."""
+"""One trial, sampled at regular intervals, with actions on the way, until an event or the limit ends it."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class Stage:
         self._count = 0
 
     def later(self, steps: int, what: Callable[[], object]) -> None:
-        """Do something so many steps from now; 0: before the next step."""
+        """Call `what` in `steps` steps from now; 0: before the next step."""
         self._count += 1  # what falls on one moment is done in the order in which it was asked for
         heapq.heappush(self._due, (self.session.tick + steps, self._count, what))
 

@@ -1,4 +1,4 @@
-"""A session driven by the clock on the wall, in a thread of its own.
+"""A session driven by the wall clock, in a thread of its own.
 
 The thread alone touches the session. Others hand it functions (`call`), which it runs between two exchanges, at most `EXCHANGE` apart; they
 read what it published last (`shot`), which never changes afterwards. Whatever compiles does so in a second thread, while the
@@ -63,7 +63,7 @@ class Engine:
 
     Attributes:
         shot: what was published last.
-        running: whether time goes on by itself.
+        running: whether the clock advances the session.
         failure: why it stopped, and the paths of the elements concerned.
         busy: what is being compiled, in words.
         pace: how fast it is to go, and how fast it goes.
@@ -125,7 +125,7 @@ class Engine:
     # -------------------------------------------------------------------------------- in the engine's thread, through `call`
 
     def load(self, session: Session | None) -> None:
-        """Take another session. It stands still, unless `play` or `step` was called while there was none."""
+        """Take another session. It is paused, unless `play` or `step` was called while there was none."""
         waited = self.session is None and session is not None
         self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.hand, self._target = session, None, None
@@ -145,7 +145,7 @@ class Engine:
         self._stale = True
 
     def step(self, n: int) -> None:
-        """So many steps, then stand still."""
+        """Advance by `n` steps, then pause."""
         self.play(False)
         self._steps = n
         self.failure = ((), ())
@@ -206,7 +206,7 @@ class Engine:
         self.failure, self._stale = ((), ()), True
 
     def rearrange(self, how: Callable[[Session], None]) -> None:
-        """Let a hand change what stands in the world: `how` calls `Session.move`, `place` or `remove`."""
+        """Change things in the world: `how` calls `Session.move`, `place` or `remove`."""
         how(self._require())
         self._stale = True
 

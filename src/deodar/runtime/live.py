@@ -1,4 +1,4 @@
-"""A session paced to the clock on the wall, for scripts."""
+"""Run a session paced to the wall clock, for scripts."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def run_live(
     pace: Pace | None = None,
     sleep: Callable[[float], object] = time.sleep,
 ) -> Meter:
-    """So much document time, paced to the clock on the wall (Lomp et al. 2016, section 3.2).
+    """Advance by a duration in document time, paced to the wall clock (Lomp et al. 2016, section 3.2).
 
     A step is taken when its time has come, and all that are due are taken together, for about 10 ms at most. Where the machine is too slow the run
     falls behind and says so in the meter; it catches up to 0.25 s, what is beyond is given up. Abstract time counts as milliseconds.

@@ -1,4 +1,4 @@
-"""Whether a run fits into memory, told before anything is allocated."""
+"""Whether a run fits into memory, checked before anything is allocated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The meter of a run that is paced to the clock on the wall."""
+"""The meter of a run that is paced to the wall clock."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import dataclasses as dc
 
 @dc.dataclass(frozen=True)
 class Meter:
-    """How well a run kept to the clock on the wall, since it began.
+    """Lag and overruns of a run that is paced to the wall clock, since it began.
 
     Wall times are in milliseconds unless said otherwise. After Lomp, Richter, Zibner and Schoener (2016), section 3.2, whose meter counts steps
     that took too long.

@@ -1,4 +1,4 @@
-"""How fast a run is to go, and how fast it goes: steps that are due by the clock on the wall.
+"""The pace of a run: the steps that are due by the wall clock.
 
 After Lomp, Richter, Zibner and Schoener (2016), section 3.2: a step waits until its time has come. The moments are counted from one beginning and
 not from step to step, so that lateness does not add up.
@@ -38,10 +38,10 @@ class Pace:
     """Steps that are due.
 
     Where the machine is too slow, a run falls behind and says so; its steps stay what they are, so that the result is the one of any other run. With
-    `longest` the step grows instead, in whole multiples of the planned one, as cedar does it; each change stands in the session's journal.
+    `longest` the step grows instead, in whole multiples of the planned one, as cedar does it; each change is entered in the session's journal.
 
     Args:
-        now: the clock on the wall, in seconds.
+        now: the wall clock, in seconds.
 
     Attributes:
         speed: document time over wall time that is asked for; None: as fast as possible.
@@ -176,7 +176,7 @@ class Pace:
             self._late_since = None
 
     def _allowed(self, session: Session, wanted: int) -> float:
-        """The longest step up to so many planned ones that the bound, the time constants and the world let pass."""
+        """The longest step, at most `n` planned ones, that the bound, the time constants and the world allow."""
         bound = self._planned if self.longest is None else self.longest
         for k in range(min(wanted, int(bound / self._planned + 1e-9)), 1, -1):
             step = k * self._planned

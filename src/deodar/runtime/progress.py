@@ -13,7 +13,7 @@ LINE_AFTER = 10.0
 """Seconds after which a run that is asked to shows its progress as a line, where there is no terminal."""
 
 Shown = bool | Callable[[int], None] | None
-"""Whether to show a bar (None: where it makes sense), or what is told how many steps are done."""
+"""Whether to show a progress bar (None: on a terminal, after a second), or a function that is called with the number of completed steps."""
 
 
 def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:

@@ -27,7 +27,7 @@ from deodar.worlds._base import World
 
 Tree = Any
 CHUNK_SECONDS = 0.2
-"""Wall time between two looks at the outside: progress, Ctrl-C, values that are not finite."""
+"""Wall time of a chunk in seconds; between chunks: progress, Ctrl-C, the check for values that are not finite."""
 
 MOST_STEPS = 2**44
 """Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at a step of 1 ms."""
@@ -85,7 +85,7 @@ class Run:
     # -------------------------------------------------------------------------------- running
 
     def advance(self, steps: int, progress: Callable[[int], None] | None = None) -> None:
-        """So many steps, in chunks."""
+        """Advance by `steps` Euler steps, in chunks."""
         chunk, _ = self.program.chunk(())
         self._steps(chunk, steps, 0, progress)
 
@@ -98,7 +98,7 @@ class Run:
         collect: Callable[[int, tuple[np.ndarray, ...]], None],
         progress: Callable[[int], None] | None = None,
     ) -> None:
-        """So many steps, with records after `start` of them and then after each `every`, as long as there are steps.
+        """Advance by `steps` Euler steps; record after the first `start` of them, then after each `every`.
 
         `collect(k, arrays)` gets the records from number k on; each array has the batch axes first, then the records.
         """

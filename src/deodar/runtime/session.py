@@ -1,4 +1,4 @@
-"""The session: one running model, stepped by hand, by a clock or by a studio."""
+"""The session: one running model, stepped by a script, by a clock or by the studio."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Session:
     # -------------------------------------------------------------------------------- running
 
     def step(self, n: int = 1) -> None:
-        """So many Euler steps."""
+        """Advance by `n` Euler steps."""
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
             raise TimeError(f"a number of steps is a whole number, 0 or above, not {show(n)}")
         left = int(n)
@@ -103,7 +103,7 @@ class Session:
                 left = 0 if self._coming_dt is None else left
 
     def run(self, duration: float) -> None:
-        """So much document time; a whole number of steps, each as long as dt is then."""
+        """Advance by a duration in document time: a whole number of steps of the present dt."""
         waiting, rest = 0, require_duration(duration, "a duration")
         if self._coming_dt is not None:  # up to the tick common to all parts the old step still counts
             waiting = min(-self.tick % self._run.program.plan.ticks, math.floor(rest / self.dt + 1e-9))
@@ -113,7 +113,7 @@ class Session:
     def run_live(
         self, duration: float, speed: float | None = 1.0, longest_step: float | None = None, between: Callable[[], object] | None = None
     ) -> Meter:
-        """So much document time, paced to the clock on the wall; see `deodar.runtime.live.run_live`."""
+        """Advance by a duration in document time, paced to the wall clock; see `deodar.runtime.live.run_live`."""
         return run_live(self, duration, speed, longest_step, between)
 
     def costs(self, seconds: float = SECONDS) -> Costs:
@@ -132,7 +132,7 @@ class Session:
         self._run.reset()
 
     def push(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
-        """So many Euler steps with an input to an element that no connection brings: a hand that reaches into the running model.
+        """Inject an external input for `n` Euler steps, without adding an element.
 
         Exactly as if `amount` (over the element's axes, or one number) were added to its input, noise included.
         """

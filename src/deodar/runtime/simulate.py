@@ -75,13 +75,14 @@ def simulate(
         seed: seed of all noise, 0 to 2^32 - 1.
         record: paths of ports. None: the activation of every field and node, at one time, the end.
         every: document time between records; none: dt. The first record is the initial state.
-        trials: so many (trials 0 to n - 1 of the seed), or which; they differ in their noise.
+        trials: number of trials (0 to n - 1 of the seed), or a list of trial numbers; trials differ in their noise.
         sweep: for each parameter path its values; several entries form a grid. All points share the noise.
         precision: float32 or float64.
         world: what provides the sensors that the model names.
-        progress: show a bar; none: on a terminal, if the run takes longer than a second. A function is told how many steps are done. From 10^9
-            steps on a `RunWarning` states their number, and progress is shown unless this is False: away from a terminal as lines.
-        workers: share the copies among so many processes; one for each core is best.
+        progress: whether to show a progress bar; none: on a terminal, if the run takes longer than a second. A function is called with the number
+            of completed steps. From 10^9 steps on a `RunWarning` states their number, and progress is shown unless this is False: without a terminal
+            as lines.
+        workers: number of processes that share the copies; one for each core is best.
         batch: copies that run at once in one process; none: as many as fit into the cache, all where there is no cache to fit into.
         device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
         accuracy: default (at most 1e-4 off in activation), or exact: every kernel by its matrix, however much longer that takes. Double precision
@@ -246,7 +247,7 @@ def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tupl
 def _in_pieces(
     model: Model, jobs: Sequence[Mapping[str, Any]], count: int | None, world: World | None, steps: int, progress: Shown
 ) -> list[pieces.Part | None]:
-    """The pieces one after another, or in so many worker processes."""
+    """Compute the pieces one after another, or in `count` worker processes."""
     parts: list[pieces.Part | None] = [None] * len(jobs)
     with stoppable() as check, bar(steps * len(jobs), progress) as shown:
 
@@ -280,7 +281,7 @@ def _cut(
 
 
 class _Store:
-    """Arrays for everything that is recorded, filled as the run goes on."""
+    """Arrays for everything that is recorded, filled during the run."""
 
     def __init__(self, program: Executable, ports: Sequence[Port], batch: Batch, count: int) -> None:
         self.lead = len(batch.shape)
@@ -331,7 +332,7 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, S
     if trials is None:
         return None, [0]
     if isinstance(trials, (int, np.integer)) and not isinstance(trials, bool) and 1 <= trials <= LARGEST_SEED:
-        return range(int(trials)), range(int(trials))  # not a list: whether so many fit into memory is not yet known
+        return range(int(trials)), range(int(trials))  # not a list: memory is checked later
     if isinstance(trials, (str, bool, int, np.integer)) or not np.iterable(trials):
         raise ParameterError(f"trials is {show(trials)}; it is a number of trials, at least 1, or a list of trial numbers")
     numbers = [require_seed(t) for t in trials]

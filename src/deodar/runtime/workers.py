@@ -55,14 +55,14 @@ def require_workers(workers: Any) -> int:
 
 
 def run(model: Model, world: World | None, pieces: Sequence[Mapping[str, Any]], workers: int, between: Callable[[int], None]) -> list[Part | None]:
-    """Run the pieces in so many processes; for each its record, or None if it was not begun before the stop.
+    """Run the pieces in `count` processes; return the record of each, or None if the run was stopped before the piece began.
 
     Args:
         model: the model, as it now is.
         world: what it senses; every worker has a copy of it.
         pieces: arguments of `simulate` for each piece.
         workers: number of processes.
-        between: told now and then how many steps are done in all pieces together; a KeyboardInterrupt from it stops all.
+        between: called from time to time with the number of completed steps of all pieces; a KeyboardInterrupt that it raises stops all.
 
     Raises:
         KeyboardInterrupt: on a second Ctrl-C; the processes are ended at once.
