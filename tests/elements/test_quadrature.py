@@ -116,3 +116,11 @@ def test_a_memory_stays_between_two_samples():
         model.set("u.quadrature", quadrature)
         g = dd.simulate(model, 3800, dt=4, record="u.output", every=3800)["u.output"].values[-1].astype(float)
         assert (abs(g @ axis.points / g.sum() - 50.6) < 0.02) == (quadrature == "cell")
+
+
+def test_architectures_whose_strengths_were_found_with_points_keep_points():
+    from deodar.architectures.saliency import saliency
+    from deodar.architectures.serial_order import serial_order
+
+    fields = [e.element for model in (saliency(), serial_order(2)) for e in model.document.entries if isinstance(e.element, dd.Field)]
+    assert len(fields) == 9 and {f.quadrature for f in fields} == {"point"}

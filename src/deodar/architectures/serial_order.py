@@ -14,6 +14,7 @@ Reference:
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Sequence
 
 from deodar.couplings.adaptive_weights import AdaptiveWeights
@@ -224,4 +225,6 @@ def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str 
 
 def _field(name: str, axes: Sequence[Axis], kernel: Sequence[Gaussian], noise: float, inhibition: float = 0.0) -> Field:
     rest, steep = RESTING[name], Logistic(beta=STEEP)
-    return Field(name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise)
+    field = Field(name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise)
+    # The strengths count active samples of a grid in steps of 1. Sums over cells produce the same sequences (benchmarks/quadratures.py).
+    return dc.replace(field, quadrature="point")

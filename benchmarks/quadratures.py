@@ -1,0 +1,73 @@
+"""Prints what published architectures do with sums over points and over cells: `python benchmarks/quadratures.py [serial-order] [saliency]`.
+
+Serial order: learned sequences of ten actions, how many trials produce all ten in their order at their places. Saliency: the untuned photographs of
+`deodar demo saliency` and what is required of them together. All fields over axes take the quadrature. Nothing is asserted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+
+os.environ.setdefault("NPROC", "1")
+
+import deodar as dd
+from deodar.architectures.cascade import cascade, recorded
+from deodar.architectures.saliency import saliency
+from deodar.architectures.serial_order import end, lesson, production
+from deodar.demos.saliency import look, photographs, totals
+
+SEQUENCE = [30.0, 6.0, 6.0, 54.0, 30.0, 18.0, 42.0, 42.0, 42.0, 6.0]
+PLACES = (6.0, 18.0, 30.0, 42.0, 54.0)
+RELEASED = 250.0
+"""After production began, ms: what was cleared is clear."""
+TRIALS = 16
+
+
+def with_quadrature(model: dd.Model, quadrature: str) -> dd.Model:
+    """The model, all its fields over axes with this quadrature."""
+    for entry in model.document.entries:
+        if isinstance(entry.element, dd.Field) and entry.element.axes:
+            model.set(f"{entry.path}.quadrature", quadrature)
+    return model
+
+
+def serial_order(quadrature: str) -> None:
+    n = len(SEQUENCE)
+    model = with_quadrature(lesson(SEQUENCE, PLACES), quadrature)
+    runs = dd.simulate(model, end(n, len(PLACES)), record=recorded(n), trials=TRIALS, progress=False)
+    right, lasting = 0, []
+    for trial in range(TRIALS):
+        found = cascade(runs.isel(trial=trial), production(n) + RELEASED)
+        items = [t.item for t in found] == list(range(1, n + 1))
+        right += items and all(abs(t.place - place) <= 1.5 for t, place in zip(found, SEQUENCE, strict=True))
+        lasting += [abs(t.place - place) for t, place in zip(found, SEQUENCE, strict=False)]
+    farthest = max(lasting, default=float("nan"))
+    said = f"{right} of {TRIALS} trials right; peaks lie at most {farthest:.2f} samples from their actions"
+    print(f"{'serial order':14}{quadrature:8}{said}", flush=True)
+
+
+def saliency_demo(quadrature: str) -> None:
+    scenes = [scene for scene in photographs(untuned=True) if not scene.tuned]
+    results = [look(scene, model=with_quadrature(saliency(), quadrature)) for scene in scenes]
+    for claim in totals(results):
+        print(f"{'saliency':14}{quadrature:8}{claim.name}: {claim.value} ({claim.target})", flush=True)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("which", nargs="*", help="serial-order, saliency (default: both)")
+    given = parser.parse_args()
+    began = time.time()
+    measured = {"serial-order": serial_order, "saliency": saliency_demo}
+    for name in given.which or measured:
+        for quadrature in ("point", "cell"):
+            measured[name](quadrature)
+    print(f"\n{time.time() - began:.0f} s; deodar {dd.__version__}, single precision")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
