@@ -18,6 +18,8 @@ import websockets
 import deodar as dd
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.runtime import engine
+from deodar.server import hub
+from deodar.server.keeper import Keeper
 from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 
@@ -515,6 +517,38 @@ def test_unsaved_edits_survive_a_crash(root: Path, own_state: Path) -> None:
         play(address, second)
     assert dd.load(root / "selection.json").get("u.tau") == 44
     assert list((own_state / "unsaved").iterdir()) == []
+
+
+def test_the_state_folder_is_used_beside_the_event_loop(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder in a network that does not answer must not stop every page."""
+    used: set[str] = set()
+
+    def beside(name: str, real: Any) -> Any:
+        def call(*given: Any) -> Any:
+            with pytest.raises(RuntimeError):
+                asyncio.get_running_loop()
+            used.add(name)
+            return real(*given)
+
+        return call
+
+    names = ("keep", "forget", "kept", "read", "opened", "recent")
+    for name in names:
+        monkeypatch.setattr(Keeper, name, beside(name, getattr(Keeper, name)))
+    monkeypatch.setattr(hub, "KEEP_SECONDS", 0.02)
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("set", element=p.element("u"), parameter="tau", value=33)
+        await p.until(lambda: "keep" in used)
+        await p.do("save")
+        assert p.said["gallery"]["recent"] == ["node.json"]
+        await p.do("close")
+        assert (await p.ask("recover", name="0123456789abcdef"))["problems"]
+
+    with studio(root, root / "node.json") as address:
+        play(address, scene)
+    assert used == set(names)
 
 
 def test_streams_of_nothing_say_so(root: Path) -> None:

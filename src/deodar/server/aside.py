@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeVar
 
-from deodar.errors import DocumentError
+from deodar.errors import DeodarError, DocumentError
 
 T = TypeVar("T")
 SECONDS = 60.0
@@ -40,3 +41,9 @@ async def aside(function: Callable[[], T], where: str) -> T:
             return await asyncio.wrap_future(future)
     except TimeoutError:
         raise DocumentError(f"took longer than {SECONDS:g} s to read or write", where=where, fix="Does its disk or network folder answer?") from None
+
+
+async def attempt(function: Callable[[], None]) -> None:
+    """Run a function as `aside` does, and go on without its result where it fails or takes too long: nothing depends on it."""
+    with contextlib.suppress(DeodarError):
+        await aside(function, "")

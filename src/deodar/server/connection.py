@@ -151,9 +151,12 @@ class Connection:
         """Everything that is new, ended by a clock."""
         hub, engine = self.hub, self.hub.engine
         spoke = False
-        for message in self._news_of_state():
-            await self._text(message)
-            spoke = True
+        while True:
+            for message in await self._news_of_state():
+                await self._text(message)
+                spoke = True
+            if (self._session, self._version) == (hub.project.session, hub.project.version):  # no answer goes before the change that it is of
+                break
         shot = engine.shot
         sent = shot.number != self._shot
         self._shot = shot.number
@@ -179,17 +182,18 @@ class Connection:
         else:
             engine.want()  # the last shot held nothing for this page, and it is still waiting for one that does
 
-    def _news_of_state(self) -> list[ToPage]:
+    async def _news_of_state(self) -> list[ToPage]:
         project = self.hub.project
         out: list[ToPage] = []
-        if (self._session, self._version) != (project.session, project.version):
+        now = project.session, project.version
+        if (self._session, self._version) != now:
             changes = project.changes_since(self._session, self._version)
             if changes is None:
                 out.append(Opened(session=project.session, version=project.version, document=project.view()))
-                self._new("gallery", self.hub.gallery(), out)
+                self._new("gallery", await self.hub.gallery(), out)
             else:
                 out.extend(changes)
-            self._session, self._version = project.session, project.version
+            self._session, self._version = now
             file, problems = project.trouble
             self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
         if project.checker.found is not None:

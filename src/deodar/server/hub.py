@@ -11,6 +11,7 @@ from deodar.runtime.bill import Bill
 from deodar.runtime.engine import Engine
 from deodar.runtime.meter import Meter
 from deodar.server import gallery, kinds, view
+from deodar.server.aside import attempt
 from deodar.server.connection import Connection
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
@@ -29,6 +30,7 @@ class Hub:
     def __init__(self, root: Path, trust: bool, world: World | None) -> None:
         self._loop = asyncio.get_running_loop()
         self._told = False
+        self._gallery = Gallery(recent=[], recoveries=[])
         self._told_costs: tuple[Bill, Costs] | None = None
         self.connections: set[Connection] = set()
         self._connected = 0
@@ -55,10 +57,15 @@ class Hub:
             with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is left to be told
                 self._loop.call_soon_threadsafe(self.tell)
 
-    def gallery(self) -> Gallery:
-        """What can be gone on with."""
-        recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
-        return Gallery(recent=recent, recoveries=self.keeper.kept())
+    async def gallery(self) -> Gallery:
+        """Recent files and unsaved edits, as the state folder holds them; where it does not answer, as it held them last."""
+
+        def read() -> None:
+            recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
+            self._gallery = Gallery(recent=recent, recoveries=self.keeper.kept())
+
+        await attempt(read)
+        return self._gallery
 
     def clock(self, frame: int) -> Clock:
         """Where the run is."""
@@ -125,10 +132,10 @@ class Hub:
     async def _keep(self) -> None:
         while True:
             await asyncio.sleep(KEEP_SECONDS)
-            self.project.keep()
+            await self.project.turns.take(self.project.keep)  # no edit is forgotten while it is written
 
     async def close(self) -> None:
         """End the engine; unsaved edits stay kept."""
         self._keeping.cancel()
-        self.project.keep()
+        await self.project.keep()
         await asyncio.to_thread(self.engine.close)

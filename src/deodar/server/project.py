@@ -20,7 +20,7 @@ from deodar.model.model import Model
 from deodar.runtime.engine import Engine
 from deodar.runtime.session import Session
 from deodar.server import content, view
-from deodar.server.aside import aside
+from deodar.server.aside import aside, attempt
 from deodar.server.checker import Checker
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper
@@ -135,7 +135,7 @@ class Project:
     async def recover(self, name: str, discard: bool) -> None:
         """Go on with unsaved edits that were kept."""
         self._ask_unsaved(discard)
-        doc, file = self.keeper.read(name)
+        doc, file = await aside(lambda: self.keeper.read(name), name)
         path = Path(file) if file else None
         if path is not None and not self.workspace.holds(path):
             path = None
@@ -167,14 +167,14 @@ class Project:
         self.file, self._saved, self._digest = file, view.plain(doc), await self._hash(file)
         self._name, self._kept = self.keeper.new_name(), doc
         if file is not None:
-            self.keeper.opened(file)
+            await attempt(lambda: self.keeper.opened(file))
         self.busy = "compiling"  # before a page is told of the document, so that none takes it for ready
         self._moved()
         self.turns.beside(self._start())
 
     async def _leave(self) -> None:
         if self._name:
-            self.keeper.forget(self._name)
+            await attempt(lambda: self.keeper.forget(self._name))
         self.turns.session += 1
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
@@ -243,19 +243,20 @@ class Project:
         doc = model.document
         await aside(lambda: self.workspace.save(doc, place), path or str(place))
         self.file, self._saved, self._digest, self._kept = place, view.plain(doc), await self._hash(place), doc
-        self.keeper.forget(self._name)
-        self.keeper.opened(place)
+        await attempt(lambda: self.keeper.forget(self._name))
+        await attempt(lambda: self.keeper.opened(place))
         self._moved()
         return place
 
     async def _hash(self, place: Path | None) -> str:
         return "" if place is None else await aside(lambda: self.workspace.digest(place), str(place))
 
-    def keep(self) -> None:
+    async def keep(self) -> None:
         """Keep unsaved edits, if there are new ones."""
         if self.model is not None and self.unsaved and self._kept is not self.model.document:
-            self._kept = self.model.document
-            self.keeper.keep(self._name, self.model.document, "" if self.file is None else str(self.file))
+            doc, name, file = self.model.document, self._name, "" if self.file is None else str(self.file)
+            await attempt(lambda: self.keeper.keep(name, doc, file))
+            self._kept = doc
 
     # -------------------------------------------------------------------------------- editing
 

@@ -82,7 +82,7 @@ async def _recover(page: Connection, m: to_server.Recover) -> None:
 
 
 async def _forget(page: Connection, m: to_server.Forget) -> None:
-    page.hub.keeper.forget(m.name)
+    await aside(lambda: page.hub.keeper.forget(m.name), m.name)
     page.hub.project.touch()
 
 
