@@ -239,3 +239,17 @@ def test_setting_the_same_value_is_no_surprise() -> None:
     model.set("b.amplitude", 2)
     assert model.undo() and model.undo()
     assert model.get("b.amplitude") == 1.0
+
+
+def test_what_a_document_knows_of_its_entries_is_passed_on_as_elements_are_added():
+    """Made anew for each element, the names of thousands would take time with the square of their number."""
+    model, seen = dd.Model("many"), []
+    for k in range(3):
+        model.add(dd.Field(f"u{k}", []))
+        seen.append(model.document)
+    for n, doc in enumerate(seen, 1):
+        assert {"_by_id", "_by_names"} <= set(vars(doc)) and len(doc.by_id()) == len(doc.by_names()) == n
+    model["u0"] >> model["u1"]
+    model.add(dd.Field("v", []))
+    assert len(vars(model.document)["_ends"]) == len(model.document.ends()) == 1
+    assert [len(doc.by_names()) for doc in seen] == [1, 2, 3]

@@ -72,17 +72,28 @@ class Call:
     instant: Instant
 
 
+COLUMNS = 64
+"""Sources of a row that are added in one expression; further ones are added by a loop, so that a program does not grow with the number of inputs."""
+
+
 @dc.dataclass
 class Read:
-    """Rows of one buffer that are added to rows of one port: a padded table, `rows x most`, of rows of the source.
+    """Rows of one buffer that are added to rows of one port.
 
-    Entries equal to the number of the source's rows stand for nothing. Each row sums in the order of the sources' ids
-    within a group of sources, and group after group in the order of their first ids.
+    Each row sums in the order of the sources' ids within a group of sources, and group after group in the order of their first ids.
+
+    Attributes:
+        source: group, port and instant of the buffer.
+        table: rows of the source, (rows of the port, at most COLUMNS); an entry equal to the number of the source's rows means none.
+        whole: whether no entry means none.
+        more: where rows have more sources: the rows of the port, and the rows of their further sources, (blocks, COLUMNS, rows). Rows with few
+            sources do not occur there, so the size is at most a few times that of the connections.
     """
 
     source: tuple[int, str, Instant]
     table: np.ndarray
     whole: bool
+    more: Sequence[tuple[np.ndarray, np.ndarray]] = ()
 
 
 @dc.dataclass
@@ -263,9 +274,23 @@ def _reads(group: Group, port: str, groups: Sequence[Group], row: Mapping[str, t
     out: list[Read] = []
     for key in sorted(found):
         rows, nothing = found[key], groups[key[0]].rows
-        most = max(len(r) for r in rows)
-        table = np.full((group.rows, most), nothing, np.int32)
-        for r, sources in enumerate(rows):
-            table[r, : len(sources)] = sources
-        out.append(Read(key, table, bool((table < nothing).all())))
+        table, more = _padded(rows, 0, min(COLUMNS, max(map(len, rows))), nothing), list[tuple[np.ndarray, np.ndarray]]()
+        begin = COLUMNS
+        while longer := [r for r, sources in enumerate(rows) if len(sources) > begin]:
+            most = max(map(len, rows)) if len(longer) == 1 else 2 * begin
+            end = begin + -(-(most - begin) // COLUMNS) * COLUMNS
+            block = _padded([rows[r] for r in longer], begin, end, nothing).T.reshape(-1, COLUMNS, len(longer))
+            more.append((np.asarray(longer, np.int32), block))
+            begin = end
+        whole = all(bool((part < nothing).all()) for part in (table, *(block for _, block in more)))
+        out.append(Read(key, table, whole, more))
     return out
+
+
+def _padded(rows: Sequence[Sequence[int]], begin: int, end: int, nothing: int) -> np.ndarray:
+    """The entries `begin` to `end` of lists of different lengths, as a table."""
+    table = np.full((len(rows), end - begin), nothing, np.int32)
+    for r, sources in enumerate(rows):
+        part = sources[begin:end]
+        table[r, : len(part)] = part
+    return table

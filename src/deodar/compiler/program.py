@@ -294,7 +294,7 @@ def array_key(g: int, path: str) -> str:
 
 
 def gather(x: Any, read: Read) -> Any:
-    """Sum over the columns of the table of the rows they name; fixed order of summation."""
+    """Sum of the rows of the source that `read` names for each row; fixed order of summation."""
     table = read.table
     if table.shape[1] == 1 and read.whole:
         same = x.shape[0] == table.shape[0] and np.array_equal(table[:, 0], np.arange(x.shape[0]))
@@ -304,6 +304,15 @@ def gather(x: Any, read: Read) -> Any:
     total = x[table[:, 0]]
     for column in range(1, table.shape[1]):
         total = total + x[table[:, column]]
+    for rows, blocks in read.more:
+        blocks = jnp.asarray(blocks)
+
+        def add(n: Any, part: Any, blocks: Any = blocks) -> Any:
+            for column in range(blocks.shape[1]):
+                part = part + x[blocks[n, column]]
+            return part
+
+        total = total.at[rows].set(lax.fori_loop(0, blocks.shape[0], add, total[rows]))
     return total
 
 

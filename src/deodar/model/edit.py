@@ -31,7 +31,8 @@ def add(doc: Document, element: Element, group: Names = (), every: int = 1, afte
     if isinstance(element, Element) and not element.name:
         group, base = (group or after.group, f"{after.names[-1]}>") if after else (group, "")
         base += type(element).__name__
-        element = dc.replace(element, name=_free(base, {n[-1] for n in doc.by_names() if n[:-1] == group}))
+        taken = doc.by_names()
+        element = dc.replace(element, name=_free(base, lambda name: (*group, name) in taken))
     doc, entries = add_all(doc, [(element, group, every)])
     return doc, entries[0]
 
@@ -39,7 +40,7 @@ def add(doc: Document, element: Element, group: Names = (), every: int = 1, afte
 def add_all(doc: Document, elements: Iterable[tuple[Element, Names, int]]) -> tuple[Document, list[Entry]]:
     """A document with more elements, each with its group and its step in ticks; every element has a name."""
     entries: list[Entry] = []
-    taken, ids, groups = dict(doc.by_names()), {e.id for e in doc.entries}, set(doc.groups)
+    taken, ids, groups = dict(doc.by_names()), dict(doc.by_id()), set(doc.groups)
     for element, group, every in elements:
         if not isinstance(element, Element):
             raise ModelError(f"{element!r} is no element", fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))")
@@ -51,9 +52,9 @@ def add_all(doc: Document, elements: Iterable[tuple[Element, Names, int]]) -> tu
         entry = Entry(stored_id(path, ids), names, element, every)
         entries.append(entry)
         taken[names] = entry
-        ids.add(entry.id)
+        ids[entry.id] = entry
         groups |= {group[:k] for k in range(1, len(group) + 1)}
-    return dc.replace(doc, entries=(*doc.entries, *entries), groups=_with_groups(doc.groups, [e.group for e in entries])), entries
+    return doc.extended(entries, _with_groups(doc.groups, [e.group for e in entries])), entries
 
 
 def remove(doc: Document, ids: Iterable[str]) -> Document:
@@ -383,9 +384,9 @@ def _uses_at(doc: Document, group: Names, to: Names) -> tuple[Use, ...]:
     return tuple(dc.replace(u, group=to + u.group[len(group) :]) if u.group[: len(group)] == group else u for u in doc.uses)
 
 
-def _free(base: str, taken: set[str]) -> str:
+def _free(base: str, taken: Callable[[str], bool]) -> str:
     name, n = base, 1
-    while name in taken:
+    while taken(name):
         n += 1
         name = f"{base}{n}"
     return name

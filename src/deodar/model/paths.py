@@ -97,7 +97,7 @@ def stored_id(path: str, taken: Iterable[str]) -> str:
 
     The same script gives the same ids in any order of declaration; noise is keyed by them.
     """
-    used = taken if isinstance(taken, (set, frozenset)) else set(taken)
+    used = taken if isinstance(taken, (set, frozenset, Mapping)) else set(taken)
     n = 0
     while True:
         text = path if n == 0 else f"{path}#{n}"
