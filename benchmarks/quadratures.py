@@ -1,7 +1,8 @@
-"""Prints what published architectures do with sums over points and over cells: `python benchmarks/quadratures.py [serial-order] [saliency]`.
+"""Prints what published architectures do with sums over points and over cells: `python benchmarks/quadratures.py [serial-order] [saliency] [spa]`.
 
 Serial order: learned sequences of ten actions, how many trials produce all ten in their order at their places. Saliency: the untuned photographs of
-`deodar demo saliency` and what is required of them together. All fields over axes take the quadrature. Nothing is asserted.
+`deodar demo saliency` and what is required of them together. Planning (spa): the first pairs of start and goal in the Z-maze at low noise,
+how many goals are reached, and how long the paths are. All fields over axes take the quadrature. Nothing is asserted.
 """
 
 from __future__ import annotations
@@ -13,17 +14,29 @@ import time
 
 os.environ.setdefault("NPROC", "1")
 
+import numpy as np
+
 import deodar as dd
+from deodar.analysis.paths import length
+from deodar.analysis.shortest import shortest
 from deodar.architectures.cascade import cascade, recorded
 from deodar.architectures.saliency import saliency
 from deodar.architectures.serial_order import end, lesson, production
+from deodar.architectures.spa import spa
 from deodar.demos.saliency import look, photographs, totals
+from deodar.experiments.batch import run_batch
+from deodar.experiments.events import Within
+from deodar.papers.spa import cases
+from deodar.papers.spa.pairs import pairs, reference
+from deodar.papers.spa.trials import LIMIT, POSE, RADIUS, STAY
 
 SEQUENCE = [30.0, 6.0, 6.0, 54.0, 30.0, 18.0, 42.0, 42.0, 42.0, 6.0]
 PLACES = (6.0, 18.0, 30.0, 42.0, 54.0)
 RELEASED = 250.0
 """After production began, ms: what was cleared is clear."""
 TRIALS = 16
+PAIRS = 20
+"""Pairs of start and goal for the planner, of 96."""
 
 
 def with_quadrature(model: dd.Model, quadrature: str) -> dd.Model:
@@ -56,12 +69,29 @@ def saliency_demo(quadrature: str) -> None:
         print(f"{'saliency':14}{quadrature:8}{claim.name}: {claim.value} ({claim.target})", flush=True)
 
 
+def planning(quadrature: str) -> None:
+    c = cases.conditions(True)["z/planner/low"]
+    arena = cases.world(c)
+    model = with_quadrature(spa(arena, c.noise, c.factor), quadrature)
+    reached, ratios, steps = 0, [], []
+    for trial in list(c.trials)[:PAIRS]:
+        [course] = run_batch(model, LIMIT, [trial], [POSE], [Within("done", RADIUS, POSE, "goal.output", STAY)], world=arena)
+        start, goal = pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial]
+        line, best = course.values[POSE][:, :2], shortest(reference(c.maze), start, goal)
+        reached += (there := bool(np.linalg.norm(line[-1] - goal) <= RADIUS))
+        steps.append(len(line) - 1)
+        if there and best is not None:
+            ratios.append(length(line) / length(best))
+    said = f"{reached} of {len(steps)} goals reached; paths {np.mean(ratios):.3f} times the shortest; {np.mean(steps):.0f} steps"
+    print(f"{'planning':14}{quadrature:8}{said}", flush=True)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("which", nargs="*", help="serial-order, saliency (default: both)")
+    parser.add_argument("which", nargs="*", help="serial-order, saliency, spa (default: all)")
     given = parser.parse_args()
     began = time.time()
-    measured = {"serial-order": serial_order, "saliency": saliency_demo}
+    measured = {"serial-order": serial_order, "saliency": saliency_demo, "spa": planning}
     for name in given.which or measured:
         for quadrature in ("point", "cell"):
             measured[name](quadrature)

@@ -29,6 +29,9 @@ NARROW, WIDE = 2.0, 4.0
 TAU, RESTING, STEEP = 5.0, -5.0, 4.0
 """Of all four fields; time in steps of the published simulation."""
 
+QUADRATURE = "point"
+"""Of all fields, as in the published simulator. Sums over cells reach the same goals (`python benchmarks/quadratures.py spa`)."""
+
 LATERAL = {"motivation": (7.0, -2.0), "precondition": (4.0, -2.0), "intention": (9.0, 0.0), "satisfaction": (2.0, -2.0)}
 """Integrals of local excitation and of wider inhibition. Table 2 prints the latter negative and eqs. 4 to 6 subtract it: it inhibits once."""
 
@@ -100,4 +103,5 @@ def _field(name: str, axes: Sequence[Axis], noise: float, boundary: str | None) 
     kernel = [Gaussian(excitation, NARROW, normalized=True, boundary=ends)]
     if inhibition:
         kernel.append(Gaussian(inhibition, WIDE, normalized=True, boundary=ends))
-    return Field(name, axes, tau=TAU, resting_level=RESTING, sigmoid=Logistic(beta=STEEP), kernel=kernel, noise=noise)
+    steep = Logistic(beta=STEEP)
+    return Field(name, axes, tau=TAU, resting_level=RESTING, sigmoid=steep, kernel=kernel, noise=noise, quadrature=QUADRATURE)

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.architectures._elementary_behaviour import RESTING, elementary_behaviour
+from deodar.architectures._elementary_behaviour import QUADRATURE, RESTING, elementary_behaviour
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.gain import Gain
 from deodar.couplings.logarithm import Logarithm
@@ -192,7 +192,7 @@ def _proximity(model: Model) -> tuple[Handle, Handle]:
     bins = np.arange(1, 101)[:, None]
     spots = np.exp(-0.5 * ((bins - np.array(SENSOR_BINS)) / 3.0) ** 2) * SENSOR_SHARES
     around = model.add(Weights(spots, [turn], name="around"))  # type: ignore[arg-type]
-    near = model.add(Field("proximity", [turn], tau=5.0, resting_level=RESTING, sigmoid=Logistic(beta=3.0)))
+    near = model.add(Field("proximity", [turn], tau=5.0, resting_level=RESTING, sigmoid=Logistic(beta=3.0), quadrature=QUADRATURE))
     seen >> model.add(Logarithm(5.0, 50.0, name="loudness")) >> around >> near
     avoid = model.add(Convolve([Gaussian(-16.0, 12 * BIN, normalized=True)], name="avoid"))
     near >> avoid
@@ -205,7 +205,7 @@ def _action(model: Model, name: str, compass: Handle, biases: Sequence[Handle], 
     turn, (east, north) = turning(), DIRECTIONS[name]
     base = math.degrees(math.atan2(north, east))
     action = model.add(
-        Field("action", [turn], tau=3.0, resting_level=RESTING, sigmoid=Logistic(beta=4.0), global_inhibition=0.05 / BIN),
+        Field("action", [turn], tau=3.0, resting_level=RESTING, sigmoid=Logistic(beta=4.0), global_inhibition=0.05 / BIN, quadrature=QUADRATURE),
         group=name,
     )
     compass >> model.add(SpaceCode([turn], 30 * BIN, 4.0, gain=180 / math.pi, offset=-base, name="heading"), group=name) >> action
