@@ -98,7 +98,7 @@ print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
 
 
 def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
-    model = small()
+    model, before = small(), signal.getsignal(signal.SIGINT)  # a shell that starts the tests behind it ignores the signal
 
     def press() -> None:
         seen.wait()
@@ -117,17 +117,19 @@ def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
     presser.join()
     data = caught.value.data
     assert 1 <= data.sizes["trial"] < most and about(data)["complete"] is False and about(data)["trials"] == [*range(most)]
-    assert not children() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert not children() and signal.getsignal(signal.SIGINT) is before
 
 
 def test_a_second_ctrl_c_ends_them_at_once() -> None:
+    before = signal.getsignal(signal.SIGINT)
+
     def told(done: int) -> None:
         os.kill(os.getpid(), signal.SIGINT)
         os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
         dd.simulate(small(), 50_000_000, trials=2, workers=2, progress=told)
-    assert not children() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert not children() and signal.getsignal(signal.SIGINT) is before
 
 
 @pytest.mark.parametrize("how", ["stops", "fails", "dies"])
