@@ -1,6 +1,6 @@
 """The runs that the manual speaks of: kept in `evidence/`, a folder for each paper, and every number on a page that comes from them.
 
-python docs/evidence.py FOLDER   take the folder of a finished `deodar reproduce PAPER [--quick]`, then write claims, pictures and pages anew
+python docs/evidence.py FOLDER   take the complete conditions in the folder of a `deodar reproduce PAPER [--quick]`, then write all anew
 python docs/evidence.py          write claims and pages anew from the runs that are kept
 python docs/evidence.py --print  print every number and table by its name
 
@@ -94,9 +94,13 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     if any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(quick))).items()):
         sys.exit(f"{source}: not the whole design of {name}, or another one; run {command} into a new folder first")
     keys = {key for job in paper.jobs(quick) for key in job.keys}
-    rows = [paper.kept(line) for line in lines if "key" in line]
-    if {row["key"] for row in rows} != keys:
-        sys.exit(f"{source}: {len(rows)} of {len(keys)} runs; run {command} --out {source} first")
+    found = {line["key"]: paper.kept(line) for line in lines if "key" in line}
+    unfinished = {_condition(key) for key in keys - set(found)}
+    rows = [row for key, row in found.items() if key in keys and _condition(key) not in unfinished]
+    if not rows:
+        sys.exit(f"{source}: no condition is complete; run {command} --out {source} first")
+    if unfinished:
+        sys.stderr.write(f"{source}: not complete, and left out: {', '.join(sorted(unfinished))}. To go on: {command} --out {source}\n")
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
     about = {"paper": name, "command": command, "quick": quick, "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
     folder = into / name
@@ -105,6 +109,11 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     (folder / ROWS).write_bytes(lzma.compress(content.encode(), preset=9))
     (folder / ABOUT).write_text(json.dumps(about, indent=2) + "\n", encoding="utf-8")
     return read(name, folder)
+
+
+def _condition(key: str) -> str:
+    """The condition of a run. Only whole conditions are kept, so that nobody chooses among runs."""
+    return key.rsplit("/", 1)[0]
 
 
 def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
@@ -121,14 +130,22 @@ def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
         "inferred": _table([c for c in told if c.inferred]),
         "required-count": _counted("required claims", required),
         "reported-count": _counted("reported sentences", told),
+        "missing": _missing(evidence),
         "command": f"`{evidence.about['command']}`",
         "made": f"{versions}, {made['machine']}, {evidence.about['date']}",
     }
 
 
+def _missing(evidence: Evidence) -> str:
+    """The conditions of which no runs are kept."""
+    keys = {key for job in papers.paper(evidence.paper).jobs(evidence.quick) for key in job.keys}
+    names = sorted({_condition(key) for key in keys - set(evidence.rows)})
+    return ", ".join(names) or "none"
+
+
 def unrun(paper: str) -> dict[str, str]:
     """What a page may say of a paper whose runs are not kept: its settings, and in the place of every other number that nothing was run."""
-    names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made", "command")
+    names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made", "command", "missing")
     return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, NOT_RUN)}
 
 

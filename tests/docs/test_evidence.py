@@ -137,10 +137,23 @@ def test_a_quick_reproduction_is_taken_as_one(folder: Path, tmp_path: Path) -> N
     assert json.loads(taken.results(taken.report()))["settings"]["quick"] is True
 
 
-def test_a_part_of_the_runs_is_not_taken(folder: Path, tmp_path: Path) -> None:
+def test_a_condition_that_is_not_complete_is_left_out(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = folder / "runs.jsonl"
-    file.write_text("".join(line + "\n" for line in file.read_text().splitlines()[:-2]))
-    with pytest.raises(SystemExit, match=r"\d+ of \d+ runs.*deodar reproduce spa --out"):
+    lines = file.read_text().splitlines()
+    last = json.loads(lines[-2])["condition"]  # the last line is torn
+    file.write_text("".join(line + "\n" for line in lines[:-2]))
+    taken = evidence.take(folder, tmp_path / "evidence")
+    assert last in capsys.readouterr().err
+    known = evidence.numbers(taken, taken.report())
+    assert known["missing"] == last and known[f"success:{last}"] == evidence.NOT_RUN
+    assert {row["condition"] for row in taken.rows.values()} == {json.loads(line)["condition"] for line in lines[1:-1]} - {last}
+    assert taken.about["runs"] == len(taken.rows) < taken.about["of"]
+
+
+def test_without_a_complete_condition_nothing_is_taken(folder: Path, tmp_path: Path) -> None:
+    file = folder / "runs.jsonl"
+    file.write_text("".join(line + "\n" for line in file.read_text().splitlines()[:3]))
+    with pytest.raises(SystemExit, match=r"no condition is complete.*deodar reproduce spa --out"):
         evidence.take(folder, tmp_path / "evidence")
     assert not (tmp_path / "evidence").exists()
 
