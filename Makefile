@@ -12,7 +12,7 @@ demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
 test: .venv/installed-test lint types studio
-	$(BIN)/python -m pytest -n 2 --dist loadfile
+	$(BIN)/python -m pytest -n 2 --dist loadfile --durations 30
 	$(BIN)/python studio/build.py check test browser
 
 lint: .venv/installed-test
