@@ -24,12 +24,14 @@ from typing import Any
 
 from deodar import papers
 from deodar.analysis.claims import Claim, results
-from deodar.figures import _files
 from deodar.papers._report import NOT_RUN, Report
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
 EVIDENCE = ROOT / "evidence"
+DOTS = 100
+"""Dots an inch of the pictures on pages; those that `deodar reproduce` writes have those of print."""
+
 ABOUT, ROWS, RESULTS = "about.json", "runs.jsonl.xz", "results.json"
 PLACE = re.compile(r"<!-- evidence (\w+) (\S+) -->(.*?)<!-- end -->", re.DOTALL)
 REGION = re.compile(r"<!-- numbers of (\w+) -->(.*?)<!-- end of numbers -->", re.DOTALL)
@@ -203,7 +205,7 @@ def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
     (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
     for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():
         if figure in report.figures:
-            _files.save(report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True)
+            report.figures[figure].savefig(DOCS / "pictures" / f"{picture}.png", dpi=DOTS)
     return numbers(evidence, report)
 
 
