@@ -17,13 +17,14 @@ import json
 import lzma
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from deodar import papers
 from deodar.analysis.claims import Claim, results
+from deodar.figures import _files
 from deodar.papers._report import NOT_RUN, Report
 
 DOCS = Path(__file__).parent
@@ -97,12 +98,12 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
         sys.exit(f"{source}: not the whole design of {name}, or another one; run {command} into a new folder first")
     keys = {key for job in paper.jobs(quick) for key in job.keys}
     found = {line["key"]: paper.kept(line) for line in lines if "key" in line}
-    unfinished = {_condition(key) for key in keys - set(found)}
+    unfinished = _unfinished(keys, found)
     rows = [row for key, row in found.items() if key in keys and _condition(key) not in unfinished]
     if not rows:
         sys.exit(f"{source}: no condition is complete; run {command} --out {source} first")
     if unfinished:
-        sys.stderr.write(f"{source}: not complete, and left out: {', '.join(sorted(unfinished))}. To go on: {command} --out {source}\n")
+        sys.stderr.write(f"{source}: not complete, and left out: {', '.join(unfinished)}. To go on: {command} --out {source}\n")
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
     about = {"paper": name, "command": command, "quick": quick, "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
     folder = into / name
@@ -116,6 +117,11 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
 def _condition(key: str) -> str:
     """The condition of a run. Only whole conditions are kept, so that nobody chooses among runs."""
     return key.rsplit("/", 1)[0]
+
+
+def _unfinished(keys: Collection[str], found: Collection[str]) -> list[str]:
+    """The conditions of which runs are missing, in order."""
+    return sorted({_condition(key) for key in keys if key not in found})
 
 
 def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
@@ -141,8 +147,7 @@ def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
 def _missing(evidence: Evidence) -> str:
     """The conditions of which no runs are kept."""
     keys = {key for job in papers.paper(evidence.paper).jobs(evidence.quick) for key in job.keys}
-    names = sorted({_condition(key) for key in keys - set(evidence.rows)})
-    return ", ".join(names) or "none"
+    return ", ".join(_unfinished(keys, evidence.rows)) or "none"
 
 
 def unrun(paper: str) -> dict[str, str]:
@@ -205,7 +210,7 @@ def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
     (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
     for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():
         if figure in report.figures:
-            report.figures[figure].savefig(DOCS / "pictures" / f"{picture}.png", dpi=DOTS)
+            _files.save(report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True, dots=DOTS)
     return numbers(evidence, report)
 
 

@@ -116,7 +116,7 @@ class Part:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", f"{type(self).__name__} needs {p.name}", _call(type(self), p)))
                 continue
             try:
-                if not _same(stored := normal(p, given), given):  # one object stays one: so changes are told quickly
+                if not _same(stored := normal(p, given), given):  # an unchanged object is kept, so that changes are found by identity
                     object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
@@ -144,7 +144,7 @@ class Part:
 
 
 def _call(cls: type[Any], last: Parameter) -> str:
-    """The call that gives a needed parameter and what stands before it."""
+    """A call with the needed parameter and the positional parameters before it."""
     known, order = {p.name: p for p in parameters(cls)}, positional(cls)
     before = [known[name] for name in order[: order.index(last.name)]]
     likes = [p.default if isinstance(p.default, Needed) else Needed("[x]") for p in (*before, last) if p.form in ("axis", "axes")]

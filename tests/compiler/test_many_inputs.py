@@ -14,7 +14,7 @@ from deodar.elements.boost import Boost
 
 
 def inputs(*counts: int) -> dd.Model:
-    """Nodes of one structure, of which each reads so many boosts."""
+    """A model of nodes with the same structure; each reads the given number of boosts."""
     model = dd.Model("inputs")
     amplitudes = np.random.default_rng(1).normal(size=max(counts))
     boosts = [model.add(Boost(f"b{k}", amplitude=float(a))) for k, a in enumerate(amplitudes)]

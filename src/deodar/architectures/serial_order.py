@@ -14,7 +14,6 @@ Reference:
 
 from __future__ import annotations
 
-import dataclasses as dc
 from collections.abc import Sequence
 
 from deodar.couplings.adaptive_weights import AdaptiveWeights
@@ -35,6 +34,10 @@ from deodar.parameters import show
 
 TAU, STEEP = 10.0, 100.0
 """Time constant of all nodes and fields, ms, and beta of all sigmoids (table B.1)."""
+
+QUADRATURE = "point"
+"""Of all fields: the strengths count active samples of a grid in steps of 1. Sums over cells produce the same sequences
+(`python benchmarks/quadratures.py`)."""
 
 LEARN = 1 / 20.0
 """Speed of learning, 1/ms: tau_l is 20 ms (table B.1)."""
@@ -225,6 +228,6 @@ def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str 
 
 def _field(name: str, axes: Sequence[Axis], kernel: Sequence[Gaussian], noise: float, inhibition: float = 0.0) -> Field:
     rest, steep = RESTING[name], Logistic(beta=STEEP)
-    field = Field(name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise)
-    # The strengths count active samples of a grid in steps of 1. Sums over cells produce the same sequences (benchmarks/quadratures.py).
-    return dc.replace(field, quadrature="point")
+    return Field(
+        name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise, quadrature=QUADRATURE
+    )

@@ -41,8 +41,8 @@ class Body:
 
     @property
     def reads(self) -> Hashable:
-        """What sensors of the model read, and over which axes."""
-        return tuple((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items()))
+        """Names `begin` among the functions of the world: what sensors of the model read, and over which axes."""
+        return ("begin", *((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items())))
 
     def begin(self, shared: Tree, own: Tree, now: Tree) -> Tree:
         """The state of a copy whose world stands somewhere."""

@@ -24,13 +24,13 @@ def claim(path: Path, force: bool = False) -> str:
     return format
 
 
-def save(figure: Figure, path: Path, force: bool = False) -> None:
-    """Write a figure; the same figure gives the same bytes."""
+def save(figure: Figure, path: Path, force: bool = False, dots: float = _style.DOTS) -> None:
+    """Write a figure, with `dots` an inch; the same figure gives the same bytes."""
     format = claim(path, force)
     about: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[format]
 
     def content(beside: Path) -> None:
         with _style.style():
-            figure.savefig(beside, format=format, dpi=_style.DOTS, metadata=about)
+            figure.savefig(beside, format=format, dpi=dots, metadata=about)
 
     output.write(path, content)
