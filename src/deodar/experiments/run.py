@@ -73,11 +73,7 @@ def run(
     """
     require_actions(actions, world)
     tally = Tally(events, measures, 1)
-    names = [e.name for e in events]
-    for action in actions:
-        targets(action, require_model(model).document)
-        if action.when and action.when not in names:
-            raise UnknownName(f"an action waits for the event {action.when!r}, which is not there", fix=did_you_mean(action.when, names))
+    _require_events(actions, [e.name for e in events], require_model(model))
     staged, pushes = with_pushes(require_model(model), actions)
     session = Session(staged, dt, seed, precision, world, trial)
     steps, gap = whole(limit, session.dt, "the limit"), 1 if every is None else whole(every, session.dt, "every")
@@ -85,13 +81,7 @@ def run(
         raise TimeError("every is 0; it is at least one step")
     stage = Stage(session, pushes, any(isinstance(a, Reset) for a in actions))
     stage.recording = not any(isinstance(a, Record) and a.on for a in actions)
-    waiting: list[tuple[int, Action]] = []
-    for action in actions:
-        moment = whole(action.at if action.when else action.at - session.time, session.dt, "the time of an action")
-        if action.when:
-            waiting.append((moment, action))
-        else:
-            stage.later(moment, lambda action=action: action.apply(stage))
+    waiting = _schedule(stage, actions)
     eye = _Eye(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
     values: dict[str, np.ndarray] = {}
@@ -113,10 +103,7 @@ def run(
                     tally.take([0], np.asarray([session.time]), seen, session.tick == steps)
                     if between is not None:
                         between()
-                    happened = tally.events_of(0)
-                    for moment, action in [w for w in waiting if happened[w[1].when] is not None]:
-                        stage.later(moment, lambda action=action: action.apply(stage))
-                    waiting = [w for w in waiting if happened[w[1].when] is None]
+                    waiting = _schedule_after(stage, waiting, tally.events_of(0))
                 if not tally.outcome[0]:
                     stage.do()
                     if stage.outcome:
@@ -135,6 +122,34 @@ def run(
     stacked = {name: np.stack([v[name] for v in kept]) if kept else np.zeros((0, *(values[name].shape if name in values else ()))) for name in watch}
     events_, measures_ = tally.events_of(0), tally.measures_of(0)
     return Course(np.asarray(times), stacked, events_, tally.outcome[0], measures_, np.asarray(recorded), stage.snapshots, lost)
+
+
+def _require_events(actions: Sequence[Action], names: Sequence[str], model: Model) -> None:
+    """Refuse actions on what the model lacks, and actions that wait for an event that nothing reports."""
+    for action in actions:
+        targets(action, model.document)
+        if action.when and action.when not in names:
+            raise UnknownName(f"an action waits for the event {action.when!r}, which is not there", fix=did_you_mean(action.when, names))
+
+
+def _schedule(stage: Stage, actions: Sequence[Action]) -> list[tuple[int, Action]]:
+    """Schedule the actions of stated times; those that wait for an event are returned, each with its steps after it."""
+    waiting: list[tuple[int, Action]] = []
+    for action in actions:
+        moment = whole(action.at if action.when else action.at - stage.session.time, stage.session.dt, "the time of an action")
+        if action.when:
+            waiting.append((moment, action))
+        else:
+            stage.later(moment, lambda action=action: action.apply(stage))
+    return waiting
+
+
+def _schedule_after(stage: Stage, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]) -> list[tuple[int, Action]]:
+    """Schedule the actions whose event has happened, and return the others."""
+    for moment, action in waiting:
+        if happened[action.when] is not None:
+            stage.later(moment, lambda action=action: action.apply(stage))
+    return [w for w in waiting if happened[w[1].when] is None]
 
 
 class _Eye:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, cast
 
 from deodar import registry
@@ -124,49 +124,23 @@ def _from_json(
         return None
     known = {p.name: p for p in parameters(cls)}
     values: dict[str, Any] = dict(given)
-    before = len(problems)
+    found: list[Problem] = []
     for name, value in data.items():
         if name in ("kind", *given):
             continue
         if name not in known:
-            problems.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known)))
+            found.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known)))
             continue
-        p, here = known[name], f"{where}.{name}"
-        if value is None:
-            values[name] = None
-        elif p.form in ("axes", "axis"):
-            keys = value if p.form == "axes" else [value]
-            if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)):
-                problems.append(Problem(here, f"{show(value)} is not among the document's axes", f"There are: {', '.join(axes) or 'none'}"))
-                continue
-            found = [axes[k] for k in typing.cast("list[str]", keys)]
-            values[name] = found if p.form == "axes" else found[0]
-        elif p.form == "part":
-            values[name] = _from_json(value, here, axes, arrays, typing.cast(Any, p.of), problems, {})
-        elif p.form == "parts":
-            if not isinstance(value, list):
-                problems.append(Problem(here, f"needs a list, not {show(value)}"))
-                continue
-            items = typing.cast("list[Any]", value)
-            values[name] = [_from_json(v, f"{here}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
-        elif p.form == "array":
-            key = typing.cast(Any, value).get("array") if isinstance(value, dict) else None
-            if not isinstance(key, str) or key not in arrays:
-                problems.append(Problem(here, f"the array {key!r} is not in the document's array file"))
-                continue
-            values[name] = arrays[key]
-        else:
-            values[name] = value
+        before = len(found)
+        read = _value(known[name], value, f"{where}.{name}", axes, arrays, found)
+        if read is not None or value is None or len(found) == before:
+            values[name] = read
+    stated = [q.where.rpartition(".")[2] for q in found]
     for p in known.values():
-        if isinstance(p.default, Needed) and values.get(p.name) is None and p.name not in [q.where.rpartition(".")[2] for q in problems[before:]]:
-            problems.append(Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes)))
-    if len(problems) > before:
-        for name, value in values.items():  # what else is wrong, as far as it can be told without the parts that failed
-            if name in known and known[name].form in PLAIN:
-                try:
-                    normal(known[name], value)
-                except ValueError as error:
-                    problems.append(Problem(f"{where}.{name}", str(error)))
+        if isinstance(p.default, Needed) and values.get(p.name) is None and p.name not in stated:
+            found.append(Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes)))
+    if found:
+        problems += [*found, *_faulty_values(known, values, where)]
         return None
     try:
         return cls(**values)
@@ -175,6 +149,46 @@ def _from_json(
     except TypeError as error:
         problems.append(Problem(where, str(error)))
     return None
+
+
+def _value(p: Parameter, value: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], problems: list[Problem]) -> Any:
+    """The value of one parameter; None where it cannot be read, with a problem."""
+    match p.form:
+        case _ if value is None:
+            return None
+        case "axes" | "axis":
+            keys = value if p.form == "axes" else [value]
+            if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)):
+                problems.append(Problem(where, f"{show(value)} is not among the document's axes", f"There are: {', '.join(axes) or 'none'}"))
+                return None
+            found = [axes[k] for k in typing.cast("list[str]", keys)]
+            return found if p.form == "axes" else found[0]
+        case "part":
+            return _from_json(value, where, axes, arrays, typing.cast(Any, p.of), problems, {})
+        case "parts":
+            if not isinstance(value, list):
+                problems.append(Problem(where, f"needs a list, not {show(value)}"))
+                return None
+            items = typing.cast("list[Any]", value)
+            return [_from_json(v, f"{where}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
+        case "array":
+            key = typing.cast(Any, value).get("array") if isinstance(value, dict) else None
+            if not isinstance(key, str) or key not in arrays:
+                problems.append(Problem(where, f"the array {key!r} is not in the document's array file"))
+                return None
+            return arrays[key]
+        case _:
+            return value
+
+
+def _faulty_values(known: Mapping[str, Parameter], values: Mapping[str, Any], where: str) -> Iterator[Problem]:
+    """What else is wrong, as far as it can be told without the parts that failed."""
+    for name, value in values.items():
+        if name in known and known[name].form in PLAIN:
+            try:
+                normal(known[name], value)
+            except ValueError as error:
+                yield Problem(f"{where}.{name}", str(error))
 
 
 def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
