@@ -74,7 +74,7 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
 
     Leaves named in `neutral` are left out of the program, which is a structure of its own.
     """
-    out: list[Any] = [type(part).__qualname__]
+    out: list[Any] = [type(part)]
     for p in parameters(type(part)):
         value, path = getattr(part, p.name), prefix + p.name
         if p.name == "name" or value is None:
@@ -95,6 +95,17 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
         else:
             out.append((p.name, value))
     return tuple(out)
+
+
+def arrays(part: Any) -> Iterator[np.ndarray]:
+    """The arrays among the parameters of a part and of its parts."""
+    for p in parameters(type(part)):
+        value = getattr(part, p.name)
+        if isinstance(value, FrozenArray):
+            yield value.data
+        elif p.form in ("part", "parts") and value is not None:
+            for inner in value if p.form == "parts" else (value,):
+                yield from arrays(inner)
 
 
 @dc.dataclass(frozen=True)

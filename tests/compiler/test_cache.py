@@ -25,6 +25,12 @@ def pair() -> dd.Model:
     return model
 
 
+@pytest.fixture(autouse=True)
+def alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing compiled is shared among models, as between processes."""
+    monkeypatch.setattr("deodar.compiler.executable.SHARED_BYTES", -1)
+
+
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("DEODAR_CACHE", str(tmp_path / "programs"))
@@ -72,6 +78,7 @@ def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.
     old = sorted(place.iterdir())
     for path in old:
         os.utime(path, (1, 1))
+    monkeypatch.setattr(cache, "LISTED", 1)
     monkeypatch.setattr(cache, "MOST_BYTES", sum(p.stat().st_size for p in old) + 1)
     s = dd.Session(pair(), precision="float64")
     s.step(1)

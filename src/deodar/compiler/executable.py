@@ -6,6 +6,7 @@ One executable runs any number of steps: the numbers of steps and of records are
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 import math
 import time
 from collections.abc import Hashable, Mapping, Sequence
@@ -24,7 +25,7 @@ from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Port, Program, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
-from deodar.leaves import resting, structure
+from deodar.leaves import arrays, resting, structure
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -42,6 +43,9 @@ PAIRS_FROM = 1000
 
 MOST_COPIED = 12
 """Calls of a step beyond which three copies of it would compile for seconds."""
+
+SHARED_BYTES = 8 * 2**20
+"""Arrays among the parameters, in bytes, beyond which an executable belongs to its model alone: it holds them."""
 
 RARELY = {"xla_backend_optimization_level": 0}
 """For what runs once, or when a width changes: it compiles in half the time."""
@@ -111,7 +115,8 @@ class Executable:
             body.world.reset(0, [0] * batch.size, precision)
             shared, state, keys = self.embodied(body.world, state, keys)
             values = {**values, "world": shared}
-        self._example = (values, constants, state, keys, self.blind(), *packed({"period": 1}, self.program.dtype))
+        example = (values, constants, state, keys, self.blind(), *packed({"period": 1}, self.program.dtype))
+        self._example = jax.tree.map(_form, example)
         self.seconds = time.process_time() - began
 
     # -------------------------------------------------------------------------------- values
@@ -312,6 +317,11 @@ class Executable:
         return out
 
 
+def _form(a: Any) -> Any:
+    """Shape and type of an array: all that compiling asks for, so that an executable keeps no state alive."""
+    return jax.ShapeDtypeStruct(a.shape, a.dtype)
+
+
 def _alone(one: Any) -> Any:
     """The function of one trial as that of a batch of one: it has the bits of a single run."""
 
@@ -354,11 +364,39 @@ def executable(
             model.require()
         elif found := problems(doc):
             raise ModelError(found)
-        made = Executable(doc, precision, batch, sweep, place, exact, body)
+        request = _Request(key, doc, precision, batch, tuple(map(tuple, sweep)), place, exact, body)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]
-        model.programs[key] = made
+        model.programs[key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
     return model.programs[key]
+
+
+@dc.dataclass(frozen=True)
+class _Request:
+    """What an executable is made from. Requests with equal keys ask for the same one."""
+
+    key: Hashable
+    doc: Document = dc.field(compare=False)
+    precision: str = dc.field(compare=False)
+    batch: Batch = dc.field(compare=False)
+    sweep: Sequence[Sequence[Leaf]] = dc.field(compare=False)
+    device: Any = dc.field(compare=False)
+    exact: bool = dc.field(compare=False)
+    body: Body | None = dc.field(compare=False)
+
+    def make(self) -> Executable:
+        return Executable(self.doc, self.precision, self.batch, self.sweep, self.device, self.exact, self.body)
+
+
+@functools.lru_cache(maxsize=48)
+def _shared(request: _Request) -> Executable:
+    """The executable of all models of this process that ask for the same: one that is built again, as by a notebook cell, compiles nothing."""
+    return request.make()
+
+
+def _bytes(doc: Document) -> int:
+    """Size of the arrays among the parameters of a document."""
+    return sum(a.nbytes for e in doc.entries for a in arrays(e.element))
 
 
 def signature(doc: Document) -> Hashable:

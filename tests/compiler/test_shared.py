@@ -1,0 +1,69 @@
+"""Executables shared among the models of a process: the same model built again compiles nothing, another one never gets them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler import executable as module
+from deodar.compiler.executable import executable
+from deodar.couplings.weights import Weights
+from deodar.leaves import structure
+from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids.logistic import Logistic
+
+x = dd.Axis("x", 0, 10, samples=11)
+
+
+def model(resting_level: float = -5.0, kernel: Sequence[Any] = (), name: str = "u") -> dd.Model:
+    made = dd.Model("shared")
+    made.add(dd.Field(name, [x], resting_level=resting_level, kernel=kernel))
+    return made
+
+
+def test_a_model_built_again_finds_what_was_compiled() -> None:
+    assert executable(model()) is executable(model())
+    assert executable(model(resting_level=-3.0)) is executable(model()), "a live parameter is an argument"
+    assert executable(model(), precision="float64") is not executable(model())
+
+
+def test_another_structure_is_another_executable() -> None:
+    assert executable(model(kernel=[dd.Gaussian(sigma=2.0)])) is not executable(model())
+    assert executable(model(name="v")) is not executable(model()), "another id has other noise"
+
+
+def test_values_are_those_of_the_model_that_asks() -> None:
+    first, second = dd.Session(model()), dd.Session(model(resting_level=-3.0))
+    for session in (first, second):
+        session.step(2000)
+    assert first.program is second.program
+    assert np.allclose(first.read("u.activation"), -5.0) and np.allclose(second.read("u.activation"), -3.0)
+
+
+def test_a_class_of_the_same_name_written_anew_is_another_structure() -> None:
+    """A cell of a notebook that defines a kind may be edited and run again."""
+
+    def ramp() -> Sigmoid:
+        @dataclass(frozen=True)
+        class Ramp(Logistic):
+            """A sigmoid of one's own."""
+
+        return Ramp()
+
+    assert structure(dd.Field("u", [x], sigmoid=ramp())) != structure(dd.Field("u", [x], sigmoid=ramp()))
+
+
+def test_large_parameters_belong_to_their_model_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    def weighted() -> dd.Model:
+        made = model()
+        made["u"] >> Weights(np.eye(11), [x]) >> made.add(dd.Field("v", [x]))
+        return made
+
+    assert executable(weighted()) is executable(weighted())
+    monkeypatch.setattr(module, "SHARED_BYTES", 11 * 11)
+    assert executable(weighted()) is not executable(weighted())
