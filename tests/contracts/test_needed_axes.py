@@ -52,7 +52,7 @@ def test_the_call_that_an_error_proposes_has_every_value_in_its_place() -> None:
 
 @pytest.mark.parametrize(("kind", "name"), NEEDED)
 def test_a_document_without_the_axes_has_a_problem_that_names_an_axis_of_it(kind: str, name: str) -> None:
-    data = {"deodar": 2, "axes": SPACE, "elements": {"e": {"kind": kind}}}
+    data = {"deodar": 3, "axes": SPACE, "elements": {"e": {"kind": kind}}}
     with pytest.raises(DocumentError) as caught:
         files.from_data(data, {})
     [problem] = [p for p in caught.value.problems if p.where == f"e.{name}"]
@@ -71,7 +71,7 @@ def test_a_document_of_version_1_without_the_axes_keeps_its_meaning(kind: str, n
     found = getattr(entry.element, name)
     assert (tuple(found) if isinstance(found, tuple) else (found,)) == tuple(Axis(**axis) for axis in DEFAULTS_OF_1[kind][name])
     again, arrays = files.to_data(doc)
-    assert again["deodar"] == 2 and files.from_data(json.loads(json.dumps(again)), arrays) == doc
+    assert again["deodar"] == 3 and files.from_data(json.loads(json.dumps(again)), arrays) == doc
 
 
 def test_a_document_of_version_1_runs_as_before() -> None:

@@ -8,6 +8,7 @@ import pytest
 import deodar as dd
 from deodar.elements.moving_gaussian import MovingGaussian
 from deodar.errors import ParameterError
+from deodar.model import files
 from tests.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 30, 31), dd.Axis("y", -5, 5, 21)
@@ -40,15 +41,15 @@ def test_round_a_ring():
 
 
 def test_a_path_stands_before_its_first_and_after_its_last_moment():
-    path = [[5, 3.0], [15, 23.0], [20, 10.0]]
-    t, y = seen(axes=[X], sigma=2, path=path)
+    waypoints = [[5, 3.0], [15, 23.0], [20, 10.0]]
+    t, y = seen(axes=[X], sigma=2, waypoints=waypoints)
     np.testing.assert_allclose(y, plain(X, np.interp(t, [5, 15, 20], [3, 23, 10]), 2), atol=1e-12)
     assert (y[t <= 5] == y[0]).all() and (y[t >= 20] == y[-1]).all()
 
 
 def test_path_and_velocity_and_centre_add_up():
-    path = [[0, 0.0, 0.0], [30, 6.0, -2.0]]
-    t, y = seen(axes=[X, Y], center=[5, 1], sigma=2, velocity=[0.1, 0.05], path=path)
+    waypoints = [[0, 0.0, 0.0], [30, 6.0, -2.0]]
+    t, y = seen(axes=[X, Y], center=[5, 1], sigma=2, velocity=[0.1, 0.05], waypoints=waypoints)
     share = np.minimum(t / 30, 1)
     np.testing.assert_allclose(y, plain(X, 5 + 0.1 * t + 6 * share, 2)[:, :, None] * plain(Y, 1 + 0.05 * t - 2 * share, 2)[:, None, :], atol=1e-12)
 
@@ -61,22 +62,32 @@ def test_without_motion_it_is_the_gaussian_stimulus():
 
 
 def test_how_a_run_is_cut_into_chunks_changes_no_bit():
-    element = MovingGaussian("s", [X], velocity=0.3, path=[[2, 0], [9, 7]])
+    element = MovingGaussian("s", [X], velocity=0.3, waypoints=[[2, 0], [9, 7]])
     require_the_same_in_any_chunks(element)
 
 
-def test_a_document_keeps_the_path(tmp_path):
-    model = dd.Model("path")
-    model.add(MovingGaussian("s", [X], path=[[0, 1], [10, 5]]))
+def test_a_document_keeps_the_waypoints(tmp_path):
+    model = dd.Model("moving")
+    model.add(MovingGaussian("s", [X], waypoints=[[0, 1], [10, 5]]))
     model.add(MovingGaussian("t", [X], velocity=0.5))
-    dd.save(model, tmp_path / "path.json")
-    assert dd.load(tmp_path / "path.json").document == model.document
+    dd.save(model, tmp_path / "moving.json")
+    assert dd.load(tmp_path / "moving.json").document == model.document
+
+
+def test_a_document_of_version_2_calls_the_waypoints_a_path():
+    model = dd.Model("moving")
+    model.add(MovingGaussian("s", [X], waypoints=[[0, 1], [10, 5]]))
+    data, arrays = files.to_data(model.document)
+    body = {"path" if key == "waypoints" else key: value for key, value in data["elements"]["s"].items()}
+    assert data["deodar"] == 3 and "path" in body
+    for version in (1, 2):
+        assert files.from_data({**data, "deodar": version, "elements": {"s": body}}, arrays) == model.document
 
 
 @pytest.mark.parametrize(
-    ("path", "what"),
+    ("waypoints", "what"),
     [([[0, 1, 2]], "rows of 2 numbers"), ([1.0, 2.0], "rows of 2 numbers"), ([[0, 1], [0, 2]], "goes back in time"), ([[5, 1], [0, 2]], "back in")],
 )
-def test_a_path_that_is_none(path, what):
+def test_waypoints_of_another_shape_are_refused(waypoints, what):
     with pytest.raises(ParameterError, match=what):
-        MovingGaussian("s", [X], path=path)
+        MovingGaussian("s", [X], waypoints=waypoints)

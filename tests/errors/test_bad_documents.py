@@ -175,7 +175,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "a number": (b"5", ("is not a deodar document: it holds int",)),
     "null": (b"null", ("is not a deodar document",)),
     "of another program": (b'{"meta": {"format": 1}, "steps": {}}', ("has no key 'deodar'",)),
-    "of another version": (b'{"deodar": 3, "elements": {}}', ("of version 3; this deodar reads versions 1 to 2", "pip install --upgrade")),
+    "of another version": (b'{"deodar": 4, "elements": {}}', ("of version 4; this deodar reads versions 1 to 3", "pip install --upgrade")),
     "of a version in words": (b'{"deodar": "1", "elements": {}}', ("is a document of version '1'",)),
     "of no version": (b'{"deodar": true, "elements": {}}', ("is a document of version True",)),
     "an unknown kind": (b'{"deodar": 1, "elements": {"u": {"kind": "Feild"}}}', ("u: ", "'Feild'", "Did you mean 'Field'?")),

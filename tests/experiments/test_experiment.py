@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import hashlib
 import json
 import warnings
 
@@ -134,6 +135,22 @@ def test_a_stopped_experiment_goes_on_with_the_same_table(tmp_path, monkeypatch)
     (tmp_path / "mine" / "thesis.txt").write_text("all of it")
     with pytest.raises(OutputExists, match="not the folder of an experiment"):
         experiment.run(tmp_path / "mine")
+
+
+def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_path):
+    experiment = choice(trials=1)
+    whole = experiment.run(tmp_path / "out")
+    model, rows = tmp_path / "out" / "model.json", tmp_path / "out" / ROWS
+    old = model.read_text().replace('"deodar": 3', '"deodar": 2')
+    first, *others = rows.read_text().splitlines()
+    about = json.loads(first)
+    about["about"]["model"] = hashlib.sha256(old.encode()).hexdigest()
+    model.write_text(old)
+    rows.write_text("\n".join([json.dumps(about), *others[:-1]]) + "\n")
+    assert experiment.run(tmp_path / "out")["outcome"].identical(whole["outcome"])
+    model.write_text(old.replace('"beta": 4.0', '"beta": 5.0'))
+    with pytest.raises(OutputExists, match="another experiment: model differ"):
+        experiment.run(tmp_path / "out")
 
 
 def test_records_and_snapshots(tmp_path):

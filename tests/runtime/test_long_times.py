@@ -73,7 +73,7 @@ def test_a_window_that_is_changed_swept_or_linked_keeps_its_digits() -> None:
 def test_a_moving_stimulus_goes_on_moving(velocity: float) -> None:
     t0 = 30 * DAY
     model = begun(t0)
-    model.add(MovingGaussian("s", [RING], center=20.0, sigma=30.0, velocity=velocity, path=[[t0, 0.0], [t0 + 6, 60.0]]))
+    model.add(MovingGaussian("s", [RING], center=20.0, sigma=30.0, velocity=velocity, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]))
     single, double = both(model, "s.output")
     np.testing.assert_allclose(single, double, atol=2e-6)
     time = t0 + np.arange(13)
@@ -156,7 +156,7 @@ SCENES: dict[str, Callable[[float], Model]] = {
     "DelayLine": lambda t0: alone(t0, DelayLine("example", [], 4.0, 4), RISING),
     "History": lambda t0: alone(t0, History("example", [], SLOTS, interval=3.0), RISING),
     "MovingGaussian": lambda t0: alone(
-        t0, MovingGaussian("example", [RING], center=20.0, sigma=30.0, velocity=0.1, path=[[t0, 0.0], [t0 + 6, 60.0]])
+        t0, MovingGaussian("example", [RING], center=20.0, sigma=30.0, velocity=0.1, waypoints=[[t0, 0.0], [t0 + 6, 60.0]])
     ),
     "RewardGate": lambda t0: alone(t0, RewardGate(duration=4.0, name="example"), (RISING == 3) * 1.0),
     "SampledHistory": lambda t0: alone(t0, SampledHistory("example", [], SLOTS, t0 + np.array([2.0, 5.0, 9.0])), RISING),

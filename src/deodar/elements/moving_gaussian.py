@@ -23,7 +23,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MovingGaussian(Stimulus):
-    """Localised input whose place changes: at a constant velocity, along a path, or both.
+    """Localised input whose place changes: at a constant velocity, along waypoints, or both.
 
     What has left an axis that is not periodic does not come back by itself.
 
@@ -33,40 +33,42 @@ class MovingGaussian(Stimulus):
 
     Parameters:
         axes: where it is defined; none: a constant for a node.
-        center: place at time 0 without a path, in axis units, one or one for each axis.
+        center: place at time 0 without waypoints, in axis units, one or one for each axis.
         sigma: width in axis units, one or one for each axis; > 0.
         amplitude: value at the centre.
         velocity: axis units per unit of the document's time, one or one for each axis.
-        path: p, moments and the places at them, in the document's time unit and axis units; straight lines between them, standing before the
-            first and after the last. Round a periodic axis go on counting: from 350 to 370. None: p = 0.
+        waypoints: p, moments and the places at them, in the document's time unit and axis units; straight lines between them, standing before
+            the first and after the last. Round a periodic axis go on counting: from 350 to 370. None: p = 0.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
 
     Shapes:
-        path: one row for each moment: its time, then one place for each axis.
+        waypoints: one row for each moment: its time, then one place for each axis.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without a path")] = 0.0
+    center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without waypoints")] = 0.0
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
     velocity: Annotated[PerAxis, Live("axis/time", role="speed", exact=True, meaning="how fast it moves")] = 0.0
-    path: Annotated[ArrayLike | None, Rebuild("axis", exact=True, meaning="moments and the places at them; none: it does not follow a path")] = None
+    waypoints: Annotated[ArrayLike | None, Rebuild("axis", exact=True, meaning="moments and the places at them; none: it follows no waypoints")] = (
+        None
+    )
 
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
     def faults(self) -> Iterator[tuple[str, str]]:
-        if isinstance(self.path, FrozenArray):
-            rows, columns = self.path.data, 1 + len(self.axes)
+        if isinstance(self.waypoints, FrozenArray):
+            rows, columns = self.waypoints.data, 1 + len(self.axes)
             if rows.ndim != 2 or rows.shape[1] != columns or not rows.size:
-                yield "path", f"has shape {list(rows.shape)}; it has rows of {columns} numbers: the time, then one place for each axis"
+                yield "waypoints", f"has shape {list(rows.shape)}; it has rows of {columns} numbers: the time, then one place for each axis"
             elif (np.diff(rows[:, 0]) <= 0).any():
-                yield "path", "goes back in time; each row is later than the one before"
+                yield "waypoints", "goes back in time; each row is later than the one before"
 
     def strength(self) -> Interval:
         return signed(self.amplitude)
@@ -75,7 +77,7 @@ class MovingGaussian(Stimulus):
         return False
 
     def prepare(self, at: Setting) -> Any:
-        return {} if self.path is None else {"path": at.exact(self.path)}
+        return {} if self.waypoints is None else {"waypoints": at.exact(self.waypoints)}
 
     def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
         y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
@@ -93,9 +95,9 @@ class MovingGaussian(Stimulus):
         with exact():
             for d, axis in enumerate(self.axes):
                 place = wide(per_axis(self.center, self.axes)[d]) + wide(per_axis(self.velocity, self.axes)[d]) * time.wide
-                if "path" in constants:
-                    path = wide(constants["path"])
-                    place = place + jnp.interp(time.wide, path[:, 0], path[:, 1 + d])
+                if "waypoints" in constants:
+                    points = wide(constants["waypoints"])
+                    place = place + jnp.interp(time.wide, points[:, 0], points[:, 1 + d])
                 if axis.periodic:
                     place = axis.lower + jnp.mod(place - axis.lower, axis.range)
                 out.append(place.astype(at.dtype))

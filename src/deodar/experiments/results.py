@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.compiler.device import find
-from deodar.errors import RecordError
+from deodar.errors import DeodarError, RecordError
 from deodar.experiments import parcel
 from deodar.experiments.bench import Bench
 from deodar.experiments.jobs import Job, Standing, carry_out
@@ -23,6 +23,7 @@ from deodar.experiments.tally import DIVERGED
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
+from deodar.model.document import Document
 from deodar.recording import files, provenance
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def carry(bench: Bench, out: str | Path | None, workers: int | None = None, prog
 
 
 def _carry(bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None) -> xarray.Dataset:
-    about = _about(bench, workers)
+    about = _about(bench, workers, out)
     rows = Rows(out / ROWS, about)
     if not (out / MODEL).exists():
         documents.save(bench.model.document, out / MODEL)
@@ -73,14 +74,35 @@ def _jobs(bench: Bench, workers: int | None, records: Path | None) -> Iterator[J
             yield Job(keys, parcel.work, {"handed": handed, **given}, len(piece))
 
 
-def _about(bench: Bench, workers: int | None) -> dict[str, Any]:
+def _about(bench: Bench, workers: int | None, folder: Path) -> dict[str, Any]:
     """What makes the experiment: rows of another one are never mixed with its own."""
-    text, arrays = documents.dumps(bench.model.document)
-    digest = hashlib.sha256(text.encode() + (arrays or b"")).hexdigest()
+    digest = _digest_in(folder, bench.model.document) or _digest(*documents.dumps(bench.model.document))
     made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
     unit = bench.model.document.time_unit
     world = None if bench.world is None else bench.world.describe()
     return {**_plan(bench), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
+
+
+def _digest(text: str, arrays: bytes | None) -> str:
+    return hashlib.sha256(text.encode() + (arrays or b"")).hexdigest()
+
+
+def _digest_in(folder: Path, doc: Document) -> str:
+    """The digest of the model file in the folder, if it holds the same document, or "".
+
+    An older version of deodar wrote the same document as another text.
+    """
+    try:
+        if documents.load(folder / MODEL) != doc:
+            return ""
+        data = json.loads((folder / MODEL).read_text(encoding="utf-8"))
+        arrays = None
+        if "arrays" in data:
+            arrays = (folder / data["arrays"]["file"]).read_bytes()
+            data["arrays"]["file"] = ""
+    except (DeodarError, OSError, ValueError):
+        return ""
+    return _digest(json.dumps(data, indent=2, ensure_ascii=False) + "\n", arrays)
 
 
 def _plan(bench: Bench) -> dict[str, Any]:

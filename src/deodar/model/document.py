@@ -10,7 +10,7 @@ from typing import Any
 from deodar.element import Element
 from deodar.model.paths import Index, Names, display
 
-VERSION = 2
+VERSION = 3
 READS = ("", "previous", "current", "delayed")
 KEYS = ("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "uses", "arrays", "notes", "layout")
 """Keys of a document file, in their order."""

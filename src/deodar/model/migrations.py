@@ -1,6 +1,6 @@
 """Documents of older versions, rewritten as the present version: plain data in, plain data out.
 
-Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every axis.
+Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every axis. Version 3 renames parameters.
 """
 
 from __future__ import annotations
@@ -32,13 +32,18 @@ DEFAULTS_OF_1: Mapping[str, Mapping[str, tuple[AxisData, ...]]] = {
 }
 """Axes that elements of version 1 had where a document left them out, by kind and parameter."""
 
+RENAMED_AFTER_2: Mapping[str, Mapping[str, str]] = {"MovingGaussian": {"path": "waypoints"}}
+"""Parameters of versions 1 and 2 that have another name since, by kind: old name to new name."""
+
 
 def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
     """Rewrite a document of an older version; one of the present version is returned as it is.
 
     What is not of the expected form is left to the reader, which reports it.
     """
-    return _from_1(data) if data.get("deodar") == 1 else dict(data)
+    if data.get("deodar") == 1:
+        data = _from_1(data)
+    return _from_2(data) if data.get("deodar") in (1, 2) else dict(data)
 
 
 def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -53,6 +58,19 @@ def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:
             keys = [_key(axes, axis) for axis in old]
             elements[path] = elements[path] | {name: keys[0] if name in ("axis", "slots") else keys}
     return {**data, "axes": axes, "elements": elements}
+
+
+def _from_2(data: Mapping[str, Any]) -> dict[str, Any]:
+    elements = data.get("elements")
+    if not isinstance(elements, dict):
+        return dict(data)
+    elements = dict(cast("dict[str, Any]", elements))
+    for path, body in elements.items():
+        kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
+        renamed = RENAMED_AFTER_2.get(kind, {}) if isinstance(kind, str) else {}
+        if not renamed.keys().isdisjoint(body):
+            elements[path] = {renamed.get(key, key): value for key, value in body.items()}
+    return {**data, "elements": elements}
 
 
 def _key(axes: dict[str, Any], axis: AxisData) -> str:

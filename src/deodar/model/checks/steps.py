@@ -94,6 +94,6 @@ def _series(n: Node, step: float) -> Iterator[Problem]:
             if abs(v) * step > 2 * s:
                 what = f"its velocity of {v:g} carries it {abs(v) * step:g} in one step of {step:g}, further than its width: it jumps"
                 yield warning(n, what, f"Give the velocity in units of the axis {axis.name!r} per unit of the document's time")
-            elif e.path is None and not axis.periodic and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0)):
+            elif e.waypoints is None and not axis.periodic and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0)):
                 what = f"begins at {c:g}, beyond the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its velocity {v:g} never brings it there"
                 yield warning(n, what, f"Take a center between {axis.lower:g} and {axis.upper:g}, or another sign of the velocity")
