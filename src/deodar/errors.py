@@ -61,6 +61,14 @@ class UnknownName(DeodarError):
     """Raised when a name (element, port, parameter, kind, command) does not exist; suggests the nearest one."""
 
 
+class UnknownAttribute(UnknownName, AttributeError):
+    """Raised when a handle of an element has no such parameter; an `AttributeError` too, so that `hasattr` answers."""
+
+    def __init__(self, what: str | Sequence[Problem], where: str = "", fix: str = "") -> None:
+        super().__init__(what, where, fix)
+        self.name = self.obj = None  # pyright: ignore[reportAttributeAccessIssue]  # the message suggests a name; Python would add a second suggestion
+
+
 class AxesError(DeodarError):
     """Raised when axes are impossible or do not fit each other."""
 

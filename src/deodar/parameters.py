@@ -61,6 +61,13 @@ class FrozenArray:
         return f"array{list(self.shape)}"
 
 
+class Reference:
+    """A value inside a model, such as `u.kernel`: where a value is needed, it counts as the value that the model has at that moment."""
+
+    def __value__(self) -> Any:
+        raise NotImplementedError
+
+
 ArrayLike = FrozenArray | np.ndarray | Sequence[Any]
 
 PLAIN = ("number", "integer", "flag", "text", "texts", "per_axis", "numbers", "pairs")
@@ -227,6 +234,8 @@ def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
 
 def normal(p: Parameter, value: Any) -> Any:
     """The value in its stored form; a ValueError says what is wrong with it."""
+    if isinstance(value, Reference):
+        value = value.__value__()
     if value is None and not p.optional:
         raise ValueError("needs a value")
     return None if value is None else _NORMAL[p.form](p, value)
@@ -302,6 +311,8 @@ def _per_axis(p: Parameter, value: Any) -> float | tuple[float, ...]:
 
 def _declared(p: Parameter, value: Any) -> Any:
     assert p.of is not None
+    if isinstance(value, Reference):
+        value = value.__value__()
     if not isinstance(value, p.of) and issubclass(p.of, Part):
         value = p.of.accept(value)
     if not isinstance(value, p.of):

@@ -185,7 +185,7 @@ async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
             await one.until(lambda one=one: one.said.get("opened", {}).get("document"))
         ids = {e["path"]: e["id"] for e in editors[0].document["elements"]}
         preset = small()
-        preset.change({"u.tau": 33.0, "g.factor": 7.0})
+        preset.set({"u.tau": 33.0, "g.factor": 7.0})
         text = preset.to_json()
         logs = await asyncio.gather(*(_edit(one, random.Random(f"{seed} {k}"), edits // pages, ids, text) for k, one in enumerate(editors)))
         done = [(k, m, answer) for k, log in enumerate(logs) for m, answer in log]

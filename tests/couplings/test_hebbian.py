@@ -47,7 +47,7 @@ def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
 def test_the_rules_step_by_step(rule):
     m = model(rule, rate=0.1, initial=0.2)
     for decay, saturation in ((0.0, 0.0), (0.03, 0.0), (0.01, 0.45)):
-        m.change({"w.decay": decay, "w.saturation": saturation})
+        m.set({"w.decay": decay, "w.saturation": saturation})
         found = weights(m, 20)
         wanted = plain(rule, np.full((3, 4), 0.2), PRE, POST, 40, 0.1, decay, saturation or np.inf)
         np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
@@ -72,7 +72,7 @@ def test_courses_and_fixed_points_in_closed_form():
     assert weights(m, n * dt).item() == pytest.approx(n * dt * rate * 0.8 * 0.7, abs=1e-9)
     m.set("w.decay", 0.05)  # it settles where what is learned and what fades are equal
     assert weights(m, 2000).item() == pytest.approx(rate * 0.56 / 0.05, abs=1e-6)
-    m.change({"w.decay": 0.0, "w.saturation": 0.3})
+    m.set({"w.decay": 0.0, "w.saturation": 0.3})
     assert weights(m, 2000).item() == 0.3
 
 

@@ -104,7 +104,7 @@ def test_the_threshold_of_an_output_has_to_be_given():
         experiment(measures=[Measure("place", "u", "place")]).run()
     assert not experiment(measures=[Measure("place", "u", "place", threshold=0.5)]).check()
     heaviside = experiment()
-    heaviside.model.change({"u.sigmoid": Step()})
+    heaviside.model.set({"u.sigmoid": Step()})
     assert not dc.replace(heaviside, measures=[Measure("place", "u", "place")]).check()
 
 

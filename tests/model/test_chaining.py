@@ -77,7 +77,7 @@ def test_paths_connect_as_handles_do(model: dd.Model) -> None:
 def test_the_right_side_is_what_a_chain_gives(model: dd.Model) -> None:
     gain = model["a"] >> dd.Gain(2)
     assert gain.path == "a>Gain"
-    assert repr(gain) == "<Gain a>Gain>"
+    assert repr(gain) == "<Gain a>Gain: factor=2.0>"
 
 
 @pytest.mark.parametrize("other", ["b", 2.0, None, dd.Gaussian(), dd.Gain])

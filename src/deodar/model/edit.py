@@ -6,18 +6,19 @@ Each is a pure function; ids survive rename, grouping and moves, a copy gets its
 from __future__ import annotations
 
 import dataclasses as dc
+import json
 import math
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from deodar.element import Element
-from deodar.errors import ModelError, ParameterError, UnknownName, did_you_mean
+from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import get, replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, Entry, Knob, Use
 from deodar.model.paths import Names, display, stored_id
-from deodar.parameters import is_text, parameter, parameters, real, show
+from deodar.parameters import Reference, is_text, parameter, parameters, real, show
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
 
@@ -195,6 +196,37 @@ def change(doc: Document, path: str, value: Any) -> Document:
     """A document with another value of what a path names: a parameter of an element, or a document parameter."""
     found = find.target(doc, path)
     return knob(doc, found.knob, value) if found.entry is None else put(doc, found.entry.id, found.parameter, value)
+
+
+def change_all(doc: Document, values: Mapping[str, Any]) -> Document:
+    """A document with other values of all that the paths name; the error lists every one that is refused."""
+    errors: list[DeodarError] = []
+    for path, value in values.items():
+        try:
+            doc = change(doc, path, value)
+        except DeodarError as error:
+            errors.append(error)
+    if len(errors) > 1:
+        raise type(errors[0])([problem for error in errors for problem in error.problems])
+    if errors:
+        raise errors[0]
+    return doc
+
+
+def assignments(path: Any, value: Any) -> Mapping[str, Any]:
+    """What `set` was called with, as values by their paths: `set(path, value)` or `set({path: value, ...})`."""
+    if isinstance(path, Mapping):
+        if value is not ...:
+            raise ParameterError("set takes one value for several parameters only as part of them", fix='Write: set({"u.tau": 30, "v.tau": 30})')
+        given: Mapping[Any, Any] = path
+    elif value is ...:
+        raise ParameterError(f"set needs a value for {show(path)}", fix=f"Write: set({json.dumps(path) if isinstance(path, str) else 'path'}, value)")
+    else:
+        given = {path: value}
+    for key in given:
+        if not isinstance(key, str):
+            raise ParameterError(f"{show(key)} is no path", fix="Write it as text: 'u.tau'")
+    return {key: given[key].__value__() if isinstance(given[key], Reference) else given[key] for key in given}
 
 
 def every(doc: Document, ident: str, ticks: int) -> Document:

@@ -16,42 +16,9 @@ from deodar.leaves import get
 from deodar.model import edit, files, find, uses
 from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
+from deodar.model.handle import Handle as Handle
 from deodar.model.paths import Names, display, quote, readings, split
 from deodar.parameters import show
-
-
-@dc.dataclass(frozen=True)
-class Handle:
-    """An element of a model, or one of its ports: what `add` returns and `>>` connects."""
-
-    model: Model
-    id: str
-    port: str = ""
-
-    def __getitem__(self, port: str) -> Handle:
-        entry = self.model.entry(self.id)
-        if port not in find.readable(entry):
-            raise UnknownName(f"{entry.path} has no port {port!r}", fix=edit.did_you_mean(port, find.readable(entry)))
-        return Handle(self.model, self.id, port)
-
-    def __rshift__(self, other: Handle | Element) -> Handle:
-        if isinstance(other, Handle):
-            self.model.connect(self, other)
-            return other
-        return self.model.follow(self, other)
-
-    @property
-    def path(self) -> str:
-        """The element's path now; it follows renames and moves."""
-        return self.model.entry(self.id).path
-
-    @property
-    def element(self) -> Element:
-        """The element as it now is."""
-        return self.model.entry(self.id).element
-
-    def __repr__(self) -> str:
-        return f"<{type(self.element).__name__} {self.path}{'.' + self.port if self.port else ''}>"
 
 
 class Model:
@@ -105,7 +72,7 @@ class Model:
         """
         near = self.entry(after.id) if after is not None else None
         doc, entry = edit.add(self.document, element, split(group) if group else (), every, near)
-        self._commit(doc)
+        self.commit(doc)
         self.declared[entry.id] = _caller()
         return Handle(self, entry.id)
 
@@ -113,55 +80,55 @@ class Model:
         """Add an element that reads `source`, in one change: what `source >> element` does."""
         entry = self.entry(source.id)
         doc, new = edit.add(self.document, element, after=entry)
-        self._commit(edit.connect(doc, entry, source.port, new, ""))
+        self.commit(edit.connect(doc, entry, source.port, new, ""))
         self.declared[new.id] = _caller()
         return Handle(self, new.id)
 
     def connect(self, source: Handle | str, target: Handle | str, reads: str = "") -> None:
         """Connect an output port to an input port; `reads` is previous (the default), current or delayed."""
         a, b = self._end(source, "output"), self._end(target, "")
-        self._commit(edit.connect(self.document, *a, *b, reads))
+        self.commit(edit.connect(self.document, *a, *b, reads))
 
     def disconnect(self, source: Handle | str, target: Handle | str) -> None:
         """Take a connection away."""
         (a, a_port), (b, b_port) = self._end(source, "output"), self._end(target, "")
         a_port, b_port = a_port or find.outputs(a)[0], b_port or b.element.ports()[0]
-        self._commit(edit.disconnect(self.document, a.id, a_port, b.id, b_port))
+        self.commit(edit.disconnect(self.document, a.id, a_port, b.id, b_port))
 
     def remove(self, what: Handle | str) -> None:
         """Take an element, or a group with everything in it, away."""
         if isinstance(what, str) and split(what) in self.document.groups:
-            self._commit(edit.remove_group(self.document, split(what)))
+            self.commit(edit.remove_group(self.document, split(what)))
         else:
-            self._commit(edit.remove(self.document, [self._entry(what).id]))
+            self.commit(edit.remove(self.document, [self._entry(what).id]))
 
     def rename(self, what: Handle | str, name: str) -> None:
         """Give an element, or a group, another name; its place stays."""
         if isinstance(what, str) and split(what) in self.document.groups:
             names = split(what)
-            self._commit(edit.move_group(self.document, names, (*names[:-1], name)))
+            self.commit(edit.move_group(self.document, names, (*names[:-1], name)))
         else:
             entry = self._entry(what)
-            self._commit(edit.move(self.document, entry.id, (*entry.group, name)))
+            self.commit(edit.move(self.document, entry.id, (*entry.group, name)))
 
     def move(self, what: Handle | str, group: str) -> None:
         """Put an element, or a group, into another group; "" is the top."""
         to = split(group) if group else ()
         if isinstance(what, str) and split(what) in self.document.groups:
             names = split(what)
-            self._commit(edit.move_group(self.document, names, (*to, names[-1])))
+            self.commit(edit.move_group(self.document, names, (*to, names[-1])))
         else:
             entry = self._entry(what)
-            self._commit(edit.move(self.document, entry.id, (*to, entry.names[-1])))
+            self.commit(edit.move(self.document, entry.id, (*to, entry.names[-1])))
 
     def group(self, path: str) -> None:
         """Make a group."""
-        self._commit(edit.group(self.document, split(path)))
+        self.commit(edit.group(self.document, split(path)))
 
     def ungroup(self, path: str) -> None:
         """Put a group's contents where the group stands."""
         self._group(path)
-        self._commit(edit.ungroup(self.document, split(path)))
+        self.commit(edit.ungroup(self.document, split(path)))
 
     def copy(self, group: str, to: str) -> None:
         """Copy a group, with the connections and links inside it, under another path.
@@ -170,7 +137,7 @@ class Model:
         """
         names, target = self._group(group), split(to)
         inside = [e.id for e in self.document.entries if e.names[: len(names)] == names]
-        self._commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
+        self.commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
     def insert(self, template: Model, group: str, link: bool = False) -> None:
         """Copy another model into this one, as a group; with `link` it stays one of the template's uses, for `refresh`.
@@ -179,7 +146,7 @@ class Model:
         that nobody trusts are not trusted here either.
         """
         target = split(group)
-        self._commit(edit.insert(self.document, template.document, lambda n: target + n, linked=link))
+        self.commit(edit.insert(self.document, template.document, lambda n: target + n, linked=link))
         self._doubt(template)
 
     def refresh(self, template: Model) -> None:
@@ -188,19 +155,15 @@ class Model:
         Elements keep their ids, and so their states and noise; connections across the border of a group stay. What was changed inside is made
         again as the template has it, except what document parameters drive. Those keep their values here; new ones come along.
         """
-        self._commit(uses.refresh(self.document, template.document))
+        self.commit(uses.refresh(self.document, template.document))
         self._doubt(template)
 
-    def set(self, path: str, value: Any) -> None:
-        """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`)."""
-        self._commit(edit.change(self.document, path, value))
+    def set(self, path: str | Mapping[str, Any], value: Any = ...) -> None:
+        """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`), or several at once: all or, after an error, none.
 
-    def change(self, values: Mapping[str, Any]) -> None:
-        """Change several parameters at once, by their paths: one step of the history."""
-        doc = self.document
-        for path, value in values.items():
-            doc = edit.change(doc, path, value)
-        self._commit(doc)
+        For example `model.set("u.tau", 30)` or `model.set({"u.tau": 30, "v.tau": 10})`, which is one step of the history.
+        """
+        self.commit(edit.change_all(self.document, edit.assignments(path, value)))
 
     def get(self, path: str) -> Any:
         """The value of a parameter."""
@@ -211,28 +174,34 @@ class Model:
 
     def every(self, what: Handle | str, ticks: int) -> None:
         """Let an element run at a step of so many ticks."""
-        self._commit(edit.every(self.document, self._entry(what).id, ticks))
+        self.commit(edit.every(self.document, self._entry(what).id, ticks))
 
     def parameter(self, name: str, value: float) -> None:
         """A named parameter of the document: one knob for everything linked to it."""
-        self._commit(edit.knob(self.document, name, value))
+        self.commit(edit.knob(self.document, name, value))
 
     def link(self, path: str, name: str) -> None:
         """Let a document parameter drive a parameter of an element: `model.link("u.tau", "gain")`."""
         found = find.target(self.document, path)
         if found.entry is None:
             raise UnknownName(f"{path!r} is itself a document parameter")
-        self._commit(edit.link(self.document, found.entry.id, found.parameter, name))
+        self.commit(edit.link(self.document, found.entry.id, found.parameter, name))
 
     def unlink(self, path: str) -> None:
         """Let a parameter stand for itself again."""
         found = find.target(self.document, path)
         if found.entry is not None:
-            self._commit(edit.unlink(self.document, found.entry.id, found.parameter))
+            self.commit(edit.unlink(self.document, found.entry.id, found.parameter))
 
     def describe(self, **values: Any) -> None:
         """Change general properties: name, time_unit, dt, t0, notes."""
-        self._commit(edit.describe(self.document, **values))
+        self.commit(edit.describe(self.document, **values))
+
+    def commit(self, document: Document) -> None:
+        """Take a document that `deodar.model.edit` made from the present one: one step of the history."""
+        if self._doubted is not None and self.history.depth < self._doubted:
+            self._doubted = None  # the change that brought it was taken back, and is now forgotten
+        self.history.commit(document)
 
     def undo(self) -> bool:
         """Take the last change back; False where there is none."""
@@ -318,11 +287,6 @@ class Model:
         where = {e.path: self.declared.get(e.id, "") for e in self.document.entries}
         return [dc.replace(p, where=f"{p.where} ({where[p.where]})") if where.get(p.where) else p for p in found]
 
-    def _commit(self, document: Document) -> None:
-        if self._doubted is not None and self.history.depth < self._doubted:
-            self._doubted = None  # the change that brought it was taken back, and is now forgotten
-        self.history.commit(document)
-
     def _doubt(self, template: Model) -> None:
         if not template.trusted and any(e.element.outside() for e in template.document.entries):
             self._doubted = self.history.depth  # taken back, the change takes the doubt with it
@@ -338,7 +302,7 @@ class Model:
         if not isinstance(what, Handle):
             raise ModelError(f"{show(what)} cannot be connected", fix="Give a path, or what model.add returned")
         if what.model is not self:
-            raise ModelError(f"{what!r} belongs to another model", fix="Add it to this one, or insert the other model as a group")
+            raise ModelError(f"{what.path!r} belongs to another model", fix="Add it to this one, or insert the other model as a group")
         return self.entry(what.id), what.port
 
     def _group(self, path: str) -> Names:

@@ -38,5 +38,5 @@ def keep(session: Session, model: Model) -> list[str]:
         if ident not in by:
             raise ParameterError("was learned, and is no longer in the model", where=here[ident].path, fix="Undo its removal: model.undo()")
         values[f"{by[ident].path}.{name}"] = value
-    model.change(values)
+    model.set(values)
     return list(values)

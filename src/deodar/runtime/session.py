@@ -208,12 +208,14 @@ class Session:
             return next(k.value for k in self.document.knobs if k.name == found.knob)
         return get(found.entry.element, found.parameter)
 
-    def set(self, path: str, value: Any) -> str:
-        """Change a parameter from the next step on; states stay. Returns what it cost: live, rebuild or recompile."""
-        path = path_of(path)
-        doc = edit.change(self.document, path, value)
-        cost = self._adopt(doc)
-        self.journal.append(Change(self.tick, path, FrozenArray(value) if isinstance(value, np.ndarray) else value))
+    def set(self, path: str | Mapping[str, Any], value: Any = ...) -> str:
+        """Change a parameter, or several at once, from the next step on; states stay. Returns what it cost: live, rebuild or recompile.
+
+        For example `session.set("u.tau", 30)` or `session.set({"u.tau": 30, "v.tau": 10})`; after an error none is changed.
+        """
+        values = edit.assignments(path, value)
+        cost = self._adopt(edit.change_all(self.document, values))
+        self.journal += [Change(self.tick, at, FrozenArray(v) if isinstance(v, np.ndarray) else v) for at, v in values.items()]
         return cost
 
     def edit(self, document: Document) -> str:
