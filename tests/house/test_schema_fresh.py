@@ -49,7 +49,7 @@ def test_the_schema_refuses_what_load_refuses() -> None:
     model = Model("one")
     model.add(registry.kind("Field").example())
     for change in (
-        lambda d: d.update(deodar=3),
+        lambda d: d.update(deodar=4),
         lambda d: d.update(elements=[]),
         lambda d: d.update(strange=1),
         lambda d: d["elements"]["example"].update(kind="Feild"),
