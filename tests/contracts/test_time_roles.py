@@ -27,7 +27,7 @@ from tests.house.test_docstrings import entries, sections
 LIMITED = {kind: {p.name: p.role for p in parameters(cls) if p.role in LIMITING} for kind, cls in KINDS.items()}
 LIMITS = [(kind, name) for kind, found in LIMITED.items() for name in found]
 SPEAKS_OF_TIME = re.compile(r"document's time|document time|\bspeed of\b|how fast")
-OTHER_TIMES = {("MovingGaussian", "path"), ("TurnLimit", "speed")}
+OTHER_TIMES = {("MovingGaussian", "waypoints"), ("TurnLimit", "speed")}
 """Parameters that hold times beside something else, or count speeds in a unit of the world."""
 
 
