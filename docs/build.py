@@ -7,6 +7,7 @@ python docs/build.py --pages spa the pictures of that page alone
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -39,7 +40,8 @@ def pictures(only: Sequence[str] = ()) -> None:
 
 def site() -> int:
     """The site, by zensical."""
-    return subprocess.run([sys.executable, "-m", "zensical", "build", "--clean", "--strict"], cwd=pages.ROOT, check=False).returncode
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(pages.DOCS), os.environ.get("PYTHONPATH")]))}  # for mathml.py
+    return subprocess.run([sys.executable, "-m", "zensical", "build", "--clean", "--strict"], cwd=pages.ROOT, env=environment, check=False).returncode
 
 
 def main() -> int:

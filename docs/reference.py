@@ -3,7 +3,7 @@
     python docs/reference.py
 
 One page for each room of the registry, one for what a script calls, one for measuring and drawing. Nothing here is written by hand
-twice: equations, ports and sources are the docstrings', units, ranges and costs of change the declarations'.
+twice: equations (TeX), ports and sources are the docstrings', units, ranges and costs of change the declarations'.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from deodar import cli, errors, registry
 from deodar.declarations import Needed
 from deodar.numerics.axes import Axis
 from deodar.parameters import Parameter, Part, parameters
+from deodar.server.docstring import docstring
 
 DOCS = Path(__file__).parent
 MADE = "<!-- Made by docs/reference.py from the code: change the docstrings, not this page. -->\n"
@@ -155,7 +156,7 @@ def kind_section(cls: type) -> str:
     opening, found = sections(inspect.getdoc(cls) or "")
     out = [f"## {cls.__name__}\n", f"`from {cls.__module__} import {cls.__name__}`\n", prose(opening) + "\n"]
     if "Equation" in found:
-        out.append(f"```text\n{found['Equation']}\n```\n")
+        out += [f"```math\n{line}\n```\n" for line in docstring(cls).equation]
     described = entries(found.get("Parameters", ""))
     if issubclass(cls, Part):
         rows = [(f"`{p.name}`", described.get(p.name, p.meaning), p.unit, default(p), limits(p), p.cost) for p in parameters(cls) if p.name != "name"]

@@ -19,10 +19,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class LeakyCounter(Element):
-    """Counts what comes in, and forgets it.
+    r"""Counts what comes in, and forgets it.
 
     Equation:
-        tau dz/dt = -z + rate + input
+        \\tau \\frac{dz}{dt} = -z + \\mathrm{rate} + \\mathrm{input}
 
     Parameters:
         axes: where it is defined; none: one number.

@@ -23,5 +23,5 @@ def test_the_reference_holds_no_page_too_many() -> None:
 
 def test_a_kind_is_described_whole() -> None:
     text = reference.kind_section(reference.registry.kind("Field"))
-    for part in ("tau du/dt", "| `tau` |", "at least 1e-06", "| live |", "| rebuild |", "| recompile |", "`activation`", "eqs. 1, 3"):
+    for part in (r"\tau \frac{du}{dt}", "| `tau` |", "at least 1e-06", "| live |", "| rebuild |", "| recompile |", "`activation`", "eqs. 1, 3"):
         assert part in text, part

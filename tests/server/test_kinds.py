@@ -79,7 +79,7 @@ def test_all_of_it_can_be_sent() -> None:
 def test_the_field() -> None:
     field = KINDS["Field"]
     assert (field.title, field.room) == ("Field", "elements")
-    assert field.equation[0].startswith(r"\tau\, \frac{du}{dt} = -u + h")
+    assert field.equation[0].startswith(r"\tau \frac{du}{dt} = -u + h")
     assert "Amari (1977)" in field.reference
     assert list(field.ports) == ["input", "output", "activation", "interaction"]
     assert field.levels == {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}

@@ -19,13 +19,15 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class AdaptiveWeights(Coupling):
-    """A weight between every place of the source and every place of the target; weights of active places follow what the target does.
+    r"""A weight between every place of the source and every place of the target; weights of active places follow what the target does.
 
     The plain rule: everything counts as it is, and weights follow the target down to nothing as well. `Hebbian` looks at peaks only, learns
     while both sides are active, and has other rules, bounds and random weights; it costs far less for maps between planes.
 
     Equation:
-        y(x) = integral W(x', x) input(x') dx';  dW(x', x)/dt = rate gate (post(x) - W(x', x)) pre(x')
+        y(x) = \int W(x', x)\, \mathrm{input}(x')\, dx'
+        \frac{dW(x', x)}{dt} = \mathrm{rate}\, \mathrm{gate}\, (\mathrm{post}(x) - W(x', x))\,
+            \mathrm{pre}(x')
 
     Parameters:
         axes: axes of the output; none: one number.

@@ -20,13 +20,16 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class ColorHistogram(Coupling):
-    """For each column of a picture the histogram of its hues: which colours stand in which direction, and how much of the column they fill.
+    r"""For each column of a picture the histogram of its hues: which colours stand in which direction, and how much of the column they fill.
 
     A column full of one hue gives 1 there.
 
+    n(x, h) is the share of the pixels of column x whose hue is h (each is divided between the two nearest
+    samples), without those of a saturation below `palest` or a value below `darkest`.
+
     Equation:
-        y(x, h) = sum_j n(x, h_j) exp(-(h - h_j)^2 / (2 sigma^2)), or n(x, h) if sigma is 0; n(x, h) is the share of the pixels of column x whose
-        hue is h (each is divided between the two nearest samples), without those of a saturation below palest or a value below darkest.
+        y(x, h) = \sum_j n(x, h_j) \exp\!\left( -\frac{(h - h_j)^2}{2 \sigma^2} \right)
+        \sigma = 0\text{:}\quad y(x, h) = n(x, h)
 
     Parameters:
         axes: the side of the picture that is kept (its sampling may be coarser than the picture's), then hue; hue is periodic.

@@ -20,12 +20,17 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class ColorSpace(Coupling):
-    """Hue and saturation of a picture as a space code over (place, hue): where which colour is, and how strongly.
+    r"""Hue and saturation of a picture as a space code over (place, hue): where which colour is, and how strongly.
+
+    H(p) and S(p) are hue and saturation of pixel p; S counts as 0 where the value is below `darkest`. For
+    sigma = 0, w is a density of integral 1, which divides S between the two nearest samples.
 
     Equation:
-        y(x, hue) = mean over the pixels p of the cell of S(p) * w(hue - H(p)), with hue H and saturation S of each pixel;
-        S counts as 0 where the value is below `darkest`. w(d) = exp(-d^2 / (2 sigma^2)); for sigma = 0 w is a density of
-        integral 1, max(0, 1 - |d| / step) / step, which divides S between the two nearest samples.
+        y(x, \mathrm{hue}) = \operatorname{mean}_{p \in \mathrm{cell}(x)} S(p)\, w(\mathrm{hue} -
+            H(p))
+        w(d) = \exp\!\left( -\frac{d^2}{2 \sigma^2} \right)
+        \sigma = 0\text{:}\quad w(d) = \frac{1}{\mathrm{step}} \max\!\left(0, 1 -
+            \frac{|d|}{\mathrm{step}}\right)
 
     Parameters:
         axes: the picture's two dimensions (their sampling may be coarser than the picture's) and hue last; hue is periodic.

@@ -20,10 +20,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Convolve(Coupling):
-    """Spreads the input to neighbouring places.
+    r"""Spreads the input to neighbouring places.
 
     Equation:
-        y(x) = sum_k integral k(x - x') input(x') dx'
+        y(x) = \sum_k \int k(x - x')\, \mathrm{input}(x')\, dx'
 
     Parameters:
         kernel: one kernel or several, summed.

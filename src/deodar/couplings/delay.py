@@ -16,10 +16,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Delay(Element):
-    """Shows its input one step later; what a connection with `reads="delayed"` stands for. For any other delay: DelayLine.
+    r"""Shows its input one step later; what a connection with `reads="delayed"` stands for. For any other delay: DelayLine.
 
     Equation:
-        y(x, t + dt) = input(x, t)
+        y(x, t + dt) = \mathrm{input}(x, t)
 
     Parameters:
         axes: axes of the register.

@@ -25,13 +25,14 @@ NEAR = 1e-3
 @register
 @dataclass(frozen=True)
 class DelayLine(Element):
-    """Shows its input after a delay of any length: conduction times, the latency of a sensor, a train of past moments.
+    r"""Shows its input after a delay of any length: conduction times, the latency of a sensor, a train of past moments.
 
     It keeps its input at moments that lie delay / slots apart, or one step where that is longer, and takes the straight line between the two
     that it needs. So it is exact where the delay is a whole number of steps and no more of them than `slots`.
 
     Equation:
-        y(x, t) = input(x, t - delay); initial before anything has arrived
+        y(x, t) = \begin{cases} \mathrm{input}(x, t - \mathrm{delay}) & t \ge \mathrm{delay} \\
+            \mathrm{initial} & \text{else} \end{cases}
 
     Parameters:
         axes: where it is defined; none: one number.

@@ -18,10 +18,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class DiagonalExpansion(Coupling):
-    """Sends one place to all pairs of places whose sum it is: the input of a transformation field along its diagonals.
+    r"""Sends one place to all pairs of places whose sum it is: the input of a transformation field along its diagonals.
+
+    Samples are counted from the lower ends.
 
     Equation:
-        y(x_i, y_j) = input(z_k) with k = i + j; samples are counted from the lower ends
+        y(x_i, y_j) = \mathrm{input}(z_{i + j})
 
     Parameters:
         axes: the two axes of the output; together they have one sample more than the input.

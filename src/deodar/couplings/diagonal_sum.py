@@ -18,10 +18,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class DiagonalSum(Coupling):
-    """Adds up two places: reads a transformation field out along its diagonals, so that a peak at (x, y) arrives at x + y.
+    r"""Adds up two places: reads a transformation field out along its diagonals, so that a peak at (x, y) arrives at x + y.
+
+    Samples are counted from the lower ends; the second grid step multiplies the sum.
 
     Equation:
-        z_k = sum over i + j = k of input(x_i, y_j) times the second grid step; samples are counted from the lower ends
+        z_k = \Delta y \sum_{i + j = k} \mathrm{input}(x_i, y_j)
 
     Parameters:
         axes: the axis of the sum; as many samples as both axes of the input have together, less one.

@@ -18,10 +18,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Gain(Coupling):
-    """A coupling strength: positive excites, negative inhibits.
+    r"""A coupling strength: positive excites, negative inhibits.
 
     Equation:
-        y(x) = factor * input(x)
+        y(x) = \mathrm{factor} \cdot \mathrm{input}(x)
 
     Parameters:
         factor: strength.

@@ -18,11 +18,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class GainAdaptation(Coupling):
-    """From the place of a peak to a value, through gains that an error corrects where the peak stands.
+    r"""From the place of a peak to a value, through gains that an error corrects where the peak stands.
+
+    f is the input, lambda are the gains; without input the value is 0.
 
     Equation:
-        y = integral lambda(x) f(x) dx; value = y / integral f(x) dx, 0 without input; f is the input, lambda the gains.
-        tau dlambda(x)/dt = gate error f(x)
+        y = \int \lambda(x)\, f(x)\, dx
+        \mathrm{value} = \frac{y}{\int f(x)\, dx}
+        \tau \frac{d\lambda(x)}{dt} = \mathrm{gate}\, \mathrm{error}\, f(x)
 
     Parameters:
         tau: time scale: document time times error times input, over a change of the gains; > 0, and no shorter

@@ -25,18 +25,27 @@ MOST_PATCHES = 64
 @register
 @dataclass(frozen=True)
 class Hebbian(Coupling):
-    """Learns which places of two arrays are active together, and brings the one about from the other: a map between any two fields or nodes.
+    r"""Learns which places of two arrays are active together, and brings the one about from the other: a map between any two fields or nodes.
 
     It looks at peaks only. What does not exceed the threshold counts as 0 on both sides, and nothing is learned unless something is active
     on both: a source that is on while its target has not answered yet unlearns nothing. While one side is silent a step costs next to nothing.
     `AdaptiveWeights` is the plain rule `outstar` without a threshold, which follows the target wherever it goes.
 
+    Weights change only while something is active on both sides, and those that change are kept at or below
+    `saturation`. The rules outstar, hebb and association, and their decay, act on weights from active
+    places a; instar and oja, and their decay, on weights to active places b.
+
     Equation:
-        y(b) = integral W(b, a) x(a) da, with x = input where input > threshold, else 0; z the same of post;
-        while something is active on both sides: dW(b, a)/dt = gate (rate R - decay W); weights that change are kept <= saturation.
-        outstar: R = x(a) (z(b) - W). hebb: R = x(a) z(b). association: R = 1 (both active) or 0 (only a), minus W. These three, and their
-        decay, act on weights from active places a.
-        instar: R = z(b) (x(a) - W). oja: R = z(b) (x(a) - z(b) W). These two, and their decay, act on weights to active places b.
+        y(b) = \int W(b, a)\, x(a)\, da
+        x = \begin{cases} \mathrm{input} & \mathrm{input} > \mathrm{threshold} \\ 0 & \text{else}
+            \end{cases},\quad z \text{ alike of } \mathrm{post}
+        \frac{dW(b, a)}{dt} = \mathrm{gate}\, (\mathrm{rate}\, R - \mathrm{decay}\, W)
+        \text{outstar:}\quad R = x(a)\, (z(b) - W)
+        \text{hebb:}\quad R = x(a)\, z(b)
+        \text{association:}\quad R = \begin{cases} 1 - W & a \text{ and } b \text{ active} \\ -W &
+            \text{only } a \text{ active} \end{cases}
+        \text{instar:}\quad R = z(b)\, (x(a) - W)
+        \text{oja:}\quad R = z(b)\, (x(a) - z(b)\, W)
 
     Parameters:
         axes: axes of the output; none: one number.

@@ -21,10 +21,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Interaction(Coupling):
-    """What a field's own kernels and global inhibition do, as a signal of its own: between fields, or from a field back to itself.
+    r"""What a field's own kernels and global inhibition do, as a signal of its own: between fields, or from a field back to itself.
 
     Equation:
-        y(x) = sum_k integral k(x - x') input(x') dx' - c integral input(x') dx'
+        y(x) = \sum_k \int k(x - x')\, \mathrm{input}(x')\, dx'
+        \quad {} - c \int \mathrm{input}(x')\, dx'
 
     Parameters:
         kernel: one kernel or several, summed.

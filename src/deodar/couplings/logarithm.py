@@ -16,10 +16,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Logarithm(Coupling):
-    """Compresses a signal that ranges over orders of magnitude: what a sensor reads, for a field.
+    r"""Compresses a signal that ranges over orders of magnitude: what a sensor reads, for a field.
 
     Equation:
-        y(x) = factor * ln(1 + max(input(x), 0) / scale)
+        y(x) = \mathrm{factor} \cdot \ln\!\left( 1 + \frac{\max(\mathrm{input}(x),
+            0)}{\mathrm{scale}} \right)
 
     Parameters:
         factor: strength.

@@ -19,11 +19,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class PeakPosition(Coupling):
-    """Where a peak stands: the mean of the axis weighted by the input, and how much input there is.
+    r"""Where a peak stands: the mean of the axis weighted by the input, and how much input there is.
 
     Equation:
-        N = integral f(x) dx; x_cmd = 1/N integral x f(x) dx where N > least, else `absent`; on a periodic axis the
-        direction of integral exp(2 pi i x / P) f(x) dx.
+        N = \int f(x)\, dx
+        x_{\mathrm{cmd}} = \begin{cases} \frac{1}{N} \int x\, f(x)\, dx & N > \mathrm{least} \\
+            \mathrm{absent} & \text{else} \end{cases}
+        \text{axis of period } P\text{:}\quad x_{\mathrm{cmd}} = \frac{P}{2 \pi} \arg \int e^{2 \pi
+            i x / P} f(x)\, dx
 
     Parameters:
         axis: the dimension read out; other axes of the source are integrated out.

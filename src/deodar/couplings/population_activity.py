@@ -22,10 +22,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class PopulationActivity(Coupling):
-    """What a population of neurons says about a dimension: their tuning curves, each weighted by the firing rate, summed.
+    r"""What a population of neurons says about a dimension: their tuning curves, each weighted by the firing rate, summed.
+
+    r is the input; where no neuron is tuned to x, the normalized form is 0.
 
     Equation:
-        y(x) = amplitude * sum_i T_i(x) r_i, with r the input; if normalized, divided by sum_i T_i(x) (0 where no neuron is tuned to x)
+        y(x) = \mathrm{amplitude} \sum_i T_i(x)\, r_i
+        \text{normalized:}\quad y(x) = \mathrm{amplitude} \frac{\sum_i T_i(x)\, r_i}{\sum_i T_i(x)}
 
     Parameters:
         tuning: T, the tuning curve of each neuron: its mean rate as a function of x. `PopulationActivity.of(preferred, sigma, axes)` makes

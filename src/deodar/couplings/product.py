@@ -15,10 +15,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Product(Coupling):
-    """One signal gates another, place by place.
+    r"""One signal gates another, place by place.
+
+    Each port sums all connections into it.
 
     Equation:
-        y(x) = input(x) * factor(x); the sums of all connections into either port
+        y(x) = \mathrm{input}(x) \cdot \mathrm{factor}(x)
 
     Parameters:
         none.

@@ -21,12 +21,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Project(Coupling):
-    """From one set of dimensions to another; axes match by name, after renaming.
+    r"""From one set of dimensions to another; axes match by name, after renaming.
+
+    In place of the integral `reduce` takes sum, mean, max or min over z. Axes of other sampling are
+    interpolated.
 
     Equation:
-        expansion (axes missing at the source): y(x, z) = input(x);
-        contraction (axes missing here): y(x) = integral input(x, z) dz, or its sum, mean, max or min over z;
-        axes of other sampling are interpolated.
+        \text{axes missing at the source:}\quad y(x, z) = \mathrm{input}(x)
+        \text{axes missing here:}\quad y(x) = \int \mathrm{input}(x, z)\, dz
 
     Parameters:
         axes: dimensions of the output, in its order.

@@ -20,15 +20,18 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class RateCode(Coupling):
-    """The numbers that the place of a peak stands for: the way back from SpaceCode, with the same gain and offset.
+    r"""The numbers that the place of a peak stands for: the way back from SpaceCode, with the same gain and offset.
 
     It is the exact inverse of SpaceCode where the samples hold the whole peak: on a line as long as the peak ends before the axis does (at
     4 sigma from an end the place is wrong by 1.4e-4 sigma at most, at 6 sigma by 6.1e-9), on a ring for peaks that are no wider than a twelfth of it.
     Nearer to an end the mean is drawn inwards, by what is cut off. A ring tells no turns: c lies between its ends.
 
     Equation:
-        y_i = (c_i - offset_i) / gain_i where the integral of f is above least, else absent_i; c_i is the mean of x_i weighted by f, on a
-        periodic axis the direction of integral exp(2 pi i x / P) f(x) dx
+        y_i = \begin{cases} \frac{c_i - \mathrm{offset}_i}{\mathrm{gain}_i} & \int f(x)\, dx >
+            \mathrm{least} \\ \mathrm{absent}_i & \text{else} \end{cases}
+        c_i = \frac{\int x_i\, f(x)\, dx}{\int f(x)\, dx}
+        \text{axis of period } P\text{:}\quad c_i = \frac{P}{2 \pi} \arg \int e^{2 \pi i x_i / P}
+            f(x)\, dx
 
     Parameters:
         axes: where the peak stands; at least one.

@@ -18,10 +18,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Resample(Coupling):
-    """The same dimensions on another grid, which may cover another part of them.
+    r"""The same dimensions on another grid, which may cover another part of them.
+
+    Interpolated between samples; zero beyond the ends of an axis that is not periodic.
 
     Equation:
-        y(x) = input(x), interpolated between samples; zero beyond the ends of an axis that is not periodic
+        y(x) = \mathrm{input}(x)
 
     Parameters:
         axes: the same names in the same order, with the grid wanted.

@@ -22,12 +22,16 @@ NEVER = -1e30
 @register
 @dataclass(frozen=True)
 class RewardGate(Coupling):
-    """Opens learning when reward comes: as long as it lasts, or for a window of fixed length from its onset.
+    r"""Opens learning when reward comes: as long as it lasts, or for a window of fixed length from its onset.
+
+    With `duration` 0 the gate is open while r > threshold; else it opens at the moment at which r exceeds
+    the threshold, for `duration`. A new onset, after r has fallen to the threshold, opens it anew.
 
     Equation:
-        r = gate integral input(x) dx; epsilon = strength (graded: strength r) while open, else 0.
-        duration 0: open while r > threshold; else: open from the moment at which r exceeds the threshold, for `duration`. A new onset, after r
-        has fallen to the threshold, opens it anew.
+        r = \mathrm{gate} \int \mathrm{input}(x)\, dx
+        \epsilon = \begin{cases} \mathrm{strength} & \text{while open} \\ 0 & \text{else}
+            \end{cases}
+        \text{graded:}\quad \epsilon = \mathrm{strength}\, r \text{ while open}
 
     Parameters:
         threshold: what r must exceed, in units of the input times the axes.

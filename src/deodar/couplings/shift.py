@@ -18,10 +18,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Shift(Coupling):
-    """Moves a pattern: a peak at x arrives at x + amount.
+    r"""Moves a pattern: a peak at x arrives at x + amount.
+
+    Interpolated linearly; zero comes in at the ends of an axis that is not periodic.
 
     Equation:
-        y(x) = input(x - amount), interpolated linearly; zero comes in at the ends of an axis that is not periodic
+        y(x) = \mathrm{input}(x - \mathrm{amount})
 
     Parameters:
         amount: how far, in axis units, one or one for each axis.

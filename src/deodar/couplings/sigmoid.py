@@ -18,10 +18,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sigmoid(Coupling):
-    """Squashes a signal that is not yet an output: a sum, a sensor's reading.
+    r"""Squashes a signal that is not yet an output: a sum, a sensor's reading.
 
     Equation:
-        y(x) = g(input(x))
+        y(x) = g(\mathrm{input}(x))
 
     Parameters:
         sigmoid: g.

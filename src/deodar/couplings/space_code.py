@@ -22,11 +22,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SpaceCode(Coupling):
-    """A peak at the place that numbers name: what a place sense or a compass tells a field.
+    r"""A peak at the place that numbers name: what a place sense or a compass tells a field.
+
+    On a periodic axis distances are the shorter way round, for input of any size. If normalized, y is
+    divided by its sum over all samples times the grid steps.
 
     Equation:
-        y(x) = amplitude * exp(-sum_i (x_i - c_i)^2 / (2 sigma_i^2)), c_i = gain_i input_i + offset_i; on a periodic axis the
-        shortest way round, for input of any size. If normalized, divided by its sum over all samples times the grid steps.
+        y(x) = \mathrm{amplitude} \exp\!\left( -\sum_i \frac{(x_i - c_i)^2}{2 \sigma_i^2} \right)
+        c_i = \mathrm{gain}_i\, \mathrm{input}_i + \mathrm{offset}_i
 
     Parameters:
         axes: where the peak stands; at least one.

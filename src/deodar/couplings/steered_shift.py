@@ -19,10 +19,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SteeredShift(Coupling):
-    """Moves a pattern by what another element says: from one frame of reference to another that moves against it.
+    r"""Moves a pattern by what another element says: from one frame of reference to another that moves against it.
+
+    Interpolated linearly; zero comes in at the ends of an axis that is not periodic.
 
     Equation:
-        y(x) = input(x - a), a_i = gain by_i + offset; interpolated linearly, zero comes in at the ends of an axis that is not periodic
+        y(x) = \mathrm{input}(x - a)
+        a_i = \mathrm{gain}\, \mathrm{by}_i + \mathrm{offset}
 
     Parameters:
         along: names of the axes along which it shifts; at least one. Along all other axes nothing moves.

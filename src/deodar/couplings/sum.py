@@ -15,10 +15,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sum(Coupling):
-    """The sum of its connections as a signal of its own, for several targets or for one further coupling.
+    r"""The sum of its connections as a signal of its own, for several targets or for one further coupling.
 
     Equation:
-        y(x) = sum of all connections into input, at x
+        y(x) = \sum \mathrm{inputs}(x)
 
     Parameters:
         none.

@@ -18,10 +18,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Threshold(Coupling):
-    """Lets through what exceeds a threshold, and nothing else.
+    r"""Lets through what exceeds a threshold, and nothing else.
 
     Equation:
-        y(x) = input(x) where input(x) > level, else 0
+        y(x) = \begin{cases} \mathrm{input}(x) & \mathrm{input}(x) > \mathrm{level} \\ 0 &
+            \text{else} \end{cases}
 
     Parameters:
         level: the threshold, in units of the input. For all or nothing use the coupling `Sigmoid` with `Step`.

@@ -17,10 +17,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class TurnLimit(Coupling):
-    """Slows both wheels of a vehicle alike where they would turn it too fast: the circle on which it drives stays the same.
+    r"""Slows both wheels of a vehicle alike where they would turn it too fast: the circle on which it drives stays the same.
 
     Equation:
-        to_left = s speed left, to_right = s speed right, with s = min(1, limit / |speed (left - right)|)
+        s = \min\!\left(1, \frac{\mathrm{limit}}{|\mathrm{speed}\, (\mathrm{left} -
+            \mathrm{right})|}\right)
+        \mathrm{to\_left} = s\, \mathrm{speed}\, \mathrm{left}
+        \mathrm{to\_right} = s\, \mathrm{speed}\, \mathrm{right}
 
     Parameters:
         speed: speed of a wheel for an input of 1, in the motor's unit.

@@ -19,10 +19,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Weighting(Coupling):
-    """A strength that depends on place: a pre-shape, a ramp, a mask.
+    r"""A strength that depends on place: a pre-shape, a ramp, a mask.
 
     Equation:
-        y(x) = c(x) * input(x)
+        y(x) = c(x) \cdot \mathrm{input}(x)
 
     Parameters:
         weights: c, one value for each sample of the axes (`Weighting.of(function, axes)` samples a function).

@@ -22,10 +22,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Weights(Coupling):
-    """A weight between every place of the source and every place of the target: a map that may be anything.
+    r"""A weight between every place of the source and every place of the target: a map that may be anything.
+
+    The integral is the sum times the source's grid step.
 
     Equation:
-        y(x) = integral W(x, x') input(x') dx' (sum times the source's grid step)
+        y(x) = \int W(x, x')\, \mathrm{input}(x')\, dx'
 
     Parameters:
         weights: W, target samples first, then source samples; per unit of the source's axes.

@@ -20,13 +20,18 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Attractor(Element):
-    """A motor variable that is drawn to the place of a peak, and stays where it is without one.
+    r"""A motor variable that is drawn to the place of a peak, and stays where it is without one.
+
+    The integral of the input f decides how fast phi moves, and that it does not move without a peak. A step
+    longer than the relaxation time tau / integral f goes to the attractor and not beyond. A periodic axis
+    does not use `gain` and `offset`.
 
     Equation:
-        linear axis: tau dphi/dt = -phi integral f(x) dx + integral lambda(x) f(x) dx, with lambda(x) = gain x + offset;
-        periodic axis (period P, gain and offset not used): tau dphi/dt = P / (2 pi) integral sin(2 pi (x - phi) / P) f(x) dx.
-        f is the input. Its integral decides how fast phi moves, and that it does not move without a peak; a step longer than the
-        relaxation time tau / integral f goes to the attractor and not beyond.
+        \text{linear axis:}\quad \lambda(x) = \mathrm{gain}\, x + \mathrm{offset}
+        \tau \frac{d\phi}{dt} = -\phi \int f(x)\, dx + \int \lambda(x)\, f(x)\, dx
+        \text{axis of period } P\text{:}
+        \tau \frac{d\phi}{dt} = \frac{P}{2 \pi} \int \sin\!\left( \frac{2 \pi (x - \phi)}{P} \right)
+            f(x)\, dx
 
     Parameters:
         axis: the dimension over which the input is defined.

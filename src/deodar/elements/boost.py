@@ -19,10 +19,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Boost(Stimulus):
-    """Homogeneous input that brings a field, or a node, closer to its detection instability.
+    r"""Homogeneous input that brings a field, or a node, closer to its detection instability.
 
     Equation:
-        s(x) = amplitude
+        s(x) = \mathrm{amplitude}
 
     Parameters:
         axes: where it is defined; none: a constant, which expands along the axes of any target.

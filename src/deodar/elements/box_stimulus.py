@@ -22,10 +22,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class BoxStimulus(Stimulus):
-    """The same input everywhere in a region.
+    r"""The same input everywhere in a region.
+
+    A cell that the edge cuts gets its share.
 
     Equation:
-        s(x) = amplitude where |x_i - center_i| < width_i / 2 on every axis, else 0; a cell cut by the edge gets its share.
+        s(x) = \begin{cases} \mathrm{amplitude} & |x_i - \mathrm{center}_i| <
+            \frac{\mathrm{width}_i}{2} \ \forall i \\ 0 & \text{else} \end{cases}
 
     Parameters:
         axes: where it is defined; none: a constant for a node.

@@ -32,10 +32,12 @@ MARGIN = 6.0
 @register
 @dataclass(frozen=True)
 class Field(Element):
-    """A dynamic neural field; without axes a dynamic neural node.
+    r"""A dynamic neural field; without axes a dynamic neural node.
 
     Equation:
-        tau du/dt = -u + h + s(x, t) + sum_k integral k(x - x') g(u(x')) dx' - c integral g(u) dx + q xi(x, t)
+        \tau \frac{du}{dt} = -u + h + s(x, t)
+        \quad {} + \sum_k \int k(x - x')\, g(u(x'))\, dx'
+        \quad {} - c \int g(u)\, dx + q\, \xi(x, t)
 
     Parameters:
         axes: the metric dimensions, none to four.

@@ -25,10 +25,12 @@ def leaky(state: Any, inputs: Mapping[str, Any], time: Time, rate: Any = 0.1) ->
 @register
 @dataclass(frozen=True)
 class Function(Element):
-    """An element whose step is a function of one's own, written in JAX.
+    r"""An element whose step is a function of one's own, written in JAX.
+
+    `time.dt` is the step, `time.now` the time; `values` arrive as keyword arguments.
 
     Equation:
-        u(t + dt) = function(u(t), inputs(t), time, **values); `time.dt` is the step, `time.now` the time.
+        u(t + dt) = \mathrm{function}(u(t), \mathrm{inputs}(t), \mathrm{time}, \mathrm{values})
 
     Parameters:
         axes: axes of the state, the output and all inputs; none: numbers.

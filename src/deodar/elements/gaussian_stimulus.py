@@ -23,11 +23,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class GaussianStimulus(Stimulus):
-    """Localised input: what a sensor or another field sends about one value.
+    r"""Localised input: what a sensor or another field sends about one value.
+
+    Where an axis wraps, distances are the shorter way round. If normalized, it is divided by its sum over
+    all samples times the grid steps.
 
     Equation:
-        s(x) = amplitude * exp(-sum_i (x_i - center_i)^2 / (2 sigma_i^2)); where it wraps the shortest way round;
-        if normalized, divided by its sum over all samples times the grid steps.
+        s(x) = \mathrm{amplitude} \exp\!\left( -\sum_i \frac{(x_i - \mathrm{center}_i)^2}{2
+            \sigma_i^2} \right)
 
     Parameters:
         axes: where it is defined; none: a constant for a node.

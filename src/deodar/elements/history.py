@@ -22,10 +22,11 @@ EMPTY = ("zero", "nan")
 @register
 @dataclass(frozen=True)
 class History(Element):
-    """A running history of its input: the newest moment first, the oldest forgotten.
+    r"""A running history of its input: the newest moment first, the oldest forgotten.
 
     Equation:
-        at every moment t that is a multiple of `interval`: y(0) = input(t), and y(k) = what y(k - 1) was before
+        t = n \cdot \mathrm{interval}\text{:}\quad y_0 \leftarrow \mathrm{input}(t),\quad y_k
+            \leftarrow y_{k-1}
 
     Parameters:
         axes: of the input.

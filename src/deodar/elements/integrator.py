@@ -15,12 +15,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Integrator(Element):
-    """A variable whose rate of change is its input: a heading, a count, the position of something that moves.
+    r"""A variable whose rate of change is its input: a heading, a count, the position of something that moves.
 
     It has no attractor of its own: without input it keeps its value, and input that does not end lets it grow without bound.
 
     Equation:
-        dx/dt = rate input(t), x(0) = initial; Euler step: x(t + dt) = x(t) + dt rate input(t)
+        \frac{dx}{dt} = \mathrm{rate}\, \mathrm{input}(t),\quad x(0) = \mathrm{initial}
+        x(t + dt) = x(t) + dt\, \mathrm{rate}\, \mathrm{input}(t)
 
     Parameters:
         axes: axes of the variable; none: one number.

@@ -18,12 +18,17 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MemoryTrace(Element):
-    """A slow trace of where activation has been, which preshapes the field that made it. It decays only while something else is active.
+    r"""A slow trace of where activation has been, which preshapes the field that made it. It decays only while something else is active.
+
+    In the graded form f is the input between 0 and 1, at every place. The trace changes only while some
+    input is above the threshold, unless `fades`.
 
     Equation:
-        where input > threshold: dp/dt = gate (input - p) / tau_build; elsewhere dp/dt = -gate p / tau_decay;
-        graded: dp/dt = gate (f (f - p) / tau_build - (1 - f) p / tau_decay) at every place, with f = input between 0 and 1;
-        dp/dt = 0 as long as no input is above the threshold, unless `fades`.
+        \frac{dp}{dt} = \begin{cases} \mathrm{gate}\, (\mathrm{input} - p) / \tau_{\mathrm{build}} &
+            \mathrm{input} > \mathrm{threshold} \\ -\mathrm{gate}\, p / \tau_{\mathrm{decay}} &
+            \text{else} \end{cases}
+        \text{graded:}\quad \frac{dp}{dt} = \mathrm{gate} \left( \frac{f (f -
+            p)}{\tau_{\mathrm{build}}} - \frac{(1 - f)\, p}{\tau_{\mathrm{decay}}} \right)
 
     Parameters:
         axes: the metric dimensions; none: one number.

@@ -15,10 +15,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Motor(Element):
-    """What a world's motor is told. Which world takes it is chosen when the model is run; without a world it moves nothing.
+    r"""What a world's motor is told. Which world takes it is chosen when the model is run; without a world it moves nothing.
+
+    The motor of this name takes y at the world's own period, and keeps the latest command in between.
 
     Equation:
-        the motor of this name is told y(t) = sum of inputs, at the world's own rate; in between it does what it was told last
+        y(t) = \sum \mathrm{inputs}(t)
 
     Parameters:
         axes: axes of the command; none: one number.

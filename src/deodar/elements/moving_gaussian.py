@@ -23,13 +23,16 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MovingGaussian(Stimulus):
-    """Localised input whose place changes: at a constant velocity, along waypoints, or both.
+    r"""Localised input whose place changes: at a constant velocity, along waypoints, or both.
 
     What has left an axis that is not periodic does not come back by itself.
 
+    On a periodic axis distances are the shorter way round.
+
     Equation:
-        s(x, t) = amplitude * exp(-sum_i (x_i - c_i(t))^2 / (2 sigma_i^2)), c_i(t) = center_i + velocity_i t + p_i(t); on a periodic axis
-        the shortest way round.
+        s(x, t) = \mathrm{amplitude} \exp\!\left( -\sum_i \frac{(x_i - c_i(t))^2}{2 \sigma_i^2}
+            \right)
+        c_i(t) = \mathrm{center}_i + \mathrm{velocity}_i\, t + p_i(t)
 
     Parameters:
         axes: where it is defined; none: a constant for a node.

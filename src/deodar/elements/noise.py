@@ -20,11 +20,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Noise(Element):
-    """Gaussian noise as an input of its own, for several targets at once or through a coupling.
+    r"""Gaussian noise as an input of its own, for several targets at once or through a coupling.
+
+    As input of a field it adds what the field's own `noise` of strength q adds, q sqrt(dt) / tau xi_n in an
+    Euler step.
 
     Equation:
-        y(x, t_n) = q xi_n(x) / sqrt(dt): as input of a field it adds what the field's own `noise` of strength q adds,
-        q sqrt(dt) / tau xi_n in an Euler step.
+        y(x, t_n) = \frac{q\, \xi_n(x)}{\sqrt{dt}}
 
     Parameters:
         axes: where it is defined; none: one number.

@@ -21,10 +21,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Pattern(Stimulus):
-    """Input of any form, one value for each sample: measured, drawn, or computed elsewhere.
+    r"""Input of any form, one value for each sample: measured, drawn, or computed elsewhere.
 
     Equation:
-        s(x) = amplitude * values(x)
+        s(x) = \mathrm{amplitude} \cdot \mathrm{values}(x)
 
     Parameters:
         axes: where it is defined; none: a constant for a node.

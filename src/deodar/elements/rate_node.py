@@ -23,10 +23,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class RateNode(Element):
-    """A neural node that keeps its rate of change as a state of its own, for phase plots; it takes the step that the rate shown says.
+    r"""A neural node that keeps its rate of change as a state of its own, for phase plots; it takes the step that the rate shown says.
+
+    r is the rate of change at the moment at which u is shown.
 
     Equation:
-        du/dt = r + q xi(t), with r = (-u + h + c g(u) + s(t)) / tau as of the moment that u is shown at
+        r = \frac{-u + h + c\, g(u) + s(t)}{\tau}
+        \frac{du}{dt} = r + q\, \xi(t)
 
     Parameters:
         tau: time constant, in the document's time unit; > 0.

@@ -21,10 +21,11 @@ EMPTY = ("zero", "nan")
 @register
 @dataclass(frozen=True)
 class SampledHistory(Element):
-    """Its input at given moments, each stored once and kept. `History` keeps the recent past instead.
+    r"""Its input at given moments, each stored once and kept. `History` keeps the recent past instead.
 
     Equation:
-        y(k) = input(times_k) from the moment times_k on; before that `empty`
+        y_k(t) = \begin{cases} \mathrm{input}(\mathrm{times}_k) & t \ge \mathrm{times}_k \\
+            \mathrm{empty} & \text{else} \end{cases}
 
     Parameters:
         axes: of the input.

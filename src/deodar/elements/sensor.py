@@ -15,10 +15,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sensor(Element):
-    """What a world senses, over axes that the model states. Which world provides it is chosen when the model is run.
+    r"""What a world senses, over axes that the model states. Which world provides it is chosen when the model is run.
+
+    The world that the model runs in provides the sensor of this name.
 
     Equation:
-        y(x, t) = what the world's sensor of this name reads
+        y(x, t) = \mathrm{sensor}(x, t)
 
     Parameters:
         axes: axes of the reading; the world samples it for them.

@@ -25,15 +25,17 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SoftWinnerTakeAll(Element):
-    """Excitatory units that compete through one inhibitory unit: how a field's selection is wired in networks of neurons.
+    r"""Excitatory units that compete through one inhibitory unit: how a field's selection is wired in networks of neurons.
 
     With fast inhibition (tau_inhibition much shorter than tau), slow input, and f_v linear at the sums that occur, u follows the equation of a
     Field: of the same tau and kernels, sigmoid f, resting level -T, global inhibition beta_1 beta_2, and a Gain of alpha from it to itself.
 
     Equation:
-        u(x) = s(x, t) + alpha r(x) + sum_k integral k(x - x') r(x') dx' - beta_1 v - T;
-        tau dr/dt = -r + f(u) + q xi(x, t);
-        tau_inhibition dv/dt = -v + f_v(beta_2 integral r dx - T_v)
+        u(x) = s(x, t) + \alpha\, r(x)
+        \quad {} + \sum_k \int k(x - x')\, r(x')\, dx' - \beta_1 v - T
+        \tau \frac{dr}{dt} = -r + f(u) + q\, \xi(x, t)
+        \tau_{\mathrm{inhibition}} \frac{dv}{dt} = -v + f_v\!\left( \beta_2 \int r\, dx - T_v
+            \right)
 
     Parameters:
         axes: where the units stand; any axis for units that are only numbered (its grid step counts in the integrals).

@@ -27,11 +27,15 @@ WAYS = ("linear", "hold")
 @register
 @dataclass(frozen=True)
 class TimeSeries(Stimulus):
-    """Input that changes in any way: what was measured, or computed elsewhere, moment by moment.
+    r"""Input that changes in any way: what was measured, or computed elsewhere, moment by moment.
+
+    Between two moments v is the straight line (`linear`) or the earlier of the two (`hold`); before the
+    first moment it is the first value, after the last the last.
 
     Equation:
-        s(x, t) = amplitude * v(x, t), where v(x, times_k) = values(k, x); between two moments the straight line (`linear`) or the earlier of
-        the two (`hold`); before the first moment the first, after the last the last. With a period P: v(x, t) = v(x, t mod P).
+        s(x, t) = \mathrm{amplitude} \cdot v(x, t)
+        v(x, \mathrm{times}_k) = \mathrm{values}(k, x)
+        \text{period } P\text{:}\quad v(x, t) = v(x, t \bmod P)
 
     Parameters:
         axes: where it is defined; none: a number for a node.

@@ -19,12 +19,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class TransientDetector(Element):
-    """A pulse where the input changes, and silence where it stays: the difference between the input and a slow copy of it.
+    r"""A pulse where the input changes, and silence where it stays: the difference between the input and a slow copy of it.
 
     A step of height A gives a pulse A exp(-t / tau); input that rises steadily gives its slope times tau.
 
     Equation:
-        tau dz/dt = -z + s(x, t); output = max(0, s - z); off = max(0, z - s)
+        \tau \frac{dz}{dt} = -z + s(x, t)
+        \mathrm{output} = \max(0, s - z)
+        \mathrm{off} = \max(0, z - s)
 
     Parameters:
         axes: where it is defined; none: one number.

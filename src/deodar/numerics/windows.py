@@ -16,10 +16,10 @@ FOR_EVER = 1e30
 @register
 @dataclass(frozen=True)
 class Window(Part):
-    """On from `start` until before `stop`; a pair of numbers may stand for it.
+    r"""On from `start` until before `stop`; a pair of numbers may stand for it.
 
     Equation:
-        w(t) = 1 where start <= t < stop, else 0
+        w(t) = \begin{cases} 1 & \mathrm{start} \le t < \mathrm{stop} \\ 0 & \text{else} \end{cases}
 
     Parameters:
         start: first moment, in the document's time unit.

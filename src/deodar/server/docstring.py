@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 _SECTION = re.compile(r"([A-Z][a-z]+):[ ]*(.*)")
@@ -14,9 +14,16 @@ _ENTRY = re.compile(r"([\w.*]+): (.*)")
 
 @dc.dataclass(frozen=True)
 class Docstring:
-    """The sections that are shown; empty where there are none."""
+    """The sections that are shown; empty where there are none.
 
-    equation: str
+    Attributes:
+        equation: lines of TeX, each shown on a line of its own.
+        reference: where the equation comes from.
+        parameters: what each parameter is.
+        ports: what each port carries.
+    """
+
+    equation: Sequence[str]
     reference: str
     parameters: Mapping[str, str]
     ports: Mapping[str, str]
@@ -27,7 +34,7 @@ def docstring(cls: type[Any]) -> Docstring:
     found = _sections(cls.__dict__.get("__doc__") or "")
     reference = " ".join(found.get("Reference", "").split())
     return Docstring(
-        equation=found.get("Equation", ""),
+        equation=_lines(found.get("Equation", "")),
         reference="" if reference == "no reference" else reference,
         parameters=_entries(found.get("Parameters", "")),
         ports=_entries(found.get("Ports", "")),
@@ -46,6 +53,11 @@ def _sections(text: str) -> dict[str, str]:
         else:
             out[title].append(line)
     return {title: inspect.cleandoc("\n" + "\n".join(lines)).strip() for title, lines in out.items()}
+
+
+def _lines(text: str) -> tuple[str, ...]:
+    """The lines of an equation; a line that is indented continues the one before it."""
+    return tuple(re.sub(r"\n +", " ", text).splitlines())
 
 
 def _entries(text: str) -> dict[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import re
-from collections.abc import Collection
+from collections.abc import Sequence
 from typing import Any
 
 from deodar import registry
@@ -13,7 +13,6 @@ from deodar.element import Element
 from deodar.model.parts import to_json
 from deodar.parameters import FrozenArray, Parameter, Part, parameters, positional
 from deodar.server.docstring import Docstring, docstring
-from deodar.server.equation import quantities, tex
 from deodar.server.symbols import NAME, is_letter, symbol
 from deodar.server.to_page import Kind, ParameterForm
 from deodar.worlds._base import World
@@ -39,15 +38,13 @@ def _kind(cls: type[Any], known: dict[str, type[Any]]) -> Kind:
     says = docstring(cls)
     example = _example(cls)
     declared = _declared(cls) if issubclass(cls, Part) else []
-    names = {p.name for p in declared if p.form in QUANTITIES} | set(example.ports() if isinstance(example, Element) else ())
-    used = quantities(says.equation, names)
     return Kind(
         name=cls.__name__,
         room=_room(cls),
         title=title(cls.__name__),
-        equation=tex(says.equation, names),
+        equation=list(says.equation),
         reference=says.reference,
-        parameters=[_form(p, says, used, known) for p in declared],
+        parameters=[_form(p, says, known) for p in declared],
         ports=_ports(cls, says, example),
         levels={port: dict(levels) for port, levels in getattr(cls, "levels", {}).items()},
         example=_json(example) if isinstance(example, Part) and not isinstance(example, Element) else None,
@@ -95,7 +92,7 @@ def _ports(cls: type[Any], says: Docstring, example: Any) -> dict[str, str]:
 # ------------------------------------------------------------------------------------------------ parameters
 
 
-def _form(p: Parameter, says: Docstring, used: Collection[str], known: dict[str, type[Any]]) -> ParameterForm:
+def _form(p: Parameter, says: Docstring, known: dict[str, type[Any]]) -> ParameterForm:
     description = says.parameters.get(p.name, "")
     return ParameterForm(
         name=p.name,
@@ -103,7 +100,7 @@ def _form(p: Parameter, says: Docstring, used: Collection[str], known: dict[str,
         cost=p.cost,
         meaning=p.meaning,
         description=description,
-        symbol=_symbol(p, description, used),
+        symbol=_symbol(p, description, says.equation),
         unit=p.unit,
         lower=p.lower,
         upper=p.upper,
@@ -114,12 +111,14 @@ def _form(p: Parameter, says: Docstring, used: Collection[str], known: dict[str,
     )
 
 
-def _symbol(p: Parameter, description: str, used: Collection[str]) -> str:
+def _symbol(p: Parameter, description: str, equation: Sequence[str]) -> str:
     """The symbol that its description begins with (`h, the attractor`), else its own name where the equation has it."""
     first = NAME.match(description)
     if first and is_letter(first[0]) and description[first.end() : first.end() + 1] in (",", ".", ":", ";"):
         return symbol(first[0])
-    return symbol(p.name) if p.name in used else ""
+    own = symbol(p.name)
+    written = rf"(?<![A-Za-z\\]){re.escape(own)}(?![A-Za-z])"
+    return own if p.form in QUANTITIES and any(re.search(written, line) for line in equation) else ""
 
 
 def _plain(p: Parameter, value: Any) -> Any:

@@ -13,11 +13,6 @@ GREEK = frozenset(_LETTERS.split())
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)*'*")
 """A name as equations write it, with subscripts and primes."""
 
-_ESCAPED = {
-    "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
-    "^": r"\textasciicircum{}", "~": r"\textasciitilde{}",
-}  # fmt: skip
-
 
 def is_letter(name: str) -> bool:
     """Whether a name is a letter of some alphabet, perhaps with a number, subscripts and primes: u, x', t_n, u1, sigma_i."""
@@ -37,17 +32,6 @@ def symbol(name: str) -> str:
     if low:
         low = f"_{low}" if len(low) == 1 else f"_{{{low}}}"
     return _letters(base) + low + primes
-
-
-def extent(name: str) -> float:
-    """How wide a name is drawn, in characters of plain text: signs and letters of formulas are wider than those."""
-    base, *below = name.rstrip("'").split("_")
-    return (1.2 if base in GREEK else 0.1 + 1.1 * len(base)) + 0.75 * sum(1 if b in GREEK else len(b) for b in below) + 0.4 * name.count("'")
-
-
-def text(words: str) -> str:
-    """Words that stand upright in a formula."""
-    return rf"\text{{{''.join(_ESCAPED.get(c, c) for c in words)}}}"
 
 
 def _letters(word: str) -> str:

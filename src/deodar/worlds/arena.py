@@ -56,13 +56,19 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
 
 @register
 class Arena(PureWorld):
-    """A vehicle with two wheels among walls, boxes and coloured blocks, seen from above.
+    r"""A vehicle with two wheels among walls, boxes and coloured blocks, seen from above.
+
+    In a period the axle runs on a circle, whose turn and path follow from the steps of both wheels. The
+    body is a disc; it slides along what it touches, or sticks to it, and never gets through it however long
+    the period. d_i is the distance along one infrared ray, T and N are tables of the vehicle. The measured
+    place is new at every `place_every`-th period and held between.
 
     Equation:
-        in a period the axle runs on a circle: turn = (right - left) / axle, path = (left + right) / 2, from the steps of both wheels.
-        The body is a disc; it slides along what it touches, or sticks to it, and never gets through it however long the period.
-        infrared_i = T(d_i / reflection) (1 + N(d_i / reflection) xi_i): d_i the distance along one ray, T and N tables of the vehicle
-        place = true place + place_noise xi, new at every `place_every`-th period and held between
+        \mathrm{turn} = \frac{\mathrm{right} - \mathrm{left}}{\mathrm{axle}},\quad \mathrm{path} =
+            \frac{\mathrm{left} + \mathrm{right}}{2}
+        \mathrm{infrared}_i = T\!\left(\frac{d_i}{\mathrm{reflection}}\right) \left(1 +
+            N\!\left(\frac{d_i}{\mathrm{reflection}}\right) \xi_i\right)
+        \mathrm{place} = \text{true place} + \mathrm{place\_noise}\, \xi
 
     Parameters:
         layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME in a file of several, or a dictionary.

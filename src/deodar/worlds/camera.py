@@ -19,12 +19,14 @@ from deodar.worlds._image import PICTURE, frame, sampled
 
 @register
 class Camera(World):
-    """What a camera sees now: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+    r"""What a camera sees now: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+
+    Values are means of the newest picture, 0 to 1. The camera runs by the wall clock: pace the model to it
+    (`session.run_live`). A run in it cannot be repeated; record what the sensor shows, and replay that
+    (`Recording`).
 
     Equation:
-        y(x, y, c, t) = channel c of the mean colour of the pixels in the cell of (x, y), in the newest picture, 0 to 1
-        The camera runs by the clock on the wall: pace the model to it (`session.run_live`). A run in it cannot be repeated; record what the
-        sensor shows, and replay that (`Recording`).
+        y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
         number: of the camera, 0 for the first; or the address of one in the network, as OpenCV takes it.

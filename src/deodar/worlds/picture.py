@@ -24,11 +24,13 @@ MOST_PIXELS = 100_000_000
 
 @register
 class Picture(World):
-    """A photograph that stands still: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+    r"""A photograph that stands still: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+
+    Values are 0 to 1, and 0 beside the picture. The picture keeps its shape: it fills the longer side of
+    the axes' area and lies in the middle of the other.
 
     Equation:
-        y(x, y, c) = channel c of the mean colour of the pixels in the cell of (x, y), 0 to 1; black beside the picture.
-        The picture keeps its shape: it fills the longer side of the axes' area and stands in the middle of the other.
+        y(x, y, c) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
         file: path of a picture file that Pillow can read, or an array (height, width, 3), values 0 to 255 or 0 to 1.

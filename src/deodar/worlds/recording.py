@@ -23,11 +23,13 @@ NEAR = 1e-6
 
 @register
 class Recording(World):
-    """What sensors showed in a recorded run, shown again: open loop, exact.
+    r"""What sensors showed in a recorded run, shown again: open loop, exact.
+
+    Each sensor shows its recorded output of the last recorded time. Motors are taken and do nothing. The
+    same model, with the same seed, does what it did, if every reading was recorded.
 
     Equation:
-        y(t) = what the recorded output of the sensor was at the last recorded time that is not after t
-        Motors are taken and do nothing. The same model, with the same seed, does what it did, if every reading was recorded.
+        y(t) = \mathrm{recorded}(t_k),\quad t_k \le t < t_{k+1}
 
     Parameters:
         record: an `xarray.Dataset` that `simulate` returned, with the output of sensors among its variables.

@@ -21,11 +21,13 @@ from deodar.worlds._image import PICTURE, frame, sampled
 
 @register
 class Video(World):
-    """A film that runs with the time of the model: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+    r"""A film that runs with the time of the model: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+
+    Values are means of the picture that the video shows at t, 0 to 1. After its end it shows its last
+    picture, or begins again.
 
     Equation:
-        y(x, y, c, t) = channel c of the mean colour of the pixels in the cell of (x, y), in the picture that the film shows at t, 0 to 1
-        After its end the film shows its last picture, or begins again.
+        y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
         file: path of a video file that OpenCV can read.

@@ -21,10 +21,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Box(Kernel):
-    """The same weight for all distances up to half a width.
+    r"""The same weight for all distances up to half a width.
+
+    A cell that the edge cuts counts in part.
 
     Equation:
-        k(d) = amplitude where |d_i| < width_i / 2 on every axis, else 0; a cell cut by the edge counts in part.
+        k(d) = \begin{cases} \mathrm{amplitude} & |d_i| < \frac{\mathrm{width}_i}{2} \ \forall i \\ 0 & \text{else} \end{cases}
 
     Parameters:
         amplitude: weight inside, per unit of the axes; if normalized, the integral over all distances.

@@ -23,10 +23,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Custom(Kernel):
-    """Any weights: an array around distance zero, symmetric or not, one axis of the array for each axis of the field.
+    r"""Any weights: an array around distance zero, symmetric or not, one axis of the array for each axis of the field.
+
+    Linear between samples, zero beyond them.
 
     Equation:
-        k(d) = amplitude * weights[centre + d / spacing], linear between samples, zero beyond them
+        k(d) = \mathrm{amplitude} \cdot \mathrm{weights}\!\left[\mathrm{centre} +
+            \frac{d}{\mathrm{spacing}}\right]
 
     Parameters:
         weights: array with an odd number of samples on every axis; its middle is distance zero; per unit of the axes.

@@ -23,11 +23,14 @@ NARROWEST = 1e-6
 @register
 @dataclass(frozen=True)
 class Gaussian(Kernel):
-    """Local excitation (positive amplitude) or inhibition (negative amplitude).
+    r"""Local excitation (positive amplitude) or inhibition (negative amplitude).
+
+    If normalized, it is divided by its integral. Where sigma is below the grid step the samples are scaled
+    to the integral amplitude * prod_i sqrt(2 pi) sigma_i, which they would miss (4 times too large at a
+    tenth of a step).
 
     Equation:
-        k(d) = amplitude * prod_i exp(-d_i^2 / (2 sigma_i^2)); if normalized, divided by its integral. Where sigma is below the grid step the
-        samples are scaled to the integral amplitude * prod_i sqrt(2 pi) sigma_i, which they would miss (4 times too large at a tenth of a step).
+        k(d) = \mathrm{amplitude} \prod_i \exp\!\left( -\frac{d_i^2}{2 \sigma_i^2} \right)
 
     Parameters:
         amplitude: weight at the centre, per unit of the axes; if normalized, the integral over all distances. On a node

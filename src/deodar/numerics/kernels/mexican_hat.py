@@ -17,11 +17,15 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MexicanHat(Kernel):
-    """Difference of two Gaussians: neighbours excite, places further off inhibit.
+    r"""Difference of two Gaussians: neighbours excite, places further off inhibit.
+
+    If normalized, each Gaussian is divided by its integral.
 
     Equation:
-        k(d) = excitation exp(-d^2 / (2 sigma_excitation^2)) - inhibition exp(-d^2 / (2 sigma_inhibition^2));
-        if normalized, each Gaussian is divided by its integral.
+        k(d) = \mathrm{excitation} \exp\!\left( -\frac{d^2}{2 \sigma_{\mathrm{excitation}}^2}
+            \right)
+        \quad {} - \mathrm{inhibition} \exp\!\left( -\frac{d^2}{2 \sigma_{\mathrm{inhibition}}^2}
+            \right)
 
     Parameters:
         excitation: weight of the excitation at the centre (its integral if normalized).

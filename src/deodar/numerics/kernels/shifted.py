@@ -17,10 +17,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Shifted(Kernel):
-    """Another kernel moved by a fixed amount: a peak at x acts around x + shift.
+    r"""Another kernel moved by a fixed amount: a peak at x acts around x + shift.
 
     Equation:
-        k(d) = inner(d - shift)
+        k(d) = \mathrm{inner}(d - \mathrm{shift})
 
     Parameters:
         kernel: the inner kernel, a sum of separable terms (not a custom array).

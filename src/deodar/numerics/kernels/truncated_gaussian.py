@@ -25,12 +25,15 @@ ROUNDING = 1e-5
 @register
 @dataclass(frozen=True)
 class TruncatedGaussian(Kernel):
-    """A Gaussian kernel of finite reach, normalised over the samples that it reaches: the kernel of many published simulations.
+    r"""A Gaussian kernel of finite reach, normalised over the samples that it reaches: the kernel of many published simulations.
+
+    The reach is rounded up to whole steps and no longer than the axis. If normalized, each factor is
+    divided by its sum over these samples times the step. On a ring d_i is the shorter way round.
 
     Equation:
-        k(d) = amplitude * prod_i exp(-d_i^2 / (2 sigma_i^2)) where every |d_i| <= reach_i, else 0, with
-        reach_i = max(cutoff sigma_i, least_i), rounded up to whole steps and no longer than the axis; if normalized, each factor
-        is divided by its sum over these samples times the step. On a ring d_i is the shorter way round.
+        k(d) = \begin{cases} \mathrm{amplitude} \prod_i e^{-d_i^2 / (2 \sigma_i^2)} & |d_i| \le
+            \mathrm{reach}_i \\ 0 & \text{else} \end{cases}
+        \mathrm{reach}_i = \max(\mathrm{cutoff}\, \sigma_i, \mathrm{least}_i)
 
     Parameters:
         amplitude: weight at the centre, per unit of the axes; if normalized, the sum over all samples reached times the steps.

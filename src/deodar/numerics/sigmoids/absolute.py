@@ -16,10 +16,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Absolute(Sigmoid):
-    """A sigmoid without an exponential; it approaches 0 and 1 slowly, so that a field at rest leaves some output.
+    r"""A sigmoid without an exponential; it approaches 0 and 1 slowly, so that a field at rest leaves some output.
 
     Equation:
-        g(u) = 1/2 (1 + beta (u - theta) / (1 + beta |u - theta|))
+        g(u) = \frac{1}{2} \left( 1 + \frac{\beta (u - \theta)}{1 + \beta |u - \theta|} \right)
 
     Parameters:
         beta: steepness at the threshold, per unit of activation; > 0. The slope there is beta / 2.

@@ -14,10 +14,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Linear(Sigmoid):
-    """Output proportional to activation, for linear stages of an architecture.
+    r"""Output proportional to activation, for linear stages of an architecture.
 
     Equation:
-        g(u) = slope (u - theta)
+        g(u) = \mathrm{slope}\, (u - \theta)
 
     Parameters:
         slope: output per unit of activation.

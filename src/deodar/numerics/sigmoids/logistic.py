@@ -27,7 +27,7 @@ class Logistic(Sigmoid):
     r"""Smooth step between 0 and 1, the usual output function of a field.
 
     Equation:
-        g(u) = 1 / (1 + exp(-beta (u - theta)))
+        g(u) = \frac{1}{1 + e^{-\beta (u - \theta)}}
 
     Parameters:
         beta: steepness at the threshold, per unit of activation; > 0.

@@ -16,10 +16,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SemiLinear(Sigmoid):
-    """Silent below the threshold, proportional above it.
+    r"""Silent below the threshold, proportional above it.
 
     Equation:
-        g(u) = max(0, slope (u - theta))
+        g(u) = \max(0, \mathrm{slope}\, (u - \theta))
 
     Parameters:
         slope: output per unit of activation above the threshold; >= 0.

@@ -16,10 +16,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Step(Sigmoid):
-    """All or nothing: the output function of Amari's analysis.
+    r"""All or nothing: the output function of Amari's analysis.
 
     Equation:
-        g(u) = 1 where u > theta, else 0
+        g(u) = \begin{cases} 1 & u > \theta \\ 0 & \text{else} \end{cases}
 
     Parameters:
         threshold: theta, activation above which the output is 1.

@@ -1,0 +1,68 @@
+"""Equations of docstrings: TeX, line by line, that the page and the manual can typeset."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from deodar import registry
+from deodar.server.docstring import docstring
+
+KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
+
+# fmt: off
+COMMANDS = {
+    "frac", "int", "sum", "prod", "exp", "ln", "max", "min", "sqrt", "arg", "sin", "bmod", "cdot", "left", "right", "leftarrow", "mathrm",
+    "text", "operatorname", "quad", "begin", "end", "forall", "in", "langle", "rangle", "le", "ge", "alpha", "beta", "epsilon", "theta",
+    "lambda", "phi", "pi", "sigma", "tau", "xi", "Delta",
+}
+# fmt: on
+"""All commands in use; KaTeX and MathML know each. Add one here after looking at it."""
+
+
+def faults(line: str) -> list[str]:
+    """What is wrong with a line of TeX: braces and brackets that are not paired, commands that are not known."""
+    bare = re.sub(r"\\[\\{}_,!; ]", "", line)
+    found: list[str] = []
+    depth = 0
+    for sign in re.findall(r"[{}]", bare):
+        depth += 1 if sign == "{" else -1
+        if depth < 0:
+            break
+    if depth:
+        found.append("braces")
+    found += [
+        a
+        for a, b in ((r"\left", r"\right"), (r"\begin", r"\end"))
+        if len(re.findall(rf"\{a}(?![a-z])", bare)) != len(re.findall(rf"\{b}(?![a-z])", bare))
+    ]
+    return found + sorted(set(re.findall(r"\\([A-Za-z]+)", bare)) - COMMANDS)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_equation_is_sound_tex(name: str) -> None:
+    lines = docstring(KINDS[name]).equation
+    assert lines and not [fault for line in lines for fault in faults(line)], lines
+    assert not [line for line in lines if "$" in line or ("=" not in line and r"\quad {}" not in line and not line.endswith(r"\text{:}"))], lines
+
+
+@pytest.mark.parametrize(("line", "found"), [(r"\frac{a}{b", ["braces"]), (r"\left( a", [r"\left"]), (r"\fraq{a}{b}", ["fraq"]), (r"}{", ["braces"])])
+def test_what_cannot_be_typeset_is_found(line: str, found: list[str]) -> None:
+    assert faults(line) == found
+
+
+def test_an_indented_line_continues_the_one_before_it() -> None:
+    class Long:
+        r"""A long equation.
+
+        Equation:
+            y = a
+                + b
+            z = c
+
+        Reference:
+            no reference
+        """
+
+    assert docstring(Long).equation == ("y = a + b", "z = c")
