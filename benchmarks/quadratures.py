@@ -17,11 +17,11 @@ os.environ.setdefault("NPROC", "1")
 import numpy as np
 
 import deodar as dd
-from deodar.analysis.paths import length
-from deodar.analysis.shortest import shortest
-from deodar.architectures.cascade import cascade, recorded
+from deodar.analysis.paths import path_length
+from deodar.analysis.shortest import shortest_path
+from deodar.architectures.cascade import cascade, cascade_paths
 from deodar.architectures.saliency import saliency
-from deodar.architectures.serial_order import end, lesson, production
+from deodar.architectures.serial_order import lesson, lesson_end, production_start
 from deodar.architectures.spa import spa
 from deodar.demos.saliency import look, photographs, totals
 from deodar.experiments.batch import run_batch
@@ -50,10 +50,10 @@ def with_quadrature(model: dd.Model, quadrature: str) -> dd.Model:
 def serial_order(quadrature: str) -> None:
     n = len(SEQUENCE)
     model = with_quadrature(lesson(SEQUENCE, PLACES), quadrature)
-    runs = dd.simulate(model, end(n, len(PLACES)), record=recorded(n), trials=TRIALS, progress=False)
+    runs = dd.simulate(model, lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=TRIALS, progress=False)
     right, lasting = 0, []
     for trial in range(TRIALS):
-        found = cascade(runs.isel(trial=trial), production(n) + RELEASED)
+        found = cascade(runs.isel(trial=trial), production_start(n) + RELEASED)
         items = [t.item for t in found] == list(range(1, n + 1))
         right += items and all(abs(t.place - place) <= 1.5 for t, place in zip(found, SEQUENCE, strict=True))
         lasting += [abs(t.place - place) for t, place in zip(found, SEQUENCE, strict=False)]
@@ -77,11 +77,11 @@ def planning(quadrature: str) -> None:
     for trial in list(c.trials)[:PAIRS]:
         [course] = run_batch(model, LIMIT, [trial], [POSE], [Within("done", RADIUS, POSE, "goal.output", STAY)], world=arena)
         start, goal = pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial]
-        line, best = course.values[POSE][:, :2], shortest(reference(c.maze), start, goal)
+        line, best = course.values[POSE][:, :2], shortest_path(reference(c.maze), start, goal)
         reached += (there := bool(np.linalg.norm(line[-1] - goal) <= RADIUS))
         steps.append(len(line) - 1)
         if there and best is not None:
-            ratios.append(length(line) / length(best))
+            ratios.append(path_length(line) / path_length(best))
     said = f"{reached} of {len(steps)} goals reached; paths {np.mean(ratios):.3f} times the shortest; {np.mean(steps):.0f} steps"
     print(f"{'planning':14}{quadrature:8}{said}", flush=True)
 

@@ -26,17 +26,19 @@ import numpy as np
 import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.model.checks.resolution import steepness
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.step import Step
 
 MADE, HELD = 400, 3000
 """Times in ms: how long the input is there, and how long a memory is then held."""
-SIGMOIDS: dict[str, Sigmoid] = {"logistic, beta 4": dd.Logistic(4.0), "step": Step()}
+SIGMOIDS: dict[str, SigmoidFunction] = {"logistic, beta 4": dd.Logistic(4.0), "step": Step()}
 LENGTH, NOISE = {1: 100.0, 2: 60.0}, {1: 0.5, 2: 1.0}
 GRIDS = {1: (51, 101, 201, 501), 2: (31, 61, 121)}
 
 
-def memory(dimensions: int, samples: int, g: Sigmoid, quadrature: str, noise: float = 0.0, dt: float = 1.0, center: float | None = None) -> dd.Model:
+def memory(
+    dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, noise: float = 0.0, dt: float = 1.0, center: float | None = None
+) -> dd.Model:
     """A field with an input that makes a memory, and a boost that follows."""
     periodic = dimensions == 2
     axes = [dd.Axis(n, 0, LENGTH[dimensions], samples=samples - periodic, periodic=periodic, unit="deg") for n in "xy"[:dimensions]]
@@ -50,7 +52,7 @@ def memory(dimensions: int, samples: int, g: Sigmoid, quadrature: str, noise: fl
 
 
 def forgetting(
-    dimensions: int, samples: int, g: Sigmoid, quadrature: str, precise: float = 1e-3, lasting: float = 6000.0, center: float | None = None
+    dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, precise: float = 1e-3, lasting: float = 6000.0, center: float | None = None
 ) -> float:
     """The boost below which a memory is lost, to `precise`; Euler steps of a fifth of the time constant."""
     model = memory(dimensions, samples, g, quadrature, dt=4.0, center=center)
@@ -129,13 +131,13 @@ def places(model: dd.Model, dimensions: int, until: float, **how: object) -> np.
     return np.stack([np.moveaxis(g, 2 + d, -1).sum(tuple(range(2, g.ndim - 1))) @ x / total for d in range(dimensions)], -1)
 
 
-def drift(dimensions: int, samples: int, g: Sigmoid, quadrature: str, trials: int) -> float:
+def drift(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, trials: int) -> float:
     """Variance of the place of a memory (mean over axes) that 3,000 ms of noise add, in squared degrees."""
     found = places(memory(dimensions, samples, g, quadrature, NOISE[dimensions]), dimensions, HELD, trials=trials)
     return float(np.mean(np.var(found[:, 1] - found[:, 0], axis=0)))
 
 
-def motion(dimensions: int, samples: int, g: Sigmoid, quadrature: str) -> float:
+def motion(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str) -> float:
     """How far from its input a memory lies at most after 3,000 ms without noise, in samples, for inputs on a sample and between two."""
     step = LENGTH[dimensions] / (samples - 1)
     model, most = memory(dimensions, samples, g, quadrature), 0.0
@@ -146,7 +148,9 @@ def motion(dimensions: int, samples: int, g: Sigmoid, quadrature: str) -> float:
     return most
 
 
-def table(title: str, dimensions: int, grids: tuple[int, ...], measure: Callable[..., float], form: str, sigmoids: dict[str, Sigmoid]) -> None:
+def table(
+    title: str, dimensions: int, grids: tuple[int, ...], measure: Callable[..., float], form: str, sigmoids: dict[str, SigmoidFunction]
+) -> None:
     print(f"\n{title}")
     print(f"{'samples an axis (a kernel width)':44}" + "".join(f"{f'{n} ({5 * (n - 1) / LENGTH[dimensions]:g})':>12}" for n in grids))
     for name, g in sigmoids.items():

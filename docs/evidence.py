@@ -22,9 +22,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import deodar as dd
 from deodar import papers
-from deodar.analysis.claims import Claim, results
-from deodar.figures import _files
 from deodar.papers._report import NOT_RUN, Report
 
 DOCS = Path(__file__).parent
@@ -64,7 +63,7 @@ class Evidence:
 
     def results(self, report: Report) -> str:
         """The content of `results.json`."""
-        return results(report.claims, {"paper": self.paper, "quick": self.quick, "runs": len(self.rows), "of": self.about["of"]})
+        return dd.analysis.claims.results(report.claims, {"paper": self.paper, "quick": self.quick, "runs": len(self.rows), "of": self.about["of"]})
 
     @property
     def quick(self) -> bool:
@@ -156,7 +155,7 @@ def unrun(paper: str) -> dict[str, str]:
     return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, NOT_RUN)}
 
 
-def _counted(what: str, claims: Sequence[Claim]) -> str:
+def _counted(what: str, claims: Sequence[dd.analysis.claims.Claim]) -> str:
     """How many hold, fail, and are undecided."""
     hold, fail = (sum(c.holds is verdict for c in claims) for verdict in (True, False))
     untold = sum(c.origin == "none" for c in claims)
@@ -164,7 +163,7 @@ def _counted(what: str, claims: Sequence[Claim]) -> str:
     return f"{len(claims)} {what} {hold} hold, {fail} fail, {len(claims) - hold - fail - untold} are undecided{target}"
 
 
-def _table(claims: Sequence[Claim]) -> str:
+def _table(claims: Sequence[dd.analysis.claims.Claim]) -> str:
     """Claims as Markdown."""
     lines = ["| claim | target | from | value | 95 % interval | n | holds |", "|---|---|---|---|---|---|---|"]
     for c in claims:
@@ -210,7 +209,7 @@ def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
     (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
     for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():
         if figure in report.figures:
-            _files.save(report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True, dots=DOTS)
+            dd.figures.save_figure(report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True, dots=DOTS)
     return numbers(evidence, report)
 
 

@@ -104,13 +104,13 @@ def _run(block: Block, names: dict[str, Any]) -> None:
     if block.language == "python":
         exec(compile("\n" * (block.line - 1) + block.text, str(block.page), "exec", dont_inherit=True), names)
         return
-    from deodar.cli import main
+    from deodar import cli
 
     words = shlex.split(block.text)
     assert words[0] == "deodar", f"{block.where}: a console block holds commands of deodar; other words stand in a sh block"
     told = io.StringIO()
     with contextlib.redirect_stderr(told):
-        status = main(words[1:])
+        status = cli.main(words[1:])
     assert status == 0, f"{block.where}: status {status}: {told.getvalue()}"
 
 

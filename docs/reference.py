@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import importlib
 import inspect
 import re
 import sys
@@ -17,10 +18,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from deodar import cli, errors, registry
-from deodar.declarations import Needed
-from deodar.numerics.axes import Axis
-from deodar.parameters import Parameter, Part, parameters
+import deodar as dd
+from deodar import cli, registry
+from deodar.parameters import Needed, Parameter, Part, parameters
 from deodar.server.docstring import docstring
 
 DOCS = Path(__file__).parent
@@ -35,41 +35,40 @@ ROOMS = {
     "worlds": ("Worlds", "What a model senses and moves. A model names sensors and motors; the world that has them is chosen when it is run."),
 }
 
-SCRIPT = ["Axis", "Model", "Session", "simulate", "Experiment", "save", "load", "draw", "quote", "use_cores"]
-MEASURES = {
-    "analysis.peaks": ["peaks", "Peaks", "Peak"],
-    "analysis.regimes": ["regimes", "Regimes"],
-    "analysis.thresholds": ["thresholds", "Thresholds", "Transition", "descend"],
-    "analysis.memory": ["outlives", "Memory", "forgetting"],
-    "analysis.selection": ["selects", "Selection"],
-    "analysis.phase": ["phase", "Phase", "FixedPoint"],
-    "analysis.ramp": ["ramp", "Ramp", "Branch"],
-    "analysis.isolated": ["isolate", "Isolated"],
-    "analysis.settle": ["settle", "Settled"],
-    "analysis.figures": ["regimes_figure", "phase_figure"],
-    "analysis.paths": ["length", "until", "divergence", "clearance"],
-    "analysis.shortest": ["shortest", "grid", "Grid"],
-    "analysis.statistics": ["wilson", "mean_interval", "median_interval", "anova"],
-    "experiments.factor": ["Factor"],
-    "experiments.measures": ["Measure"],
-    "experiments.results": ["load"],
-    "experiments.run": ["run"],
-    "experiments.batch": ["run_batch"],
-    "experiments.course": ["Course"],
-    "experiments.events": ["Crosses", "Appears", "Vanishes", "Reached", "Within", "Leaves", "All", "AnyOf"],
-    "experiments.actions": ["Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"],
-    "experiments.jobs": ["carry_out", "Job"],
-    "experiments.rows": ["Rows"],
-    "runtime.live": ["run_live"],
-    "runtime.meter": ["Meter"],
-    "runtime.cost": ["Costs", "Cost"],
-    "recording.files": ["save", "load"],
-    "model.diagram": ["Diagram"],
-    "importers.opening": ["read"],
-    "importers.presets": ["apply"],
-    "importers.report": ["Report", "Line"],
+SCRIPT = ["Axis", "Model", "Session", "simulate", "Experiment", "save", "load", "save_record", "load_record", "draw", "quote", "use_cores"]
+"""What a script calls, under `dd`."""
+
+CLASSES = [
+    *("Element", "Coupling", "Kernel", "SigmoidFunction", "World", "PureWorld", "Signal", "Setting", "Time", "Action", "Event"),
+    *("register", "needed", "euler"),
+]
+"""What a script derives its own kinds from, under `dd`, with what their methods get."""
+
+DECLARATIONS = ["Live", "Rebuild", "Recompile"]
+ALIASES = {
+    "Arrays": "arrays by name: a state, inputs, outputs",
+    "Axes": "a tuple of `dd.Axis`, () for a single number",
+    "Interval": "lowest and highest value, two numbers",
 }
-FIGURES = ["time_course", "space_time", "snapshot", "snapshots", "projection", "path"]
+
+MEASURES = [
+    *("dd.peaks", "dd.analysis.Peaks", "dd.analysis.Peak", "dd.regimes", "dd.analysis.Regimes"),
+    *("dd.thresholds", "dd.analysis.Thresholds", "dd.analysis.Transition", "dd.descend"),
+    *("dd.outlives", "dd.analysis.Memory", "dd.forgetting", "dd.selects", "dd.analysis.Selection"),
+    *("dd.phase", "dd.analysis.Phase", "dd.analysis.FixedPoint", "dd.ramp", "dd.analysis.Ramp", "dd.analysis.Branch"),
+    *("dd.isolate", "dd.analysis.Isolated", "dd.settle", "dd.analysis.Settled", "dd.regimes_figure", "dd.phase_figure"),
+    *("dd.path_length", "dd.path_until", "dd.path_divergence", "dd.clearance", "dd.shortest_path", "dd.arena_grid", "dd.analysis.Grid"),
+    *("dd.wilson", "dd.mean_interval", "dd.median_interval", "dd.anova"),
+    *("dd.Factor", "dd.Measure", "dd.load_results", "dd.run_trial", "dd.run_batch", "deodar.experiments.course.Course"),
+    *("dd.Crosses", "dd.Appears", "dd.Vanishes", "dd.Reached", "dd.Within", "dd.Leaves", "dd.All", "dd.AnyOf"),
+    *("dd.Set", "dd.Ramp", "dd.Push", "dd.Place", "dd.Move", "dd.Remove", "dd.Record", "dd.Snapshot", "dd.Reset", "dd.End"),
+    *("dd.carry_out", "dd.Job", "dd.Rows"),
+    *("deodar.runtime.live.run_live", "deodar.runtime.meter.Meter", "deodar.runtime.cost.Costs", "deodar.runtime.cost.Cost"),
+    *("deodar.model.diagram.Diagram", "dd.read", "dd.apply_preset", "deodar.importers.report.Report", "deodar.importers.report.Line"),
+]
+"""A public name stands with `dd`; a class that scripts get but do not make, or a method's function, with the module it is in."""
+
+FIGURES = ["time_course", "space_time", "snapshot", "snapshots", "projection", "path_figure", "animate_path", "save_figure"]
 
 
 def pages() -> dict[Path, str]:
@@ -77,6 +76,7 @@ def pages() -> dict[Path, str]:
     folder = DOCS / "reference"
     out = {folder / f"{room.split('.')[-1]}.md": room_page(room) for room in registry.ROOMS}
     out[folder / "script.md"] = script_page()
+    out[folder / "contract.md"] = contract_page()
     out[folder / "analysis.md"] = analysis_page()
     command_line = DOCS / "command-line.md"
     out[command_line] = fill(command_line.read_text(encoding="utf-8"))
@@ -154,7 +154,7 @@ def room_page(room: str) -> str:
 def kind_section(cls: type) -> str:
     """Heading, equation, parameters, ports, source."""
     opening, found = sections(inspect.getdoc(cls) or "")
-    out = [f"## {cls.__name__}\n", f"`from {cls.__module__} import {cls.__name__}`\n", prose(opening) + "\n"]
+    out = [f"## {cls.__name__}\n", f"`dd.{cls.__name__}`\n", prose(opening) + "\n"]
     if "Equation" in found:
         out += [f"```math\n{line}\n```\n" for line in docstring(cls).equation]
     described = entries(found.get("Parameters", ""))
@@ -188,7 +188,7 @@ def default(p: Parameter) -> str:
 
 def short(value: Any) -> str:
     """A part as the call that makes it."""
-    if isinstance(value, Axis):
+    if isinstance(value, dd.Axis):
         return f"Axis({value.name!r}, {value.lower:g}, {value.upper:g}, {value.samples})"
     if isinstance(value, (tuple, list)):
         return "[" + ", ".join(short(v) for v in value) + "]"
@@ -216,41 +216,53 @@ def limits(p: Parameter) -> str:
 
 def script_page() -> str:
     """What a script calls."""
-    import deodar as dd
-
     parts = [
         MADE,
         "# In a script\n",
-        "`import deodar as dd` gives these names, and the elements, couplings and kernels that nearly every script needs:"
-        " `dd.Field`, `dd.GaussianStimulus`, `dd.Gain`, `dd.Project`, `dd.Gaussian`, `dd.Logistic`. Everything else comes from its module,"
-        " which its entry in this reference names.\n",
+        "`import deodar as dd` gives every public name: `dd.Field`, `dd.peaks`, `dd.Arena`. A name is imported when it is first used. This page has"
+        " what every script calls; elements, couplings, kernels, sigmoids, worlds, measuring and drawing, and base classes have their own pages."
+        " `dd.analysis`, `dd.architectures`, `dd.figures` and `dd.worlds` are modules: results and published models are found there.\n",
     ]
     parts += [section(getattr(dd, name), f"dd.{name}") for name in SCRIPT]
-    listed = [(f"`dd.errors.{n}`", opening(c)) for n, c in vars(errors).items() if isinstance(c, type) and issubclass(c, errors.DeodarError)]
+    listed = [(f"`dd.errors.{n}`", opening(c)) for n, c in vars(dd.errors).items() if isinstance(c, type) and issubclass(c, dd.errors.DeodarError)]
     parts += ["## dd.errors\n", "Every error raised on purpose is one of these. The message says what is wrong, where, and what to type.\n"]
     parts.append(table(("error", "when"), listed))
     return "\n".join(parts)
 
 
+def contract_page() -> str:
+    """What authors of kinds derive from and declare."""
+    parts = [
+        MADE,
+        "# Base classes and declarations\n",
+        "What a kind of your own derives from, declares and gets. [Adding an element](../adding-an-element.md) builds one step by step,"
+        " [Worlds](../worlds.md) a world.\n",
+    ]
+    parts += [section(getattr(dd, name), f"dd.{name}", constructed=name in ("Signal", "needed", "register", "euler")) for name in CLASSES]
+    for name in DECLARATIONS:
+        parts.append(section(getattr(dd, name), f"dd.{name}"))
+    text, found = sections(inspect.getdoc(dd.Live.__base__) or "")
+    parts += ["## The arguments of a declaration\n", prose(text) + "\n", attributes(found)]
+    parts += ["## Types\n", table(("type", "what it is"), [(f"`dd.{name}`", about) for name, about in ALIASES.items()])]
+    return "\n".join(parts)
+
+
 def analysis_page() -> str:
     """Measuring, drawing, files."""
-    from importlib import import_module
-
-    parts = [MADE, "# Measuring, drawing, files\n", "Peaks, instabilities, figures of records, and records as files.\n"]
-    for home, names in MEASURES.items():
-        module = import_module(f"deodar.{home}")
-        for name in names:
-            title = f"{home.rpartition('.')[2]}.{name}" if home == "recording.files" else name
-            parts.append(section(getattr(module, name), title, f"deodar.{home}"))
-    parts.append("## Figures of records\n")
-    parts.append("Each kind is a module with a function `draw(variable, **view)` that returns a matplotlib `Figure`.\n")
-    rows = [(f"`deodar.figures.{n}`", opening(import_module(f"deodar.figures.{n}"))) for n in FIGURES]
-    parts.append(table(("module", "what it draws"), rows))
-    from deodar.figures._view import View
-
+    parts = [MADE, "# Measuring, drawing, files\n", "Peaks, instabilities, experiments, importing, and figures of records.\n"]
+    for path in MEASURES:
+        title = path if path.startswith("dd.") else path.rpartition(".")[2]
+        parts.append(section(named(path), title, constructed=not path.startswith("dd.analysis.")))
+    parts += [section(getattr(dd, name), f"dd.{name}") for name in FIGURES]
     parts.append("The words of `view`:\n")
-    parts.append(table(("argument", "meaning"), [(f"`{k}`", v) for k, v in _described(View).items() if k != "variable"]))
+    parts.append(table(("argument", "meaning"), [(f"`{k}`", v) for k, v in _described(dd.figures.View).items() if k != "variable"]))
     return "\n".join(parts)
+
+
+def named(path: str) -> Any:
+    """What a path such as `dd.analysis.Peaks` stands for."""
+    head, _, name = path.rpartition(".")
+    return getattr(importlib.import_module(head.replace("dd", "deodar", 1) if head.split(".")[0] == "dd" else head), name)
 
 
 def _described(obj: Any) -> dict[str, str]:
@@ -263,18 +275,13 @@ def opening(obj: Any) -> str:
     return (inspect.getdoc(obj) or "").split("\n\n")[0].replace("\n", " ")
 
 
-def section(obj: Any, title: str, home: str = "") -> str:
-    """One function or class: signature, docstring, public methods."""
+def section(obj: Any, title: str, constructed: bool = True) -> str:
+    """One function or class: signature, docstring, public methods. Without the signature where scripts do not construct it."""
     text, found = sections(inspect.getdoc(obj) or "")
     out = [f"## {title}\n"]
-    if home:
-        out.append(f"`from {home} import {obj.__name__}`\n")
-    if not dataclasses.is_dataclass(obj) or title.startswith("dd."):
+    if (title.startswith("dd.") and constructed) or (not dataclasses.is_dataclass(obj) and not inspect.isclass(obj)):
         out.append(f"```text\n{signature(obj, title)}\n```\n")
-    out.append(prose(text) + "\n")
-    for name, head in (("Args", "argument"), ("Attributes", "attribute")):
-        if name in found:
-            out.append(table((head, "meaning"), [(f"`{k}`", v) for k, v in entries(found[name]).items()]))
+    out += [prose(text) + "\n", attributes(found)]
     for name in ("Returns", "Raises", "Reference"):
         if name in found:
             out.append(f"**{name}.** {' '.join(found[name].split())}\n")
@@ -282,7 +289,14 @@ def section(obj: Any, title: str, home: str = "") -> str:
         rows = [(f"`{signature(f, name)}`" if callable(f) else f"`{name}`", opening(f)) for name, f in members(obj)]
         if rows:
             out.append(table(("method or property", "what it does"), rows))
-    return "\n".join(out)
+    return "\n".join(part for part in out if part)
+
+
+def attributes(found: dict[str, str]) -> str:
+    """The tables of arguments and attributes of a docstring."""
+    heads = {"Args": "argument", "Attributes": "attribute", "Class attributes": "class attribute", "What the functions see": "argument"}
+    tables = [table((head, "meaning"), [(f"`{k}`", v) for k, v in entries(found[name]).items()]) for name, head in heads.items() if name in found]
+    return "\n".join(tables)
 
 
 def members(cls: type) -> Iterator[tuple[str, Any]]:
@@ -296,7 +310,7 @@ def signature(obj: Any, title: str) -> str:
     """A call as one reads it: names and defaults, the types left to the text."""
     parts: list[str] = []
     starred = False
-    for p in inspect.signature(obj).parameters.values():
+    for p in arguments(obj):
         if p.name == "self":
             continue
         if p.kind is p.KEYWORD_ONLY and not starred:
@@ -306,6 +320,20 @@ def signature(obj: Any, title: str) -> str:
         starred = starred or p.kind is p.VAR_POSITIONAL
         parts.append(f"{mark}{p.name}" + ("" if p.default is p.empty else f"={short(p.default)}"))
     return f"{title}({', '.join(parts)})"
+
+
+def arguments(obj: Any) -> list[inspect.Parameter]:
+    """The arguments of a call; of a part, whose constructor checks them by its declaration, the declared ones."""
+    found = list(inspect.signature(obj).parameters.values())
+    if not dataclasses.is_dataclass(obj) or not any(p.kind is p.VAR_KEYWORD for p in found):
+        return found
+    out: list[inspect.Parameter] = []
+    for f in sorted((f for f in dataclasses.fields(obj) if f.init), key=lambda f: f.kw_only):
+        kind = inspect.Parameter.KEYWORD_ONLY if f.kw_only else inspect.Parameter.POSITIONAL_OR_KEYWORD
+        given = f.default if f.default_factory is dataclasses.MISSING else f.default_factory()
+        needed = given is dataclasses.MISSING or isinstance(given, Needed)
+        out.append(inspect.Parameter(f.name, kind, default=inspect.Parameter.empty if needed else given))
+    return out
 
 
 # ------------------------------------------------------------------------------------------------ the command line

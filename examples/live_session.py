@@ -10,13 +10,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import deodar as dd
-from deodar.analysis.peaks import peaks
 
 
 def places(session: dd.Session) -> list[float]:
     """Where the peaks of the field `u` stand now."""
     axes = session.document.by_names()["u",].element.axes  # type: ignore[attr-defined]
-    return [round(p.position[0], 1) for p in peaks(session.read("u.activation"), axes)]
+    return [round(p.position[0], 1) for p in dd.peaks(session.read("u.activation"), axes)]
 
 
 def main() -> dict[str, list[float]]:

@@ -14,19 +14,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import deodar as dd
-from deodar.architectures import behaviour as elementary
-from deodar.architectures import change_detection as layers
-from deodar.architectures import feature_space
-from deodar.architectures import plan as line
-from deodar.architectures import reference_frame as frames
-from deodar.architectures import saliency as published
-from deodar.architectures import serial_order as chain
-from deodar.architectures import spa as planner
-from deodar.elements.attractor import Attractor
-from deodar.elements.boost import Boost
-from deodar.elements.box_stimulus import BoxStimulus
-from deodar.numerics.windows import Window
-from deodar.worlds.arena import Arena
 
 HERE = Path(__file__).parent
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
@@ -59,7 +46,7 @@ def selection() -> dd.Model:
     model = dd.Model("selection")
     u = model.add(field("u", 12, 0.6, noise=1.0))
     for name, center in (("left", 30), ("right", 70)):
-        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[Window(100)])) >> u
+        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[dd.Window(100)])) >> u
     model.describe(
         notes="Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at 100 ms, at 30 and 70 deg."
         " Both grow, and one wins: exactly one peak stands at 600 ms. Which one, the noise decides: about half of the trials"
@@ -84,7 +71,7 @@ def forgetting() -> dd.Model:
     """Reverse detection: a homogeneous inhibition erases a memory."""
     model = working_memory()
     model.describe(name="forgetting")
-    model.add(Boost("inhibition", [X], amplitude=-3, windows=[(900, 1100)])) >> model["u"]
+    model.add(dd.Boost("inhibition", [X], amplitude=-3, windows=[(900, 1100)])) >> model["u"]
     model.describe(
         notes="Forgetting. Inhibition of the whole field erases a memory. The working memory again, and a homogeneous inhibition of"
         " -3 from 900 to 1100 ms. It takes the field through the reverse detection instability: the peak is there at 900 ms,"
@@ -99,7 +86,7 @@ def boost() -> dd.Model:
     u = model.add(field("u", 12, 0.6, noise=0.2))
     for name, center, amplitude in (("frequent", 65, 2.0), ("rare", 30, 1.4)):
         model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=amplitude)) >> u
-    model.add(Boost("boost", [X], amplitude=2.6, windows=[(300, 900)])) >> u
+    model.add(dd.Boost("boost", [X], amplitude=2.6, windows=[(300, 900)])) >> u
     model.describe(
         notes="Boost. Lifting the whole field turns weak traces into one decision. Two weak inputs preshape the field at 65 deg (2.0)"
         " and 30 deg (1.4); both stay below threshold. At 300 ms a boost of 2.6 lifts the whole field, and one peak arises at"
@@ -136,8 +123,8 @@ def node() -> dd.Model:
     """A node with self-excitation: a switch."""
     model = dd.Model("node")
     u = model.add(dd.Field("u", [], tau=20, resting_level=-2, sigmoid=dd.Logistic(beta=8), kernel=[dd.Gaussian(4)], noise=0.1))
-    model.add(Boost("on", [], amplitude=3, windows=[(200, 350)])) >> u
-    model.add(Boost("off", [], amplitude=-3, windows=[(700, 850)])) >> u
+    model.add(dd.Boost("on", [], amplitude=3, windows=[(200, 350)])) >> u
+    model.add(dd.Boost("off", [], amplitude=-3, windows=[(700, 850)])) >> u
     model.describe(
         notes="Node. A field of no dimension that excites itself is a switch. With self-excitation 4 and resting level -2 it has two"
         " stable states, near -2 and +2. A pulse at 200 ms turns it on, and it stays on; a pulse at 700 ms turns it off, and it"
@@ -165,8 +152,8 @@ def timed_stimuli() -> dd.Model:
     """Stimuli that come and go: a script without a script."""
     model = dd.Model("timed stimuli")
     u = model.add(field("u", 10, 0.3))
-    model.add(BoxStimulus("early", [X], center=20, width=12, amplitude=6, windows=[(100, 300), (700, 900)])) >> u
-    model.add(BoxStimulus("late", [X], center=80, width=12, amplitude=6, windows=[(400, 600), (1000, 1200)])) >> u
+    model.add(dd.BoxStimulus("early", [X], center=20, width=12, amplitude=6, windows=[(100, 300), (700, 900)])) >> u
+    model.add(dd.BoxStimulus("late", [X], center=80, width=12, amplitude=6, windows=[(400, 600), (1000, 1200)])) >> u
     model.describe(
         notes="Timed stimuli. Inputs come and go at times that stand in the document. Two box stimuli, each on in two windows of"
         " time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at 550 and 1150 ms, and nowhere at 50, 380 and 680 ms:"
@@ -195,10 +182,10 @@ def groups() -> dd.Model:
         model.insert(behaviour(), name)
         for part in ("intention", "satisfied"):
             model.link(f"{name}.{part}.tau", "tempo")
-    model.add(Boost("start", [], amplitude=4, windows=[(100, 200)])) >> model["search.intention"]
+    model.add(dd.Boost("start", [], amplitude=4, windows=[(100, 200)])) >> model["search.intention"]
     for k, name in enumerate(names):
         begins = 500.0 + 600 * k
-        model.add(Boost(f"{name} done", [], amplitude=3, windows=[(begins, begins + 200)])) >> model[f"{name}.satisfied"]
+        model.add(dd.Boost(f"{name} done", [], amplitude=3, windows=[(begins, begins + 200)])) >> model[f"{name}.satisfied"]
     for before, after in itertools.pairwise(names):
         model[f"{before}.satisfied"] >> model.add(dd.Gain(4, name=f"{before} then {after}")) >> model[f"{after}.intention"]
     model.describe(
@@ -217,7 +204,7 @@ def motor_attractor() -> dd.Model:
     target = model.add(field("target", 10, 0.1, heading, noise=0.1))
     model.add(dd.GaussianStimulus("first", [heading], center=150, sigma=8, amplitude=7, windows=[(200, 900)])) >> target
     model.add(dd.GaussianStimulus("second", [heading], center=-120, sigma=8, amplitude=7, windows=[(1300, 2000)])) >> target
-    target >> model.add(Attractor("turn", heading, tau=1500, initial=0))
+    target >> model.add(dd.Attractor("turn", heading, tau=1500, initial=0))
     model.describe(
         notes="Motor attractor. A motor variable turns to the place of a peak, and stays where it is without one. The peak of"
         " `target` draws the motor variable `turn` to 150 deg; without a peak, from 900 to 1300 ms, it stays there. Then a peak"
@@ -229,7 +216,7 @@ def motor_attractor() -> dd.Model:
 
 def saliency() -> dd.Model:
     """The architecture of `deodar demo saliency`."""
-    model = published.saliency(hue=0.0)
+    model = dd.architectures.saliency(hue=0.0)
     model.describe(
         notes="Saliency. A colour cue selects an object in a picture, and a motor variable turns to it. Sandamirskaya (2014), figure"
         " 2, over both dimensions of a picture. It senses a picture, so it is run with one: --world picture:FILE. A cue for red"
@@ -240,8 +227,8 @@ def saliency() -> dd.Model:
 
 
 def plan() -> dd.Model:
-    """A plan on a line: `deodar.architectures.plan`."""
-    model = line.plan()
+    """A plan on a line: `dd.architectures.plan`."""
+    model = dd.architectures.plan()
     model.describe(
         notes="Plan. A wave of motivation spreads from a goal until it meets the walker, who then goes there. Billing, Lowe & Sandamirskaya (2015),"
         " figure 3. The goal is at 40 cm; in `left.motivation` the wave spreads to the right at a constant speed. Near step 85 it is at 100 cm,"
@@ -253,7 +240,7 @@ def plan() -> dd.Model:
 
 def spa() -> dd.Model:
     """The architecture of `deodar demo spa`, for the Z-maze in metres."""
-    model = planner.spa(Arena("z"))
+    model = dd.architectures.spa(dd.Arena("z"))
     model.describe(
         notes="Simultaneous planning and action. A robot plans its way through a maze by a wave of motivation, and follows it. Billing, Lowe &"
         " Sandamirskaya (2015), figure 4. It is run in an arena: --world arena:z. Four behaviours go north, south, west and east; each has a"
@@ -264,8 +251,8 @@ def spa() -> dd.Model:
 
 
 def behaviours() -> dd.Model:
-    """Templates: `deodar.architectures.behaviour`."""
-    model = elementary.behaviours()
+    """Templates: `dd.architectures.behaviour`."""
+    model = dd.architectures.behaviours()
     model.describe(
         notes="Behaviours. Five elementary behaviours order themselves by precondition, suppression and competition. All tasks but `avoid` come at"
         " 100 ms. `find` is satisfied at 500 ms; only then `reach` begins. An obstacle from 900 to 1200 ms turns `avoid` on, which suppresses"
@@ -276,8 +263,8 @@ def behaviours() -> dd.Model:
 
 
 def serial_order() -> dd.Model:
-    """Templates: `deodar.architectures.serial_order`."""
-    model = chain.lesson([30.0, 6.0, 30.0, 54.0])
+    """Templates: `dd.architectures.serial_order`."""
+    model = dd.architectures.lesson([30.0, 6.0, 30.0, 54.0])
     model.describe(
         name="serial order",
         notes="Serial order. A chain of ordinal nodes learns a sequence of four actions, one of them twice, and produces it. Sandamirskaya & Schöner"
@@ -290,8 +277,8 @@ def serial_order() -> dd.Model:
 
 
 def binding() -> dd.Model:
-    """Templates: `deodar.architectures.feature_space`."""
-    model = feature_space.binding()
+    """Templates: `dd.architectures.feature_space`."""
+    model = dd.architectures.binding()
     model.describe(
         notes="Binding. What is where: a cue for a feature brings its place, a cue for a place its feature. Three objects lie below threshold in"
         " `bound`. At 200 ms a cue for 120 deg in `feature` makes a ridge, which meets the green object: one peak at 50 deg in `space`. It outlives"
@@ -301,8 +288,8 @@ def binding() -> dd.Model:
 
 
 def remapping() -> dd.Model:
-    """Templates: `deodar.architectures.reference_frame`."""
-    model = frames.remapping()
+    """Templates: `dd.architectures.reference_frame`."""
+    model = dd.architectures.remapping()
     model.describe(
         notes="Remapping. From the retina to the body, by a steered shift and by the diagonals of a field: both say the same. An object stands still"
         " at 12 deg before the body; the gaze jumps to 15 deg at 400 ms and to -10 deg at 800 ms, so that it jumps on the retina to -3 and 22 deg."
@@ -312,8 +299,8 @@ def remapping() -> dd.Model:
 
 
 def change_detection() -> dd.Model:
-    """Templates: `deodar.architectures.change_detection`."""
-    model = layers.change_trial()
+    """Templates: `dd.architectures.change_detection`."""
+    model = dd.architectures.change_trial()
     model.describe(
         name="change detection",
         notes="Change detection. Three colours are remembered, one has changed when they are shown again: different. A sample of 40, 130 and 250 deg"

@@ -13,7 +13,6 @@ from typing import Any
 import jax.numpy as jnp
 
 import deodar as dd
-from deodar.elements.function import Function
 
 
 def turn(state: Any, inputs: Any, time: Any, period: Any = 1000.0) -> Any:
@@ -28,16 +27,14 @@ def model() -> dd.Model:
     """The oscillator, which drives a field up and down."""
     pair = dd.Axis("pair", 0, 1, samples=2)
     out = dd.Model("oscillator")
-    clock = out.add(Function("clock", [pair], function=turn, ports_in=[], initial=0.1, values={"period": 1000.0}))
+    clock = out.add(dd.Function("clock", [pair], function=turn, ports_in=[], initial=0.1, values={"period": 1000.0}))
     u = out.add(dd.Field("u", [], resting_level=-0.5, kernel=[dd.Gaussian(2)]))
     clock >> dd.Gain(2) >> u
     return out
 
 
 if __name__ == "__main__":
-    from deodar.figures import time_course
-
     data = dd.simulate(model(), 5000, record=["u.activation"], every=10)
-    time_course.draw(data["u.activation"]).savefig("oscillator.png")
+    dd.time_course(data["u.activation"]).savefig("oscillator.png")
     u = data["u.activation"].values
     print(f"{int(((u[1:] > 0) & (u[:-1] <= 0)).sum())} times up through the threshold in 5 seconds; drawn into oscillator.png")

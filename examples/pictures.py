@@ -23,10 +23,6 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import deodar as dd
-from deodar.architectures.plan import START
-from deodar.architectures.spa import maze
-from deodar.architectures.spa import spa as planner
-from deodar.demos.saliency import photographs
 
 HERE = Path(__file__).parent
 SIZE = (320, 200)
@@ -173,7 +169,7 @@ def motor_attractor() -> Figure:
 def saliency() -> Figure:
     """A photograph as the model sees it, and where the peak for red stands."""
     figure = blank()
-    scene = next(s for s in photographs() if s.name == "coffee")
+    scene = next(s for s in dd.demos.saliency.photographs() if s.name == "coffee")
     model = dd.load(HERE / "saliency.json")
     model.set("cue.center", 5.0)
     paths = ["eye.output", "spatial.activation", "pan.output", "tilt.output"]
@@ -198,15 +194,15 @@ def plan() -> Figure:
     data = dd.simulate(dd.load(HERE / "plan.json"), 1200, record=["left.motivation.activation", "gone.activation"], every=5, progress=False)
     axes = part(figure)
     heat(axes, data["left.motivation.activation"].values, -12, 10, threshold=False)
-    axes.plot(np.arange(len(data["time"])) + 0.5, START + data["gone.activation"].values, color="white", linewidth=2.2)
+    axes.plot(np.arange(len(data["time"])) + 0.5, dd.architectures.PLAN_START + data["gone.activation"].values, color="white", linewidth=2.2)
     return figure
 
 
 def spa() -> Figure:
     """The motivation to go north when the plan is complete, and the robot's way to the goal."""
     figure = blank()
-    arena = maze("z")
-    model = planner(arena)
+    arena = dd.architectures.maze("z")
+    model = dd.architectures.spa(arena)
     data = dd.simulate(model, 220, record=["north.motivation.activation"], every=220, world=arena, progress=False)
     pose = dd.simulate(model, 760, record=["pose.output"], every=5, world=arena, progress=False)["pose.output"].values
     u = data["north.motivation.activation"].isel(time=-1)

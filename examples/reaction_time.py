@@ -16,10 +16,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import deodar as dd
-from deodar.analysis.statistics import median_interval, wilson
-from deodar.experiments.events import Appears
-from deodar.experiments.factor import Factor
-from deodar.experiments.measures import Measure
 
 if TYPE_CHECKING:
     import xarray
@@ -44,9 +40,9 @@ def experiment(trials: int = 100) -> dd.Experiment:
         model,
         limit=600,
         trials=trials,
-        conditions=[Appears("detected", "u")],
-        factors=[Factor("distance", {f"{d} deg": p for d, p in places.items()}), Factor("preshape", [0.0, 1.0], "preshape.amplitude")],
-        measures=[Measure("place", "u.activation", "place", threshold=RESTING / 2)],  # at detection only one sample is above 0
+        conditions=[dd.Appears("detected", "u")],
+        factors=[dd.Factor("distance", {f"{d} deg": p for d, p in places.items()}), dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude")],
+        measures=[dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)],  # at detection only one sample is above 0
     )
 
 
@@ -64,8 +60,8 @@ def reactions(data: xarray.Dataset, preshape: float) -> dict[str, list[tuple[flo
         times = cell["detected"].values - ONSET
         left, n = left_of_middle(cell["place"].values)
         middle = float(cell["detected"].median()) - ONSET
-        out["time"].append((middle, median_interval(times) or (middle, middle)))
-        out["left"].append((left / n, wilson(left, n) or (0.0, 1.0)))
+        out["time"].append((middle, dd.median_interval(times) or (middle, middle)))
+        out["left"].append((left / n, dd.wilson(left, n) or (0.0, 1.0)))
     return out
 
 

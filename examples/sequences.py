@@ -13,8 +13,6 @@ import sys
 import numpy as np
 
 import deodar as dd
-from deodar.architectures.cascade import cascade, recorded
-from deodar.architectures.serial_order import end, lesson, production
 
 PLACES = (6.0, 18.0, 30.0, 42.0, 54.0)
 NEAR = 1.5
@@ -22,17 +20,19 @@ NEAR = 1.5
 
 def judged(length: int, seeds: range) -> tuple[int, int, int]:
     """How many seeds were right, and of all their transitions how many were in order, and how many there were."""
-    model = lesson([PLACES[0]] * length, PLACES)
+    model = dd.architectures.lesson([PLACES[0]] * length, PLACES)
     right = orderly = transitions = 0
     for seed in seeds:
         sequence = np.random.default_rng([length, seed]).choice(PLACES, length)
         for k, place in enumerate(sequence, 1):
             model.set(f"shown {k}.center", float(place))
             model.set(f"end {k}.center", float(place))
-        data = dd.simulate(model, end(length, len(PLACES)), seed=seed, record=recorded(length), progress=False)
-        begin = production(length)
-        learned = cascade(data, 0.0, begin)
-        produced = cascade(data, begin + 250.0)
+        data = dd.simulate(
+            model, dd.architectures.lesson_end(length, len(PLACES)), seed=seed, record=dd.architectures.cascade_paths(length), progress=False
+        )
+        begin = dd.architectures.production_start(length)
+        learned = dd.architectures.cascade(data, 0.0, begin)
+        produced = dd.architectures.cascade(data, begin + 250.0)
         good = [
             [t.item for t in part] == list(range(1, length + 1)) and bool(np.all(np.abs([t.place for t in part] - sequence) < NEAR))
             for part in (learned, produced)

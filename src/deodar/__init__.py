@@ -4,63 +4,37 @@
 >>> x = dd.Axis("x", 0, 100, samples=101)
 >>> model = dd.Model("first")
 >>> u = model.add(dd.Field("u", [x], kernel=[dd.Gaussian(amplitude=1.2, sigma=5)]))
+
+`__init__.pyi` lists the public names and where each is defined.
 """
 
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from deodar import errors as errors
-    from deodar.couplings.gain import Gain as Gain
-    from deodar.couplings.project import Project as Project
-    from deodar.elements.field import Field as Field
-    from deodar.elements.gaussian_stimulus import GaussianStimulus as GaussianStimulus
-    from deodar.experiments.experiment import Experiment as Experiment
-    from deodar.importers.opening import load as load
-    from deodar.model.diagram import draw as draw
-    from deodar.model.model import Model as Model
-    from deodar.model.model import save as save
-    from deodar.model.paths import quote as quote
-    from deodar.numerics.axes import Axis as Axis
-    from deodar.numerics.kernels.gaussian import Gaussian as Gaussian
-    from deodar.numerics.sigmoids.logistic import Logistic as Logistic
-    from deodar.runtime.cores import use_cores as use_cores
-    from deodar.runtime.session import Session as Session
-    from deodar.runtime.simulate import simulate as simulate
+import os
+from typing import Any
 
 __version__ = "0.1.0"
 
-_HOMES = {
-    "Axis": "numerics.axes",
-    "Experiment": "experiments.experiment",
-    "Field": "elements.field",
-    "Gain": "couplings.gain",
-    "Gaussian": "numerics.kernels.gaussian",
-    "GaussianStimulus": "elements.gaussian_stimulus",
-    "Logistic": "numerics.sigmoids.logistic",
-    "Model": "model.model",
-    "Project": "couplings.project",
-    "Session": "runtime.session",
-    "draw": "model.diagram",
-    "errors": "errors",
-    "load": "importers.opening",
-    "quote": "model.paths",
-    "save": "model.model",
-    "simulate": "runtime.simulate",
-    "use_cores": "runtime.cores",
-}
+
+def _homes() -> dict[str, str]:
+    """The module of each public name, read from the lines `from MODULE import NAME as NAME` of the stub."""
+    with open(os.path.join(__path__[0], "__init__.pyi"), encoding="utf-8") as stub:
+        lines = [line.split() for line in stub if line.startswith("from ")]
+    return {words[3]: words[1] for words in lines}
+
+
+_HOMES = _homes()
 
 __all__ = sorted(_HOMES)  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 def __getattr__(name: str) -> Any:
-    """Root names are resolved when first used, so that `import deodar` imports neither JAX nor NumPy."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'deodar' has no attribute {name!r}")
-    module = importlib.import_module(f"deodar.{_HOMES[name]}")
-    found = module if name == "errors" else getattr(module, name)
+    """Import a public name when it is first used, so that `import deodar` imports neither JAX nor NumPy."""
+    home = _HOMES.get(name)
+    if home is None:
+        raise importlib.import_module("deodar.renamed").missing("deodar", name, _HOMES)  # `from deodar import` would ask here again
+    found = importlib.import_module(f"deodar.{name}") if home == "deodar" else getattr(importlib.import_module(home), name)
     globals()[name] = found
     return found
 

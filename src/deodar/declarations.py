@@ -30,6 +30,17 @@ class Declaration:
 
     What is compared with document time, or multiplied by it, is `exact`: in a program of single precision it keeps the digits of float64
     (`numerics/exact.py`). Moments always are.
+
+    Attributes:
+        unit: of the value, for forms and messages: "time" for the document's, "axis", "activation", "1/time" and so on.
+        lower: lowest value; None: any.
+        upper: highest value; None: any.
+        neutral: the value at which the parameter has no effect, so that the program leaves it out.
+        choices: the allowed texts; empty: any.
+        meaning: one phrase for forms, the reference and the schema.
+        off: whether the neutral value switches something off, instead of being what small values tend to.
+        role: what a parameter is whose unit has time in it, see above.
+        exact: whether it keeps the digits of float64 in a program of single precision.
     """
 
     unit: str = ""

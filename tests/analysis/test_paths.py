@@ -12,31 +12,31 @@ SQUARE = [(0, 0), (3, 0), (3, 4)]
 
 
 def test_the_length_is_the_sum_of_the_pieces():
-    assert paths.length(SQUARE) == 7.0
-    assert paths.length([(1, 1)]) == 0.0
-    assert paths.length([(0, 0, 0.1), (3, 4, 0.9)]) == 5.0  # a heading does not count
+    assert paths.path_length(SQUARE) == 7.0
+    assert paths.path_length([(1, 1)]) == 0.0
+    assert paths.path_length([(0, 0, 0.1), (3, 4, 0.9)]) == 5.0  # a heading does not count
 
 
 def test_a_path_ends_where_it_enters_the_disc():
-    cut = paths.until(SQUARE, (3, 4), 1.5)
+    cut = paths.path_until(SQUARE, (3, 4), 1.5)
     np.testing.assert_allclose(cut, [(0, 0), (3, 0), (3, 2.5)])
-    assert paths.length(cut) == pytest.approx(5.5)
+    assert paths.path_length(cut) == pytest.approx(5.5)
 
 
 def test_a_path_that_never_enters_has_no_end_and_one_that_begins_inside_no_length():
-    assert paths.until(SQUARE, (10, 10), 1.0) is None
-    assert len(paths.until(SQUARE, (0, 0), 1.0)) == 1
-    assert paths.divergence(SQUARE, SQUARE, (10, 10), 1.0) is None
-    assert paths.divergence(SQUARE, SQUARE, (0, 0), 1.0) is None
+    assert paths.path_until(SQUARE, (10, 10), 1.0) is None
+    assert len(paths.path_until(SQUARE, (0, 0), 1.0)) == 1
+    assert paths.path_divergence(SQUARE, SQUARE, (10, 10), 1.0) is None
+    assert paths.path_divergence(SQUARE, SQUARE, (0, 0), 1.0) is None
 
 
 def test_both_lengths_end_at_the_same_radius():
     # the detour is 7 long, the straight line 5; a radius of 1 takes 1 from each
-    assert paths.divergence(SQUARE, [(0, 0), (3, 4)], (3, 4), 1.0) == pytest.approx(6 / 4)
+    assert paths.path_divergence(SQUARE, [(0, 0), (3, 4)], (3, 4), 1.0) == pytest.approx(6 / 4)
 
 
 def test_a_path_that_passes_through_the_disc_in_one_piece_is_not_seen_to_enter():
-    assert paths.until([(-5, 0), (5, 0)], (0, 0), 1.0) is None
+    assert paths.path_until([(-5, 0), (5, 0)], (0, 0), 1.0) is None
 
 
 def test_clearance_is_the_distance_to_the_nearest_thing():
@@ -53,4 +53,4 @@ def test_speeds_are_ways_over_times():
 @pytest.mark.parametrize("bad", [[], [(1,)], [(1, np.nan)], 3.0])
 def test_what_is_no_path_is_refused(bad):
     with pytest.raises(AnalysisError, match="a path is rows of x and y"):
-        paths.length(bad)
+        paths.path_length(bad)

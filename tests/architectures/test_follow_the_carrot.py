@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.analysis.paths import clearance, until
-from deodar.analysis.shortest import grid, shortest
+from deodar.analysis.paths import clearance, path_until
+from deodar.analysis.shortest import arena_grid, shortest_path
 from deodar.architectures.follow_the_carrot import Carrot, follow
 from deodar.errors import ParameterError
 from deodar.worlds.arena import Arena
@@ -21,8 +21,8 @@ def arena(**given):
 
 def planned():
     boxes = [(0, 28, 40, 32)]
-    on = grid(boxes, (0, 0, 60, 60))
-    return [shortest(on, s[:2], g) for s, g in zip(START, GOAL, strict=True)]
+    on = arena_grid(boxes, (0, 0, 60, 60))
+    return [shortest_path(on, s[:2], g) for s, g in zip(START, GOAL, strict=True)]
 
 
 def test_it_turns_towards_the_carrot():
@@ -53,7 +53,7 @@ def test_it_reaches_the_goals_round_a_wall(contact):
     assert (done.steps < 900).all() and done.pose.shape == (done.steps.max() + 1, 2, 3)
     for k in range(2):
         course = done.pose[: done.steps[k] + 1, k]
-        assert np.hypot(*(course[-1, :2] - GOAL[k])) < 7 and until(course, GOAL[k], 7.0) is not None
+        assert np.hypot(*(course[-1, :2] - GOAL[k])) < 7 and path_until(course, GOAL[k], 7.0) is not None
         assert clearance(course[:, :2], [(0, 28, 40, 32)], (0, 0, 60, 60)).min() > 3.69
 
 

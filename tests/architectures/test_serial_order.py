@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.architectures.cascade import Transition, cascade, recorded
-from deodar.architectures.serial_order import end, lesson, production, serial_order
+from deodar.architectures.cascade import Transition, cascade, cascade_paths
+from deodar.architectures.serial_order import lesson, lesson_end, production_start, serial_order
 from deodar.errors import ParameterError
 from deodar.numerics.windows import Window
 
@@ -26,10 +26,10 @@ def assert_right(found: list[Transition], sequence: list[float]) -> None:
 @pytest.mark.parametrize("sequence", [[54.0, 6.0], [30.0, 6.0, 6.0, 54.0, 30.0, 18.0, 42.0, 42.0, 42.0, 6.0]], ids=["two", "ten"])
 def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]) -> None:
     n = len(sequence)
-    runs = dd.simulate(lesson(sequence, PLACES), end(n, len(PLACES)), record=recorded(n), trials=8)
+    runs = dd.simulate(lesson(sequence, PLACES), lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=8)
     for trial in range(8):
         data = runs.isel(trial=trial)
-        learned, produced = cascade(data, 0.0, production(n)), cascade(data, production(n) + RELEASED)
+        learned, produced = cascade(data, 0.0, production_start(n)), cascade(data, production_start(n) + RELEASED)
         assert_right(learned, sequence)
         assert_right(produced, sequence)
         assert all(t.in_order for t in produced)
@@ -41,20 +41,20 @@ def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]
 def test_the_order_of_what_is_perceived_does_not_matter() -> None:
     sequence = [30.0, 6.0, 54.0]
     for seen in (PLACES, PLACES[::-1]):
-        data = dd.simulate(lesson(sequence, seen), end(3, 5), record=recorded(3))
-        assert_right(cascade(data, production(3) + RELEASED), sequence)
+        data = dd.simulate(lesson(sequence, seen), lesson_end(3, 5), record=cascade_paths(3))
+        assert_right(cascade(data, production_start(3) + RELEASED), sequence)
 
 
 def test_an_action_waits_for_its_own_condition_of_satisfaction() -> None:
-    data = dd.simulate(lesson([30.0, 6.0], [18.0, 42.0]), end(2, 2), record=recorded(2))
-    assert cascade(data, production(2) + RELEASED) == []
+    data = dd.simulate(lesson([30.0, 6.0], [18.0, 42.0]), lesson_end(2, 2), record=cascade_paths(2))
+    assert cascade(data, production_start(2) + RELEASED) == []
     assert float(data["item 1.node.activation"][-1]) > 0 and float(data["satisfaction.activation"].sel(time=slice(4000, None)).max()) < 0
 
 
 def test_state_keeps_over_pauses_of_one_to_a_thousand_seconds() -> None:
     sequence, pauses = [30.0, 6.0, 30.0, 54.0], [1e3, 1e4, 1e5, 1e6]
     model = lesson(sequence)
-    begin = production(4)
+    begin = production_start(4)
     moments = begin + 400.0 + np.cumsum(np.array(pauses) + 500.0)
     for k, place in enumerate(sorted(set(sequence)), 1):
         model.set(f"seen {k}.windows", [Window(t, t + 200.0) for t, p in zip(moments, sequence, strict=True) if p == place])
@@ -76,7 +76,7 @@ def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
     sequence = [54.0, 6.0, 54.0]
     model = lesson(sequence)
     session = dd.Session(model)
-    session.run(production(3))
+    session.run(production_start(3))
     for k, place in enumerate(sequence, 1):
         w = _weights(session, model, k)
         active = np.flatnonzero(w > 0.5)
@@ -92,8 +92,8 @@ def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
 def test_a_chain_may_be_longer_than_the_sequence() -> None:
     """The node after the last one comes on, and stands for nothing."""
     model = lesson([30.0, 6.0], items=3)
-    data = dd.simulate(model, end(2, 2), record=recorded(3))
-    assert_right(cascade(data, production(2) + RELEASED), [30.0, 6.0])
+    data = dd.simulate(model, lesson_end(2, 2), record=cascade_paths(3))
+    assert_right(cascade(data, production_start(2) + RELEASED), [30.0, 6.0])
     assert float(data["item 3.node.activation"][-1]) > 0 > float(data["action.activation"][-1].max())
 
 

@@ -112,7 +112,7 @@ def test_an_example_runs_by_its_name_as_long_as_its_notes_say(here: Path, capsys
     assert main(["run", "example:selection", "--every", "100", "--record", "u.activation", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["out"] == "selection-001"
-    assert float(files.load(here / "selection-001")["time"][-1]) == 600
+    assert float(files.load_record(here / "selection-001")["time"][-1]) == 600
     assert main(["run", "example:selection", "--duration", "20", "--out", "short"]) == 0
 
 

@@ -15,7 +15,7 @@ from deodar.cli import _long
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
-from deodar.experiments.results import load
+from deodar.experiments.results import load_results
 from deodar.runtime import simulate
 from tests.experiments.robots import decider
 
@@ -43,7 +43,7 @@ def test_a_table_a_dataset_and_what_made_them(file, capsys, tmp_path):
     assert lines[0] == "trial,noise,outcome,awaited,duration,decided,low" and len(lines) == 17
     assert call("--out", "when-001") == 0  # nothing is left to be run
     again = cli.main(["experiment", "when-001/experiment.json", "--out", "again", "--no-progress"])
-    assert again == 0 and load(tmp_path / "again").identical(load(tmp_path / "when-001"))
+    assert again == 0 and load_results(tmp_path / "again").identical(load_results(tmp_path / "when-001"))
 
 
 def test_the_model_may_be_an_example(file, capsys, tmp_path):
@@ -74,7 +74,7 @@ def test_after_a_stop_the_same_call_goes_on(file, capsys, tmp_path, monkeypatch)
     monkeypatch.setattr(jobs.Job, "run", stops)
     assert call("--out", "part", "--seed", "0") == 1
     assert capsys.readouterr().err.endswith("Go on with: deodar experiment when.json --out part --seed 0\n")
-    assert load(tmp_path / "part").sizes["trial"] == 8
+    assert load_results(tmp_path / "part").sizes["trial"] == 8
     monkeypatch.setattr(jobs.Job, "run", real)
     assert call("--out", "part") == 0
     assert (tmp_path / "part" / "trials.csv").read_bytes() == (tmp_path / "whole" / "trials.csv").read_bytes()
@@ -135,5 +135,5 @@ def test_a_disk_that_fills_keeps_what_is_done_and_says_how_to_go_on(file, capsys
         assert call("--out", "out") == 1
     told = capsys.readouterr().err
     assert "trials.csv: cannot be written: No space left on device" in told and "Go on with: deodar experiment when.json --out out" in told
-    assert not (tmp_path / "out" / "trials.csv").exists() and load(tmp_path / "out").sizes["trial"] == 16
+    assert not (tmp_path / "out" / "trials.csv").exists() and load_results(tmp_path / "out").sizes["trial"] == 16
     assert call("--out", "out") == 0 and (tmp_path / "out" / "trials.csv").is_file()

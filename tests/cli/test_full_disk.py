@@ -58,7 +58,7 @@ def test_without_a_terminal_the_result_goes_where_data_of_the_user_go(here: Path
     found = sorted((here.parent / "data").rglob("record.zarr"))
     assert len(found) == 1 and str(found[0].parent) in told.err and "deodar plot" in told.err
     expected = dd.simulate(model(), 20, record=["u.activation"], every=5)
-    assert files.load(found[0].parent)["u.activation"].equals(expected["u.activation"])
+    assert files.load_record(found[0].parent)["u.activation"].equals(expected["u.activation"])
     assert dd.load(found[0].parent / "model.json").document == model().document
     assert [p.name for p in here.iterdir()] == ["small.json"]
 
@@ -109,7 +109,7 @@ def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
     monkeypatch.setattr(files, "LARGEST_NETCDF", 10)
     assert main([*RUN, "--format", "netcdf"]) == 1
     assert "NetCDF 3 holds" in capsys.readouterr().err
-    assert files.load(here / "result-001" / "record.zarr").sizes["time"] == 5
+    assert files.load_record(here / "result-001" / "record.zarr").sizes["time"] == 5
 
 
 def test_a_demo_is_kept_in_a_second_place(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

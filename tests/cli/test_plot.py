@@ -20,10 +20,10 @@ from tests.recording.models import record, x, y
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    files.save(record(trials=3), "small.zarr")
+    files.save_record(record(trials=3), "small.zarr")
     deep = dd.Model("deep")
     deep.add(dd.Field("w", [x, y, dd.Axis("z", 0, 4, samples=5)], noise=0.3))
-    files.save(dd.simulate(deep, 20, record=["w.activation"], every=10), "deep.zarr")
+    files.save_record(dd.simulate(deep, 20, record=["w.activation"], every=10), "deep.zarr")
     return tmp_path
 
 
@@ -82,7 +82,7 @@ def test_bad_calls(here: Path, arguments: list[str], says: str, capsys: pytest.C
 def test_a_path_is_drawn_in_its_arena_and_as_a_film(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     model = straight()
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
-    files.save(dd.simulate(model, 40, record="pose.output", world=room()), "drive.zarr")
+    files.save_record(dd.simulate(model, 40, record="pose.output", world=room()), "drive.zarr")
     assert main(["plot", "drive.zarr", "pose.output", "--gif", "drive.gif", "--out", "drive.png"]) == 0
     assert "drive.gif" in capsys.readouterr().out
     with Image.open("drive.gif") as film, Image.open("drive.png") as figure:

@@ -34,7 +34,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "20", "--every", "5", "--record", "u.activation", "n.activation", "--seed", "3"]) == 0
     assert "deodar plot small-001" in capsys.readouterr().out.splitlines()[-1]
-    data = files.load(here / "small-001")
+    data = files.load_record(here / "small-001")
     assert data["u.activation"].shape == (5, 11) and about(data)["seed"] == 3
     assert dd.load(here / "small-001" / "model.json").document == model().document
     expected = dd.simulate(model(), 20, record=["u.activation"], every=5, seed=3)["u.activation"]
@@ -57,7 +57,7 @@ def test_settings(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["run", "small.json", "--duration", "4", "--dt", "0.5", "--trials", "2", "--sweep", "s.amplitude=1,2,3", "--set", "u.tau=7"]
     assert main([*call, "--precision", "float64", "--format", "netcdf", "--out", "out", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
-    data = files.load(here / "out" / "record.nc")
+    data = files.load_record(here / "out" / "record.nc")
     assert data["u.activation"].dtype == np.float64 and data.sizes["trial"] == 2 and data.sizes["s.amplitude"] == 3
     assert dd.load(here / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
 
@@ -66,7 +66,7 @@ def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "20", "--every", "5", "--out", "first"]) == 0
     assert main(["run", "first", "--out", "second"]) == 0
     assert "same bits" in capsys.readouterr().out
-    assert files.load(here / "first").drop_attrs().identical(files.load(here / "second").drop_attrs())
+    assert files.load_record(here / "first").drop_attrs().identical(files.load_record(here / "second").drop_attrs())
     assert main(["run", "first/record.zarr", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["repetition"]["same_bits"] is True
 
@@ -118,7 +118,7 @@ def test_ctrl_c_writes_what_was_recorded(here: Path, monkeypatch: pytest.MonkeyP
     call = ["run", "small.json", "--duration", "100000000", "--record", "n.activation", "--every", "100000", "--out", "cut"]
     assert main(call) == 1 and len(calls) == 3
     assert "incomplete" in capsys.readouterr().err
-    data = files.load(here / "cut")
+    data = files.load_record(here / "cut")
     assert about(data)["complete"] is False and 1 <= data.sizes["time"] < 1001 and np.isfinite(data["n.activation"].values).all()
 
 
@@ -230,4 +230,4 @@ def test_a_point_of_a_sweep_that_diverges_is_said_once(here: Path, capsys: pytes
     assert main(["run", "loop.json", "--duration", "60", "--sweep", "g.factor=0.1,1e9", "--out", "out"]) == 0
     told = capsys.readouterr().err
     assert told.count("deodar run: warning: 1 of 2 copies are NaN") == 1 and "RunWarning" not in told
-    assert files.load(here / "out")["diverged"].values.tolist()[0] == ""
+    assert files.load_record(here / "out")["diverged"].values.tolist()[0] == ""

@@ -14,7 +14,7 @@ from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Crosses, Within
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
-from deodar.experiments.run import run
+from deodar.experiments.run import run_trial
 from deodar.worlds.picture import Picture
 from tests.experiments.robots import decider, room, straight
 
@@ -30,7 +30,7 @@ def test_the_courses_are_those_of_single_trials():
     many = run_batch(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
     assert len({c.duration for c in many}) > 2
     for trial, course in zip([7, 0, 3, 1], many, strict=True):
-        one = run(decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64")
+        one = run_trial(decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64")
         np.testing.assert_array_equal(course.times, one.times)
         np.testing.assert_allclose(course.values["u.activation"], one.values["u.activation"], atol=1e-10)
         assert (course.outcome, course.events) == (one.outcome, one.events)
@@ -78,7 +78,7 @@ def test_each_trial_has_a_world_of_its_own_and_leaves_with_it():
     assert len({c.duration for c in many}) == 4 and {c.outcome for c in many} == {"there"}
     assert sizes(model) == [1, 2, 4]
     for trial, course in enumerate(many):
-        one = run(model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64")
+        one = run_trial(model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64")
         np.testing.assert_array_equal(course.times, one.times)
         np.testing.assert_allclose(course.values["pose.output"], one.values["pose.output"], atol=1e-10)
         assert course.values["pose.output"][0, 0] == starts[trial][0]

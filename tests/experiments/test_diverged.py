@@ -23,8 +23,8 @@ from deodar.experiments.events import Crosses, Reached
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
-from deodar.experiments.results import ROWS, load
-from deodar.experiments.run import run
+from deodar.experiments.results import ROWS, load_results
+from deodar.experiments.run import run_trial
 from deodar.recording import files
 from deodar.runtime.run import Run
 
@@ -104,7 +104,7 @@ def test_a_trial_that_has_ended_before_is_no_trial_that_diverged() -> None:
     for at, outcome in ((step - 1, "early"), (step, "diverged")):
         [course, _] = run_batch(model(), 80, [0, 1], events=[Reached("early", at)], values={"g.factor": [1e6, 0.1]}, tolerant=True)
         assert course.outcome == outcome and (course.error is None) == (outcome == "early")
-        assert run(model(1e6), 80, events=[Reached("early", at)], tolerant=True).outcome == outcome
+        assert run_trial(model(1e6), 80, events=[Reached("early", at)], tolerant=True).outcome == outcome
 
 
 def _step(factor: float) -> int:
@@ -134,7 +134,7 @@ def test_a_batch_of_which_no_trial_is_left_raises_and_a_single_trial_too() -> No
         with pytest.raises(NotFinite, match="g became infinite"):
             run_batch(model(1e6), 80, trials)
     with pytest.raises(NotFinite, match="g became infinite"):
-        run(model(1e6), 80)
+        run_trial(model(1e6), 80)
 
 
 def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
@@ -166,14 +166,14 @@ def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(tmp_path: Path, mon
 
     with pytest.raises(KeyboardInterrupt):
         made.run(tmp_path / "part", progress=stop)
-    assert finished(made, tmp_path / "part").identical(data) and load(tmp_path / "part").identical(data)
+    assert finished(made, tmp_path / "part").identical(data) and load_results(tmp_path / "part").identical(data)
     assert (tmp_path / "part" / ROWS).read_bytes() == (tmp_path / "whole" / ROWS).read_bytes()
     table = (tmp_path / "whole" / "trials.csv").read_text()
     assert table.splitlines()[0] == "trial,factor,outcome,awaited,diverged,duration,late,risen,last,risen to"
-    read = files.load(tmp_path / "whole" / "trials.nc")
+    read = files.load_record(tmp_path / "whole" / "trials.nc")
     assert read.identical(data) and read.attrs["diverged"] == data.attrs["diverged"]
     bad = int(np.flatnonzero(data["factor"].values == 1e6)[0])
-    record = files.load(tmp_path / "whole" / "records" / f"{bad:06}.nc")
+    record = files.load_record(tmp_path / "whole" / "records" / f"{bad:06}.nc")
     assert np.isnan(record["u.activation"].values).all() and data["diverged"].values[bad] in json.dumps(dict(record.attrs))
 
 

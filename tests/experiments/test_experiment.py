@@ -17,8 +17,8 @@ from deodar.experiments.events import All, AnyOf, Appears, Crosses, Reached, Van
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor, assign
 from deodar.experiments.measures import Measure
-from deodar.experiments.results import ROWS, load
-from deodar.experiments.run import run
+from deodar.experiments.results import ROWS, load_results
+from deodar.experiments.run import run_trial
 from deodar.recording import files
 from deodar.runtime import simulate
 from tests.experiments.robots import decider, room, straight
@@ -124,11 +124,11 @@ def test_a_stopped_experiment_goes_on_with_the_same_table(tmp_path, monkeypatch)
         experiment.run(tmp_path / "part", progress=stop)
     file = tmp_path / "part" / ROWS
     file.write_bytes(file.read_bytes()[:-40])  # as if a kill had cut the last line off
-    assert 4 <= load(tmp_path / "part").sizes["trial"] < 16
+    assert 4 <= load_results(tmp_path / "part").sizes["trial"] < 16
     assert experiment.run(tmp_path / "part").identical(whole)
     for name in ("trials.csv", ROWS):
         assert sorted((tmp_path / "part" / name).read_text().splitlines()) == sorted((tmp_path / "whole" / name).read_text().splitlines())
-    assert load(tmp_path / "whole").identical(whole) and files.load(tmp_path / "whole" / "trials.nc").identical(whole)
+    assert load_results(tmp_path / "whole").identical(whole) and files.load_record(tmp_path / "whole" / "trials.nc").identical(whole)
     with pytest.raises(OutputExists, match="another experiment: trials differ"):
         dc.replace(experiment, trials=5).run(tmp_path / "whole")
     (tmp_path / "mine").mkdir()
@@ -157,7 +157,7 @@ def test_records_and_snapshots(tmp_path):
     actions = [Record(30), Record(10, on=False, when="detected"), Snapshot(0, "then", ["u.activation"], when="detected")]
     data = choice(actions=actions, record=["u.activation"], every=5, factors=[], trials=1).run(tmp_path / "out")
     assert data.sizes["trial"] == 1
-    record, then = (files.load(tmp_path / "out" / "records" / name) for name in ("000000.nc", "000000-then.nc"))
+    record, then = (files.load_record(tmp_path / "out" / "records" / name) for name in ("000000.nc", "000000-then.nc"))
     at = float(data["detected"][0])
     assert record["time"].values.tolist() == list(np.arange(35, at + 11, 5)) and then["time"].values.tolist() == [at]
     np.testing.assert_array_equal(then["u.activation"][0], record["u.activation"].sel(time=at))
@@ -167,15 +167,15 @@ def test_pushes_ramps_and_resets():
     model = dd.Model("node")
     model.add(dd.Field("u", [], tau=10, resting_level=-1))
     still = {"watch": ["u.activation"], "precision": "float64"}
-    pushed = run(model, 60, actions=[Push(10, "u", 3.0, 20)], **still).values["u.activation"]
+    pushed = run_trial(model, 60, actions=[Push(10, "u", 3.0, 20)], **still).values["u.activation"]
     assert pushed[10] == -1 and pushed[30] == pushed.max() == pytest.approx(-1 + 3 * (1 - 0.9**20)) and pushed[31] < pushed[30]
     up = Crosses("up", "u.activation", 0.5, ends=False)
-    after = run(model, 60, events=[up], actions=[Push(10, "u", 3.0, 20), Push(4, "u", -9.0, 5, when="up")], **still)
+    after = run_trial(model, 60, events=[up], actions=[Push(10, "u", 3.0, 20), Push(4, "u", -9.0, 5, when="up")], **still)
     moment = int(after.events["up"])
     below = after.values["u.activation"]
     np.testing.assert_array_equal(below[: moment + 5], pushed[: moment + 5])
     assert below[moment + 9] == pytest.approx(pushed[moment + 9] - 9 * (1 - 0.9**5))
-    ramped = run(model, 60, actions=[Ramp(10, "u.resting_level", 3.0, 20, start=-1.0), Reset(50), End(55, "enough")], **still)
+    ramped = run_trial(model, 60, actions=[Ramp(10, "u.resting_level", 3.0, 20, start=-1.0), Reset(50), End(55, "enough")], **still)
     u, h = [-1.0], [-1.0 + 4.0 * min(max(t - 10, 0), 20) / 20 for t in range(60)]
     for t in range(50):
         u.append(u[-1] + (h[t] - u[-1]) / 10)

@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.errors import ParameterError, TimeError, WorldError
 from deodar.experiments.actions import Move, Place, Remove, Set
 from deodar.experiments.events import Crosses, Leaves, Within
-from deodar.experiments.run import run
+from deodar.experiments.run import run_trial
 from tests.experiments.robots import decider, room, straight
 
 GOAL = Within("reached", 7.0)
@@ -17,7 +17,7 @@ TOUCH = Crosses("touched", "touching", 0.5)
 
 
 def test_a_goal_that_is_reached_ends_the_trial():
-    course = run(straight(), 500, room(), events=[GOAL, TOUCH], watch=["pose"])
+    course = run_trial(straight(), 500, room(), events=[GOAL, TOUCH], watch=["pose"])
     assert course.outcome == "reached" and course.events == {"reached": course.times[-1], "touched": None}
     last, before = course.values["pose"][-1], course.values["pose"][-2]
     assert np.hypot(last[0] - 80, last[1] - 20) <= 7 < np.hypot(before[0] - 80, before[1] - 20)
@@ -26,21 +26,21 @@ def test_a_goal_that_is_reached_ends_the_trial():
 
 
 def test_an_event_may_need_several_looks_and_need_not_end_the_trial():
-    once = run(straight(), 500, room(), events=[GOAL]).times[-1]
-    course = run(straight(), 300, room(), events=[Within("reached", 7.0, times=10, ends=False), Leaves("moved", 2.5), TOUCH])
+    once = run_trial(straight(), 500, room(), events=[GOAL]).times[-1]
+    course = run_trial(straight(), 300, room(), events=[Within("reached", 7.0, times=10, ends=False), Leaves("moved", 2.5), TOUCH])
     assert course.events["reached"] == once + 9
     assert course.events["moved"] == pytest.approx(np.ceil(2.5 / 0.4122), abs=1)
     assert course.outcome == "touched" and course.events["touched"] > course.events["reached"]
 
 
 def test_the_limit_ends_what_nothing_else_does():
-    course = run(straight(0.0), 20, room(), events=[GOAL], every=5)
+    course = run_trial(straight(0.0), 20, room(), events=[GOAL], every=5)
     assert course.outcome == "time" and course.duration == 20
     np.testing.assert_array_equal(course.times, [0, 5, 10, 15, 20])
 
 
 def test_a_port_that_crosses_a_value_ends_a_trial_without_a_world():
-    course = run(decider(), 5000, watch=["u.activation"], events=[Crosses("decided", "u.activation")], trial=3)
+    course = run_trial(decider(), 5000, watch=["u.activation"], events=[Crosses("decided", "u.activation")], trial=3)
     u = course.values["u.activation"]
     assert course.outcome == "decided" and u[-1] > 0 and (u[:-1] <= 0).all()
     whole = dd.simulate(decider(), course.duration, trials=[3], record="u.activation")["u.activation"].values[0]
@@ -48,35 +48,37 @@ def test_a_port_that_crosses_a_value_ends_a_trial_without_a_world():
 
 
 def test_the_first_look_may_end_a_trial():
-    assert run(straight(), 100, room(goal=(12, 20)), events=[GOAL]).duration == 0
+    assert run_trial(straight(), 100, room(goal=(12, 20)), events=[GOAL]).duration == 0
 
 
 def test_a_thing_that_comes_stops_the_robot_and_one_that_goes_lets_it_on():
     there = Place(60, "box", (50, 20), (4, 30))
     world = room()
-    course = run(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
+    course = run_trial(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
     assert course.outcome == "touched" and course.values["pose"][-1, 0] == pytest.approx(50 - 2 - 3.7, abs=0.05)
-    through = run(straight(), 500, world, events=[GOAL], actions=[there, Remove(200, "box")], watch=["pose"])
+    through = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Remove(200, "box")], watch=["pose"])
     assert through.outcome == "reached" and (np.diff(through.values["pose"][:, 0]) < 1e-3).sum() > 50
-    away = run(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
+    away = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
     assert away.duration == through.duration - 100
-    assert run(straight(), 500, world, events=[GOAL]).outcome == "reached"  # the box was put away after each trial
+    assert run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"  # the box was put away after each trial
 
 
 def test_a_goal_that_moves_is_put_back_after_the_trial():
     world = room()
-    early = run(straight(), 500, world, events=[GOAL]).duration
-    assert run(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration < early - 50
-    assert run(straight(), 500, world, events=[GOAL]).duration == early
+    early = run_trial(straight(), 500, world, events=[GOAL]).duration
+    assert run_trial(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration < early - 50
+    assert run_trial(straight(), 500, world, events=[GOAL]).duration == early
 
 
 def test_an_action_between_two_looks_comes_at_its_own_time():
-    often, seldom = (run(straight(), 120, room(), actions=[Place(61, "box", (50, 20), (4, 30))], watch=["pose"], every=every) for every in (1, 40))
+    often, seldom = (
+        run_trial(straight(), 120, room(), actions=[Place(61, "box", (50, 20), (4, 30))], watch=["pose"], every=every) for every in (1, 40)
+    )
     np.testing.assert_array_equal(often.values["pose"][::40], seldom.values["pose"])
 
 
 def test_a_parameter_is_set_at_a_time():
-    course = run(straight(), 60, room(), actions=[Set(30, "go left.amplitude", 0.0), Set(30, "go right.amplitude", 0.0)], watch=["pose"])
+    course = run_trial(straight(), 60, room(), actions=[Set(30, "go left.amplitude", 0.0), Set(30, "go right.amplitude", 0.0)], watch=["pose"])
     x = course.values["pose"][:, 0]
     assert x[30] > x[29] > x[1] and (x[30:] == x[30]).all()
 
@@ -84,9 +86,9 @@ def test_a_parameter_is_set_at_a_time():
 def test_the_same_arguments_give_the_same_course_whatever_ran_before():
     world = room(slip=0.3, place_noise=0.5, start=[(10, 15, 0), (10, 25, 0.2)])
     given = {"limit": 80, "world": world, "watch": ["pose", "place"], "seed": 4}
-    first = run(straight(), trial=1, **given)
-    other = run(straight(), trial=0, **given)
-    again = run(straight(), trial=1, **given)
+    first = run_trial(straight(), trial=1, **given)
+    other = run_trial(straight(), trial=0, **given)
+    again = run_trial(straight(), trial=1, **given)
     assert [round(float(c.values["pose"][0, 1]), 4) for c in (first, other)] == [25, 15]
     np.testing.assert_array_equal(first.values["place"], again.values["place"])
     assert not np.array_equal(first.values["place"], other.values["place"])
@@ -94,14 +96,14 @@ def test_the_same_arguments_give_the_same_course_whatever_ran_before():
 
 def test_what_cannot_be_is_refused():
     with pytest.raises(WorldError, match="placed, moved and removed in an arena, and there is no world"):
-        run(decider(), 10, actions=[Remove(3, "box")])
+        run_trial(decider(), 10, actions=[Remove(3, "box")])
     with pytest.raises(ParameterError, match="name of two events"):
-        run(straight(), 10, room(), events=[GOAL, GOAL])
+        run_trial(straight(), 10, room(), events=[GOAL, GOAL])
     with pytest.raises(ParameterError, match="reduce: is 'uper'; it is one of max"):
         Crosses("late", "u.activation", reduce="uper")
     with pytest.raises(ParameterError, match="sampled over axes that a model states"):
-        run(straight(), 10, room(), watch=["above"])
+        run_trial(straight(), 10, room(), watch=["above"])
     with pytest.raises(TimeError, match=r"time of an action of 1\.5"):
-        run(straight(), 10, room(), actions=[Remove(1.5, "far")])
+        run_trial(straight(), 10, room(), actions=[Remove(1.5, "far")])
     with pytest.raises(TimeError, match="every is 0"):
-        run(straight(), 10, room(), every=0)
+        run_trial(straight(), 10, room(), every=0)

@@ -29,7 +29,7 @@ def images(figure: Any) -> list[np.ndarray]:
 
 def test_a_space_time_plot_shows_the_values_with_units(data: xarray.Dataset) -> None:
     one = data["u.activation"].sel({"s.amplitude": 8.0, "trial": 1})
-    figure = space_time.draw(one)
+    figure = space_time(one)
     (shown,) = images(figure)
     assert np.allclose(shown, one.values.T)
     assert {"time (ms)", "x (deg)"} <= labels(figure) and any("activation of u" in text for text in labels(figure))
@@ -37,7 +37,7 @@ def test_a_space_time_plot_shows_the_values_with_units(data: xarray.Dataset) -> 
 
 def test_a_time_course_draws_each_trial_and_their_mean(data: xarray.Dataset) -> None:
     one = data["n.activation"].sel({"s.amplitude": 4.0})
-    (axes,) = time_course.draw(one).axes
+    (axes,) = time_course(one).axes
     curves = [np.asarray(line.get_ydata()) for line in axes.get_lines() if len(np.asarray(line.get_xdata())) == one.sizes["time"]]
     for trial in range(3):
         assert any(np.allclose(c, one.isel(trial=trial).values) for c in curves)
@@ -46,10 +46,10 @@ def test_a_time_course_draws_each_trial_and_their_mean(data: xarray.Dataset) -> 
 
 def test_snapshots_share_their_scale(data: xarray.Dataset) -> None:
     one = data["u.activation"].isel({"s.amplitude": 1, "trial": 0})
-    figure = snapshots.draw(one, at=[0, 10, 20])
+    figure = snapshots(one, at=[0, 10, 20])
     limits = {tuple(axes.get_ylim()) for axes in figure.axes if axes.get_lines()}
     assert len(limits) == 1 and len(figure.axes) >= 3
-    single = snapshot.draw(one, at=[20])
+    single = snapshot(one, at=[20])
     drawn = [np.asarray(line.get_ydata()) for axes in single.axes for line in axes.get_lines()]
     assert any(len(c) == 11 and np.allclose(c, one.values[-1]) for c in drawn)
 
@@ -58,9 +58,9 @@ def test_a_projection_takes_the_largest_value_along_the_other_axes() -> None:
     model = dd.Model("deep")
     model.add(dd.Field("w", [x, dd.Axis("y", 0, 10, samples=6), dd.Axis("z", 0, 4, samples=5)], noise=0.5))
     u = dd.simulate(model, 10)["w.activation"]
-    (shown,) = images(projection.draw(u, axes=["x", "y"]))
+    (shown,) = images(projection(u, axes=["x", "y"]))
     assert np.allclose(shown, u.values[0].max(axis=2).T)
-    (total,) = images(projection.draw(u, axes=["x", "z"], reduce="integral"))
+    (total,) = images(projection(u, axes=["x", "z"], reduce="integral"))
     assert np.allclose(total, u.values[0].sum(axis=1).T * 2.0, rtol=1e-5)
 
 
@@ -83,4 +83,4 @@ def test_the_threshold_is_always_part_of_the_colours() -> None:
 )
 def test_what_was_not_recorded_is_refused(data: xarray.Dataset, kind: Any, options: dict[str, Any], says: str) -> None:
     with pytest.raises(dd.errors.RecordError, match=says):
-        kind.draw(data["u.activation"], **options)
+        kind(data["u.activation"], **options)

@@ -26,20 +26,20 @@ def walked() -> xarray.DataArray:
 
 
 def test_the_figure_shows_arena_and_paths_to_scale(walked: xarray.DataArray) -> None:
-    (axes,) = path.draw(walked, Arena("blocks")).axes
+    (axes,) = path.path_figure(walked, Arena("blocks")).axes
     assert axes.get_aspect() == 1 and axes.get_xlim() == (0, 1.2) and axes.get_ylim() == (0, 0.8)
     drawn = [np.asarray(line.get_xydata()) for line in axes.get_lines()]
     for trial in (0, 1):
         assert any(len(line) == 26 and np.allclose(line, walked.values[trial, :, :2]) for line in drawn)
     assert len([p for p in axes.patches if p.get_width() > 0.05 and type(p).__name__ == "Rectangle"]) >= 4  # type: ignore[attr-defined]
     assert axes.get_xlabel() == "x (m)"
-    (alone,) = path.draw(walked, trial=1).axes
+    (alone,) = path.path_figure(walked, trial=1).axes
     assert len([line for line in alone.get_lines() if len(np.asarray(line.get_xydata())) == 26]) == 1
 
 
 def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path) -> None:
     arena = Arena("blocks", unit="cm")
-    file = path.animate(walked * 100, tmp_path / "walk.gif", arena, width=240, every=5)
+    file = path.animate_path(walked * 100, tmp_path / "walk.gif", arena, width=240, every=5)
     with Image.open(file) as film:
         assert film.size == (240, 160) and getattr(film, "n_frames", 1) == 6
         first = np.asarray(film.convert("RGB"), float)
@@ -49,15 +49,15 @@ def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path)
     red = first[round(160 * (1 - 65 / 80)), round(240 * 25 / 120)]
     assert red[0] > 150 > 80 > red[1]
     with pytest.raises(DeodarError, match=r"walk\.gif"):
-        path.animate(walked * 100, file, arena)
+        path.animate_path(walked * 100, file, arena)
 
 
 def test_what_is_no_path_is_refused(walked: xarray.DataArray, tmp_path: Path) -> None:
     with pytest.raises(RecordError, match="is no path"):
-        path.draw(walked.isel(of=0))
+        path.path_figure(walked.isel(of=0))
     with pytest.raises(RecordError, match="not into a Picture"):
-        path.draw(walked, Picture.example())
+        path.path_figure(walked, Picture.example())
     with pytest.raises(RecordError, match=r"\.gif"):
-        path.animate(walked, tmp_path / "walk.mp4", Arena("blocks"))
+        path.animate_path(walked, tmp_path / "walk.mp4", Arena("blocks"))
     with pytest.raises(RecordError, match="1 frames"):
-        path.animate(walked, tmp_path / "walk.gif", Arena("blocks"), every=100)
+        path.animate_path(walked, tmp_path / "walk.gif", Arena("blocks"), every=100)

@@ -16,7 +16,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "errors",
-        "registry declarations",
+        "registry declarations renamed",
         "parameters",
         "leaves",
         "numerics",

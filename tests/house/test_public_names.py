@@ -1,4 +1,4 @@
-"""What a script may lean on: the names of the root, frozen in a file, and what importing them costs."""
+"""The names that scripts use: the root's list, frozen in a file, what importing them costs, and what old names say."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from pathlib import Path
 import pytest
 
 import deodar
+from deodar import registry, renamed
+from deodar.experiments import actions, events
+from tests.house.source import ROOT, SRC
 
 SNAPSHOT = Path(__file__).with_name("public_names.txt")
 HEAVY = ["jax", "jaxlib", "numpy", "scipy", "xarray", "zarr", "matplotlib", "PIL", "rich", "psutil"]
@@ -24,7 +27,7 @@ def _loaded(code: str) -> set[str]:
 
 
 def test_the_root_has_exactly_the_names_of_the_snapshot() -> None:
-    assert sorted(deodar.__all__) == SNAPSHOT.read_text().split()
+    assert deodar.__all__ == SNAPSHOT.read_text().split(), "after a deliberate change write sorted(deodar.__all__) to public_names.txt, one a line"
 
 
 @pytest.mark.parametrize("name", SNAPSHOT.read_text().split())
@@ -32,15 +35,102 @@ def test_every_name_resolves_and_says_what_it_is(name: str) -> None:
     found = getattr(deodar, name)
     assert found.__doc__
     assert name in dir(deodar)
+    assert getattr(found, "__name__", name).rpartition(".")[2] in (name, "tuple", "dict"), "help() shows another name than the script"
 
 
-def test_an_unknown_name_of_the_root_is_an_attribute_error() -> None:
-    with pytest.raises(AttributeError, match="no attribute 'Feild'"):
+def test_the_stub_holds_one_line_for_each_name_and_nothing_else() -> None:
+    """The root reads its names from the stub line by line, so an import in another form would be seen by editors only."""
+    lines = [line for line in (SRC / "__init__.pyi").read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    names = [line.split()[3] for line in lines[:-1]]
+    assert lines[-1] == "__version__: str"
+    assert [f"from {line.split()[1]} import {n} as {n}" for line, n in zip(lines, names, strict=False)] == lines[:-1]
+    assert sorted(names) == deodar.__all__
+
+
+def test_every_kind_of_the_package_is_a_public_name() -> None:
+    kinds = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
+    missing = [f"from {cls.__module__} import {name} as {name}" for name, cls in kinds.items() if name not in deodar.__all__]
+    assert not missing, f"add to src/deodar/__init__.pyi: {missing}"
+    assert all(getattr(deodar, name) is cls for name, cls in kinds.items())
+
+
+@pytest.mark.parametrize("module", [actions, events], ids=["actions", "events"])
+def test_every_experiment_part_is_a_public_name(module: object) -> None:
+    parts = [n for n, v in vars(module).items() if isinstance(v, type) and issubclass(v, (actions.Action, events.Event)) and not n.startswith("_")]
+    assert len(parts) > 5 and set(parts) <= set(deodar.__all__)
+
+
+@pytest.mark.parametrize("package", ["analysis", "figures"])
+def test_every_function_of_measuring_and_drawing_is_a_public_name(package: str) -> None:
+    public = getattr(deodar, package).__all__
+    assert {name for name in public if name.islower()} <= set(deodar.__all__)
+
+
+@pytest.mark.parametrize("package", ["analysis", "architectures", "figures"])
+def test_a_function_wins_over_the_file_of_its_name(package: str) -> None:
+    found = getattr(deodar, package)
+    assert all(not isinstance(getattr(found, name), type(sys)) for name in found.__all__)
+
+
+def test_a_star_import_gives_the_public_names() -> None:
+    names: dict[str, object] = {}
+    exec("from deodar import *", names)
+    assert set(deodar.__all__) <= set(names)
+
+
+def test_an_unknown_name_of_the_root_suggests_the_nearest() -> None:
+    with pytest.raises(AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. Did you mean 'Field'\?$"):
         deodar.Feild  # noqa: B018
+
+
+def test_an_unknown_private_name_suggests_nothing() -> None:
+    with pytest.raises(AttributeError, match=r"^module 'deodar' has no attribute '__wrapped__'$"):
+        deodar.__wrapped__  # noqa: B018
+
+
+def test_a_renamed_name_of_the_root_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(renamed, "RENAMED", {"dd.Feild": "dd.Field"})
+    with pytest.raises(AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. dd.Feild is now dd.Field$"):
+        deodar.Feild  # noqa: B018
+
+
+@pytest.mark.parametrize("old", [name for name in renamed.RENAMED if name.startswith("deodar.")])
+def test_the_old_name_of_a_module_says_the_new_one(old: str) -> None:
+    module, _, name = old.rpartition(".")
+    with pytest.raises(ImportError) as caught:
+        exec(f"from {module} import {name}", {})
+    assert str(caught.value) == f"{old} is now {renamed.RENAMED[old]}"
+
+
+def test_a_module_that_names_have_left_says_what_else_it_lacks() -> None:
+    from deodar.analysis import paths
+
+    with pytest.raises(AttributeError, match=r"^module 'deodar.analysis.paths' has no attribute 'nothing'$"):
+        paths.nothing  # noqa: B018
+
+
+@pytest.mark.parametrize("new", sorted(set(renamed.RENAMED.values())))
+def test_a_new_name_exists(new: str) -> None:
+    """Where the new name is one of `dd`; calls and arguments are tested where they are."""
+    found = deodar
+    for name in new.removeprefix("dd.").split("(")[0].split("."):
+        found = getattr(found, name)
+
+
+def test_the_changelog_holds_the_table_of_renamed_names() -> None:
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    table = text.split("| old | new |\n|---|---|\n")[1].split("\n\n")[0]
+    rows = [line.strip("| ").split(" | ") for line in table.splitlines()]
+    assert {old.strip("`"): new.strip("`") for old, new in rows} == renamed.RENAMED
+    assert [old for old, _ in rows] == sorted(old for old, _ in rows)
 
 
 def test_importing_deodar_imports_nothing_heavy() -> None:
     assert _loaded("import deodar") == set()
+
+
+def test_a_wrong_name_imports_nothing_heavy() -> None:
+    assert _loaded("import deodar\nassert not hasattr(deodar, 'Feild')") == set()
 
 
 def test_errors_and_the_command_line_import_nothing_heavy() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
-from deodar.importers.presets import apply
+from deodar.importers.presets import apply_preset
 from tests.importers.cosivina.files import SAMPLES, element, written
 
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
@@ -26,7 +26,7 @@ def test_values_are_taken_over_and_connections_stay(tmp_path):
     other = parts(tau=20, beta=2)
     other[1]["param"] = {**KERNEL, "sigma": 3, "amplitude": 0.5}
     other[1]["input"] = None
-    report = apply(model, written(tmp_path, other, name="b.json"))
+    report = apply_preset(model, written(tmp_path, other, name="b.json"))
     assert {(line.where, line.what) for line in report.lines if line.verdict == "carried"} == {
         ("u", "tau"), ("u", "sigmoid.beta"), ("k", "kernel.0.sigma"), ("k", "kernel.0.amplitude"),
     }  # fmt: skip
@@ -41,7 +41,7 @@ def test_what_does_not_match_is_listed(tmp_path):
     other[0]["param"]["size"] = [1, 12]
     other[1] = element("k", "ScaleInput", {"size": [1, 12], "amplitude": 3}, [("u", "output")])
     before = model.document
-    report = apply(model, written(tmp_path, [*other, element("new", "BoostStimulus", {"amplitude": 1})], name="b.json"))
+    report = apply_preset(model, written(tmp_path, [*other, element("new", "BoostStimulus", {"amplitude": 1})], name="b.json"))
     assert {line.where: line.why.split()[0] for line in report.lines} == {"u": "lies", "k": "is", "s": "the", "new": "the"}
     assert all(line.verdict == "dropped" for line in report.lines) and model.document == before
 
@@ -50,7 +50,7 @@ def test_linked_values_stay(tmp_path):
     model = dd.load(written(tmp_path, parts()))
     model.parameter("slow", 50.0)
     model.link("u.tau", "slow")
-    report = apply(model, written(tmp_path, parts(tau=20, h=-4), name="b.json"))
+    report = apply_preset(model, written(tmp_path, parts(tau=20, h=-4), name="b.json"))
     assert [(line.what, line.verdict) for line in report.lines] == [("tau", "dropped"), ("resting_level", "carried")]
     assert model.get("u.tau") == 50
 
@@ -59,7 +59,7 @@ def test_our_own_documents_are_presets_too(tmp_path):
     model = dd.load(written(tmp_path, parts()))
     other = dd.load(written(tmp_path, parts(h=-3), name="b.json"))
     dd.save(other, tmp_path / "own.json")
-    assert apply(model, tmp_path / "own.json").tool == "deodar" and model.get("u.resting_level") == -3
+    assert apply_preset(model, tmp_path / "own.json").tool == "deodar" and model.get("u.resting_level") == -3
 
 
 def test_a_broken_file_changes_nothing(tmp_path):
@@ -67,12 +67,12 @@ def test_a_broken_file_changes_nothing(tmp_path):
     before = model.document
     (tmp_path / "broken.json").write_text('{"simulator": {')
     with pytest.raises(DocumentError):
-        apply(model, tmp_path / "broken.json")
+        apply_preset(model, tmp_path / "broken.json")
     assert model.document is before
 
 
 def test_the_same_file_changes_nothing():
     for path in SAMPLES[:3]:
         model = dd.load(path)
-        assert apply(model, path).lines == []
+        assert apply_preset(model, path).lines == []
         assert json.loads(model.to_json())

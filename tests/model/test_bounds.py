@@ -13,7 +13,7 @@ from deodar.model.wiring import Wiring, overrides
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.absolute import Absolute
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.semilinear import SemiLinear
@@ -52,7 +52,7 @@ def test_at_least_twenty_kinds_state_bounds() -> None:
 
 @pytest.mark.parametrize("sigmoid", [dd.Logistic(), Step(), Absolute(), SemiLinear(), Linear()], ids=lambda s: type(s).__name__)
 @pytest.mark.parametrize("kernel", [dd.Gaussian(0.1, 2), MexicanHat(0.1, 2, 0.05, 4), TruncatedGaussian(0.1, 2)], ids=lambda k: type(k).__name__)
-def test_a_field_stays_inside_its_bounds(sigmoid: Sigmoid, kernel: Kernel) -> None:
+def test_a_field_stays_inside_its_bounds(sigmoid: SigmoidFunction, kernel: Kernel) -> None:
     model = dd.Model("m")
     up = model.add(dd.GaussianStimulus("up", [X], center=5, sigma=2, amplitude=7, windows=[(10, 40)]))
     down = model.add(dd.GaussianStimulus("down", [X], center=15, sigma=2, amplitude=-3))

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import quad
 
 import deodar as dd
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.absolute import Absolute
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.semilinear import SemiLinear
@@ -31,7 +31,7 @@ def test_the_logistic_is_relatively_exact_far_below_the_threshold():
     assert float(dd.Logistic(4.0)(np.float32(-1e6))) == 0.0 and float(dd.Logistic(4.0)(np.float32(1e6))) == 1.0
 
 
-def exact_mean(g: Sigmoid, a: float, b: float) -> float:
+def exact_mean(g: SigmoidFunction, a: float, b: float) -> float:
     """The mean by adaptive integration, in parts that meet at the threshold."""
 
     def f(u: float) -> float:
@@ -73,7 +73,7 @@ def test_the_mean_of_the_logistic_is_relatively_exact_far_below_the_threshold():
 
 def test_a_sigmoid_without_an_antiderivative_is_averaged_by_points():
     @dataclass(frozen=True)
-    class Cubic(Sigmoid):
+    class Cubic(SigmoidFunction):
         def __call__(self, u):
             return u**3 - u
 

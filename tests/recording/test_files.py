@@ -26,8 +26,8 @@ def data() -> xarray.Dataset:
 
 @pytest.mark.parametrize("suffix", [".zarr", ".nc"])
 def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
-    path = files.save(data, tmp_path / f"record{suffix}")
-    again = files.load(path)
+    path = files.save_record(data, tmp_path / f"record{suffix}")
+    again = files.load_record(path)
     assert again.identical(data)
     assert all(again[name].dtype == data[name].dtype and again[name].dims == data[name].dims for name in data.variables)
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
@@ -35,8 +35,8 @@ def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp
 
 def test_other_programs_open_it_without_a_warning(data: xarray.Dataset, tmp_path: Path) -> None:
     plain = data[["u.activation"]]
-    files.save(plain, tmp_path / "record.zarr")
-    files.save(plain, tmp_path / "record.nc")
+    files.save_record(plain, tmp_path / "record.zarr")
+    files.save_record(plain, tmp_path / "record.nc")
     for opened in (xarray.open_zarr(tmp_path / "record.zarr"), xarray.open_dataset(tmp_path / "record.nc", engine="scipy")):
         assert opened["u.activation"].dims == plain["u.activation"].dims
         assert np.array_equal(opened["u.activation"].values, plain["u.activation"].values)
@@ -44,7 +44,7 @@ def test_other_programs_open_it_without_a_warning(data: xarray.Dataset, tmp_path
 
 
 def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) -> None:
-    path = files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
+    path = files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
     rows = list(csv.reader(path.read_text().splitlines()))
     head = rows[0]
     assert {"time", "trial", "s.amplitude"} <= set(head)
@@ -52,11 +52,11 @@ def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) ->
     value = float(data["u.activation"].isel({"s.amplitude": 1, "trial": 2, "time": 3, "x": 4}))
     assert any(cell and abs(float(cell) - value) < 1e-6 for row in rows[1:] for cell in row[-2:] if _number(cell)), text[:400]
     with pytest.raises(dd.errors.RecordError):
-        files.load(path)
+        files.load_record(path)
 
 
 def test_pandas_reads_the_table_as_it_is(data: xarray.Dataset, tmp_path: Path) -> None:
-    path = files.save(data[["n.activation"]], tmp_path / "record.csv")
+    path = files.save_record(data[["n.activation"]], tmp_path / "record.csv")
     table = pandas.read_csv(path)
     assert list(table.columns) == ["s.amplitude", "trial", "time", "n.activation"] and len(table) == data["n.activation"].size
     kept = table.set_index(["s.amplitude", "trial", "time"])["n.activation"].to_xarray().astype(np.float32)
@@ -64,14 +64,14 @@ def test_pandas_reads_the_table_as_it_is(data: xarray.Dataset, tmp_path: Path) -
 
 
 def test_variables_over_other_dimensions_leave_cells_empty_for_pandas(data: xarray.Dataset, tmp_path: Path) -> None:
-    table = pandas.read_csv(files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv"))
+    table = pandas.read_csv(files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv"))
     nodes, fields = table["n.activation"].notna(), table["u.activation"].notna()
     assert nodes.sum() == data["n.activation"].size and fields.sum() == data["u.activation"].size and not (nodes & fields).any()
 
 
 def test_the_metadata_of_a_table_stand_beside_it(data: xarray.Dataset, tmp_path: Path) -> None:
     """As the W3C's metadata for tabular data: where its readers look, with a column for each of the table."""
-    path = files.save(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
+    path = files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["record.csv", "record.csv-metadata.json"]
     told = json.loads((tmp_path / "record.csv-metadata.json").read_text())
     assert told["@context"] == "http://www.w3.org/ns/csvw" and told["url"] == "record.csv" and told["dc:title"] == data.attrs["title"]
@@ -84,7 +84,7 @@ def test_the_metadata_of_a_table_stand_beside_it(data: xarray.Dataset, tmp_path:
 def test_metadata_of_another_table_are_never_replaced(data: xarray.Dataset, tmp_path: Path) -> None:
     (tmp_path / "record.csv-metadata.json").write_text("mine")
     with pytest.raises(dd.errors.OutputExists, match=r"record\.csv-metadata\.json"):
-        files.save(data[["n.activation"]], tmp_path / "record.csv")
+        files.save_record(data[["n.activation"]], tmp_path / "record.csv")
     assert [p.name for p in tmp_path.iterdir()] == ["record.csv-metadata.json"]
 
 
@@ -99,10 +99,10 @@ def _number(cell: str) -> bool:
 @pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
 def test_nothing_is_replaced_without_force(data: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
     small = data[["n.activation"]]
-    path = files.save(small, tmp_path / f"record{suffix}")
+    path = files.save_record(small, tmp_path / f"record{suffix}")
     with pytest.raises(dd.errors.OutputExists, match="--force"):
-        files.save(small, path)
-    files.save(small + 0 if suffix == ".csv" else small, path, force=True)
+        files.save_record(small, path)
+    files.save_record(small + 0 if suffix == ".csv" else small, path, force=True)
     assert {p.name for p in tmp_path.iterdir()} - {"record.csv-metadata.json"} == {path.name}
 
 
@@ -115,12 +115,12 @@ def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Pat
     os.symlink(tmp_path / "elsewhere", tmp_path / "link.csv")
     for name in ("thesis.zarr", "pipe.nc", "folder.nc", "link.csv"):
         with pytest.raises(dd.errors.OutputExists):
-            files.save(small, tmp_path / name, force=True)
+            files.save_record(small, tmp_path / name, force=True)
     assert (tmp_path / "thesis.zarr" / "chapter.txt").read_text() == "do not lose me"
     with pytest.raises(dd.errors.OutputError, match="no folder"):
-        files.save(small, tmp_path / "missing" / "record.nc")
+        files.save_record(small, tmp_path / "missing" / "record.nc")
     with pytest.raises(dd.errors.RecordError, match="names no format"):
-        files.save(small, tmp_path / "record.xyz")
+        files.save_record(small, tmp_path / "record.xyz")
 
 
 def test_a_failure_on_the_way_leaves_nothing(data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -131,12 +131,12 @@ def test_a_failure_on_the_way_leaves_nothing(data: xarray.Dataset, tmp_path: Pat
     monkeypatch.setattr(files, "_write_netcdf", full)
     for name in ("record.zarr", "record.nc"):
         with pytest.raises(dd.errors.OutputError, match="No space left"):
-            files.save(data, tmp_path / name)
+            files.save_record(data, tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_damaged_and_foreign_files_are_one_clear_error(data: xarray.Dataset, tmp_path: Path) -> None:
-    good = files.save(data, tmp_path / "good.nc").read_bytes()
+    good = files.save_record(data, tmp_path / "good.nc").read_bytes()
     (tmp_path / "cut.nc").write_bytes(good[: len(good) // 2])
     (tmp_path / "noise.nc").write_bytes(b"\x00\x01nonsense" * 50)
     (tmp_path / "text.txt").write_text("hello")
@@ -144,5 +144,5 @@ def test_damaged_and_foreign_files_are_one_clear_error(data: xarray.Dataset, tmp
     xarray.Dataset({"a": ("t", np.arange(3.0))}).to_netcdf(tmp_path / "foreign.nc", engine="scipy")
     for name in ("cut.nc", "noise.nc", "text.txt", "empty.zarr", "foreign.nc", "missing.zarr"):
         with pytest.raises(dd.errors.RecordError) as caught:
-            files.load(tmp_path / name)
+            files.load_record(tmp_path / name)
         assert name in str(caught.value)

@@ -28,7 +28,7 @@ from tests.recording.models import record
 data = record(trials=3)
 before = data.copy(deep=True)
 try:
-    files.save(data, sys.argv[1])
+    files.save_record(data, sys.argv[1])
 except OutputError as error:
     print(error)
 print(data.identical(before))
@@ -60,7 +60,7 @@ def test_a_disk_that_is_full_at_the_last_moment_is_noticed(suffix: str, tmp_path
     data = record()
     full(monkeypatch)
     with pytest.raises(OutputError, match="No space left"):
-        files.save(data, tmp_path / f"record{suffix}")
+        files.save_record(data, tmp_path / f"record{suffix}")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -75,8 +75,8 @@ def test_a_document_in_place_survives_a_write_that_fails(tmp_path: Path, monkeyp
 
 def test_a_file_system_without_the_call_is_no_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     full(monkeypatch, errno.EINVAL)
-    files.save(record(), tmp_path / "record.zarr")
-    assert files.load(tmp_path / "record.zarr").sizes["time"]
+    files.save_record(record(), tmp_path / "record.zarr")
+    assert files.load_record(tmp_path / "record.zarr").sizes["time"]
 
 
 def test_everything_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,7 +85,7 @@ def test_everything_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monke
     sync, rename = output._sync, Path.rename
     monkeypatch.setattr(output, "_sync", lambda path, mode: (sync(path, mode), events.append(("sync", str(path))))[0])
     monkeypatch.setattr(Path, "rename", lambda self, to: (events.append(("rename", str(to))), rename(self, to))[1])
-    files.save(record(), tmp_path / "record.zarr")
+    files.save_record(record(), tmp_path / "record.zarr")
     named = events.index(("rename", str(tmp_path / "record.zarr")))
     assert events[named + 1 :] == [("sync", str(tmp_path))]
     before = {Path(path).name for _, path in events[:named]}

@@ -24,7 +24,7 @@ from tests.recording.models import record, x
 @pytest.mark.parametrize("settings", [{}, {"trials": [2, 5], "sweep": {"u.tau": [8.0, 12.0]}, "precision": "float64"}])
 def test_the_same_bits_on_the_same_machine(settings: dict[str, object], tmp_path: Path) -> None:
     data = record(**settings)
-    done = repeat(files.load(files.save(data, tmp_path / "record.zarr")), simulate)
+    done = repeat(files.load_record(files.save_record(data, tmp_path / "record.zarr")), simulate)
     assert done.same_bits and not done.differences and done.faithful and done.data.drop_attrs().identical(data.drop_attrs())
 
 

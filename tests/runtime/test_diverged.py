@@ -95,8 +95,8 @@ def test_a_single_run_and_a_batch_of_which_nothing_is_left_raise() -> None:
 def test_it_is_kept_in_files_and_repeated(tmp_path: Path, name: str) -> None:
     with pytest.warns(RunWarning):
         data = run([0.1, 1e6])
-    files.save(data, tmp_path / name)
-    read = files.load(tmp_path / name)
+    files.save_record(data, tmp_path / name)
+    read = files.load_record(tmp_path / name)
     assert read["diverged"].values.tolist() == data["diverged"].values.tolist() and read.attrs["diverged"] == data.attrs["diverged"]
     with pytest.warns(RunWarning):
         done = repeat(read, dd.simulate)

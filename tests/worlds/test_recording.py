@@ -72,7 +72,7 @@ def test_another_seed_sees_the_same(run: Any) -> None:
 
 
 def test_from_a_file_and_again_from_its_own_record(run: Any, tmp_path: Path) -> None:
-    files.save(run, tmp_path / "run.zarr")
+    files.save_record(run, tmp_path / "run.zarr")
     world = opened(Recording, str(tmp_path / "run.zarr"))
     again = dd.simulate(driving(), 320, record=["u.activation"], seed=4, world=world)
     np.testing.assert_allclose(run["u.activation"].values[:21], again["u.activation"].values, rtol=1e-5)

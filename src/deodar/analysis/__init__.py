@@ -1,1 +1,59 @@
-"""Measuring: peaks, instabilities, regimes, phase plots."""
+"""Measuring: peaks, instabilities, regimes, phase plots, paths, statistics.
+
+The functions are `dd.peaks`, `dd.regimes` and so on; `dd.analysis` holds them too, and the classes of what they return. Where a file and its
+function share a name, the function is what `deodar.analysis` gives; import from the file what else it holds.
+"""
+
+from deodar.analysis.figures import phase_figure, regimes_figure
+from deodar.analysis.isolated import Isolated, isolate
+from deodar.analysis.memory import Memory, forgetting, outlives
+from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
+from deodar.analysis.peaks import Peak, Peaks, peaks
+from deodar.analysis.phase import FixedPoint, Phase, phase
+from deodar.analysis.ramp import Branch, Ramp, ramp
+from deodar.analysis.regimes import Regimes, regimes
+from deodar.analysis.selection import Selection, selects
+from deodar.analysis.settle import Settled, settle
+from deodar.analysis.shortest import Grid, arena_grid, shortest_path
+from deodar.analysis.statistics import anova, mean_interval, median_interval, wilson
+from deodar.analysis.thresholds import Thresholds, Transition, descend, thresholds
+
+__all__ = [
+    "Branch",
+    "FixedPoint",
+    "Grid",
+    "Isolated",
+    "Memory",
+    "Peak",
+    "Peaks",
+    "Phase",
+    "Ramp",
+    "Regimes",
+    "Selection",
+    "Settled",
+    "Thresholds",
+    "Transition",
+    "anova",
+    "arena_grid",
+    "clearance",
+    "descend",
+    "forgetting",
+    "isolate",
+    "mean_interval",
+    "median_interval",
+    "outlives",
+    "path_divergence",
+    "path_length",
+    "path_until",
+    "peaks",
+    "phase",
+    "phase_figure",
+    "ramp",
+    "regimes",
+    "regimes_figure",
+    "selects",
+    "settle",
+    "shortest_path",
+    "thresholds",
+    "wilson",
+]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import renamed
 from deodar.errors import AnalysisError
 from deodar.parameters import show
 
@@ -19,12 +20,12 @@ def points(path: Any) -> np.ndarray:
     return array[:, :2]
 
 
-def length(path: Any) -> float:
+def path_length(path: Any) -> float:
     """Sum of the distances from each point to the next, in the unit of the path."""
     return float(np.linalg.norm(np.diff(points(path), axis=0), axis=1).sum())
 
 
-def until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
+def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
     """The path up to where it first enters the disc round a goal, the last point on its edge; None: it never does.
 
     Args:
@@ -47,7 +48,7 @@ def until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.nd
     return np.concatenate([line[:k], [line[k - 1] + np.clip(share, 0.0, 1.0) * (line[k] - line[k - 1])]])
 
 
-def divergence(path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float) -> float | None:
+def path_divergence(path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float) -> float | None:
     """Lp / Lo: the length of a path over that of the shortest one, both ending where they enter the disc round the goal.
 
     None where the path never enters it, or where the shortest begins inside.
@@ -55,10 +56,10 @@ def divergence(path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, rad
     Reference:
         Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.1.
     """
-    gone, least = until(path, goal, radius), until(shortest, goal, radius)
-    if gone is None or least is None or length(least) == 0:
+    gone, least = path_until(path, goal, radius), path_until(shortest, goal, radius)
+    if gone is None or least is None or path_length(least) == 0:
         return None
-    return length(gone) / length(least)
+    return path_length(gone) / path_length(least)
 
 
 def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
@@ -82,3 +83,7 @@ def speeds(path: Any, times: Any, over: int = 1) -> np.ndarray:
     """Speed at each point but the first `over`: the way from the point `over` before, in the unit of the path over that of time."""
     line, at = points(path), np.asarray(times, float)
     return np.linalg.norm(line[over:] - line[:-over], axis=1) / (at[over:] - at[:-over])
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

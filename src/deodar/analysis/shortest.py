@@ -6,10 +6,11 @@ import heapq
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import renamed
 from deodar.analysis.paths import clearance
 from deodar.errors import AnalysisError
 
@@ -52,7 +53,7 @@ class Grid:
         return np.asarray(found[0])
 
 
-def grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
+def arena_grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
     """The grid of an arena: cells from its lower left corner on, free where they keep a distance from all things and the border.
 
     Args:
@@ -70,7 +71,7 @@ def grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 
     return Grid(x, y, cell, clearance(places, boxes, border) >= least - SLACK * cell)
 
 
-def shortest(on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float] | np.ndarray) -> np.ndarray | None:
+def shortest_path(on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float] | np.ndarray) -> np.ndarray | None:
     """The shortest path (points, 2) over eight neighbours from the free cell nearest the start to that nearest the goal; None: there is none.
 
     A* with the distance on an empty grid as its estimate: ``cell * (max(dx, dy) + (sqrt(2) - 1) * min(dx, dy))``. Of several shortest paths
@@ -113,3 +114,7 @@ def shortest(on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float
     while line[-1] != begin:
         line.append(before[line[-1]])
     return np.asarray([on.place((k // width - 1, k % width - 1)) for k in reversed(line)])
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

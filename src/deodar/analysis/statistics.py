@@ -11,8 +11,8 @@ from scipy import stats
 
 from deodar.analysis.claims import Claim, Kind, Origin
 from deodar.errors import AnalysisError
+from deodar.numerics.intervals import Interval
 
-Interval = tuple[float, float]
 LEVEL = 0.95
 
 ENOUGH = 20

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from deodar import renamed
 from deodar.analysis.peaks import peaks
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class Transition:
         return all(a < b for a, b in pairwise(known))
 
 
-def recorded(items: int) -> list[str]:
+def cascade_paths(items: int) -> list[str]:
     """The paths to record for `cascade`."""
     return [*(f"item {k}.node.activation" for k in range(1, items + 1)), "action.activation", "satisfaction.activation"]
 
@@ -55,7 +56,7 @@ def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Tr
     """The transitions between two moments of a single run, one for each time that an ordinal node went off.
 
     Args:
-        data: a record of `recorded(...)`, of every step.
+        data: a record of `cascade_paths(...)`, of every step.
         begin: first moment.
         stop: moment before which all is looked at.
     """
@@ -95,3 +96,7 @@ def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Tr
 def _switches(on: np.ndarray, to: bool) -> list[int]:
     """Samples at which a state has become `to`."""
     return [int(j) + 1 for j in np.flatnonzero((on[1:] == to) & (on[:-1] != to))]
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -15,7 +15,9 @@ Reference:
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
+from deodar import renamed
 from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
@@ -195,7 +197,7 @@ def lesson(sequence: Sequence[float], seen: Sequence[float] = (), items: int | N
         for name, amplitude, first in (("shown", SHOWN, 0.0), ("end", SEEN, 400.0)):
             stimulus = GaussianStimulus(f"{name} {k}", [x], center=place, sigma=WIDTH, amplitude=amplitude, windows=[Window(t + first, t + 600.0)])
             model.add(stimulus) >> model["action" if name == "shown" else "satisfaction"]
-    learned = production(len(sequence))
+    learned = production_start(len(sequence))
     model.set("learning.windows", [Window(0.0, learned)])
     model.set("producing.windows", [Window(learned)])
     model.set("clear.amplitude", CLEAR)
@@ -209,14 +211,14 @@ def lesson(sequence: Sequence[float], seen: Sequence[float] = (), items: int | N
     return model
 
 
-def production(items: int) -> float:
+def production_start(items: int) -> float:
     """When production begins in a lesson of so many items, ms."""
     return SHOW + DEMONSTRATION * items
 
 
-def end(items: int, places: int) -> float:
+def lesson_end(items: int, places: int) -> float:
     """When the last place has been perceived for the last time in a lesson, and what follows is over, ms."""
-    return production(items) + 1000.0 + LOOK * items * places + 400.0
+    return production_start(items) + 1000.0 + LOOK * items * places + 400.0
 
 
 def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str = "") -> None:
@@ -231,3 +233,7 @@ def _field(name: str, axes: Sequence[Axis], kernel: Sequence[Gaussian], noise: f
     return Field(
         name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise, quadrature=QUADRATURE
     )
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -25,7 +25,7 @@ from deodar.elements.field import Field
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 
 
@@ -39,8 +39,8 @@ def two_layer_field(
     tau_inhibition: float = 10.0,
     resting_level: float = -5.0,
     resting_inhibition: float = -5.0,
-    sigmoid: Sigmoid | None = None,
-    sigmoid_inhibition: Sigmoid | None = None,
+    sigmoid: SigmoidFunction | None = None,
+    sigmoid_inhibition: SigmoidFunction | None = None,
     noise: float = 0.0,
 ) -> Model:
     """The two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group; input goes to `excitatory`.

@@ -22,7 +22,7 @@ def run(args: argparse.Namespace) -> tuple[list[Claim], dict[str, Any], str, str
     from deodar.demos import spa
     from deodar.demos.spa_figure import figure
     from deodar.demos.spa_film import film
-    from deodar.figures._files import save as save_figure
+    from deodar.figures._files import save_figure
     from deodar.recording import files
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> tuple[list[Claim], dict[str, Any], str, str
         save_figure(figure(result), folder / "spa.png")
         film(result, folder / "spa.gif")
         # the motivation fields are as large as a film: what they showed stands in the pictures
-        files.save(result.record[["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]], folder / "spa.zarr")
+        files.save_record(result.record[["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]], folder / "spa.zarr")
         (folder / "results.json").write_text(results(claims, settings))
 
     return claims, settings, "spa.png, spa.gif, the record (spa.zarr)", spa.sentence(result), fill

@@ -113,7 +113,7 @@ def _saliency(args: argparse.Namespace) -> Told:
     from deodar.analysis.claims import results
     from deodar.demos import saliency
     from deodar.demos.saliency_figure import figure, overview
-    from deodar.figures._files import save as save_figure
+    from deodar.figures._files import save_figure
     from deodar.recording import files
 
     scenes = _scenes(args)
@@ -132,7 +132,7 @@ def _saliency(args: argparse.Namespace) -> Told:
     def fill(folder: Path) -> None:
         for result, picture in zip(done, drawn, strict=True):
             save_figure(picture, folder / f"{result.scene.name}.png")
-            files.save(result.record, folder / f"{result.scene.name}.zarr")
+            files.save_record(result.record, folder / f"{result.scene.name}.zarr")
         if len(done) > 1:
             save_figure(overview(done), folder / "overview.png")
         (folder / "results.json").write_text(results(claims, settings))

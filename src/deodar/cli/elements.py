@@ -29,7 +29,8 @@ def run(args: argparse.Namespace) -> int:
             found = schema(cls, reference) if issubclass(cls, Part) else {"title": cls.__name__, "description": inspect.getdoc(cls)}
             print(json.dumps(found, indent=2, ensure_ascii=False))
         else:
-            print(f"{cls.__name__}  ({cls.__module__})\n\n{inspect.getdoc(cls)}")
+            where = f"dd.{cls.__name__}" if cls.__module__.startswith("deodar.") else cls.__module__
+            print(f"{cls.__name__}  ({where})\n\n{inspect.getdoc(cls)}")
             values = list(_values(cls)) if issubclass(cls, Part) else []
             if values:
                 print("\n".join(["", "Values:", *values]))

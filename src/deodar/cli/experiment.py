@@ -77,12 +77,12 @@ def run(args: argparse.Namespace) -> int:
 
 def _confirm(args: argparse.Namespace, bench: Any, out: Path) -> None:
     """Ask before very many steps; trials whose rows are in the folder are not counted."""
-    from deodar.experiments.results import ROWS, load
+    from deodar.experiments.results import ROWS, load_results
     from deodar.runtime.simulate import LONG_STEPS
 
     if bench.trials * bench.steps < LONG_STEPS:
         return
-    left = bench.trials - (load(out).sizes["trial"] if (out / ROWS).is_file() else 0)
+    left = bench.trials - (load_results(out).sizes["trial"] if (out / ROWS).is_file() else 0)
     what = f"{left} trials of at most {bench.steps:.3g} steps of dt = {bench.dt:g}"
 
     def seconds() -> float:

@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
 
     where = {path: _number(args, value) for path, value in args.where or ()}
     spots = [[_number(args, n) for n in place.split(",")] for place in args.place or ()] or None
-    data = files.load(args.record)
+    data = files.load_record(args.record)
     names = _variables(data, args.variables)
 
     from deodar.figures import _files, _panels
@@ -66,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
         figure = _path(args, data, views)
     else:
         figure = _panels.draw(views, args.kind)
-    _files.save(figure, out, args.force)
+    _files.save_figure(figure, out, args.force)
     if args.json:
         kinds = {view.name: _panels.kind(view, args.kind).__name__.rpartition(".")[2] for view in views}
         film = {} if args.gif is None else {"gif": str(args.gif)}
@@ -92,8 +92,8 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
         if world is None:
             raise RecordError("the record was made without a world, so there is no arena to draw the path in", where="--gif", fix="Leave out --gif")
         times = variable.sizes.get("time", 0)
-        path.animate(variable, args.gif, world, every=max(1, -(-times // path.MOST_FRAMES)), force=args.force, trial=trial, where=where)
-    return path.draw(variable, world, trial=trial, where=where)
+        path.animate_path(variable, args.gif, world, every=max(1, -(-times // path.MOST_FRAMES)), force=args.force, trial=trial, where=where)
+    return path.path_figure(variable, world, trial=trial, where=where)
 
 
 def _variables(data: xarray.Dataset, wished: list[str]) -> list[str]:

@@ -105,7 +105,7 @@ def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapp
 
     def fill(folder: Path) -> None:
         for name, figure in report.figures.items():
-            _files.save(figure, folder / f"{name}.png", force=True)
+            _files.save_figure(figure, folder / f"{name}.png", force=True)
         for name, table in report.tables.items():
             output.write(folder / f"{name}.md", table.encode())
         output.write(folder / RESULTS, text.encode())

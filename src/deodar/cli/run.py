@@ -144,7 +144,7 @@ def _repeat(args: argparse.Namespace) -> int:
     given = [f"--{name}" for name in OF_A_RECORD if getattr(args, name) is not None]
     if given:
         args.wrong(f"a record is run again as it was, so {', '.join(given)} cannot be given; run its model.json instead")
-    old = files.load(args.file)
+    old = files.load_record(args.file)
     _options.use_cores(args.cores, provenance.cores_of(about(old)))
     place = _Place(args, str(old.attrs.get("title") or "record"))
     stopped = ""

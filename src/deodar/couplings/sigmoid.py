@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval
-from deodar.numerics.sigmoids import _base
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.parameters import Recompile
 from deodar.registry import register
@@ -34,7 +34,7 @@ class Sigmoid(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 2 and the text before it.
     """
 
-    sigmoid: Annotated[_base.Sigmoid, Recompile(meaning="g")] = Logistic()
+    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="g")] = Logistic()
 
     def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
         return {"output": self.sigmoid.bounds(inputs["input"])}

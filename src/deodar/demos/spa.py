@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.analysis.claims import Claim
-from deodar.analysis.paths import length, until
+from deodar.analysis.paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
 from deodar.errors import WorldError
 from deodar.runtime.simulate import simulate
@@ -122,7 +122,7 @@ def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = la
 
 
 def drive(arena: Arena, noise: str = "low", seed: int = 0, duration: int = LONGEST, done: Callable[[int], None] = lambda _: None) -> Result:
-    """A run in any maze, which is made by `deodar.architectures.spa.maze`; nothing comes on the way."""
+    """A run in any maze, which is made by `dd.architectures.maze`; nothing comes on the way."""
     if arena.goals is None:
         raise WorldError("the maze has no goal", where=arena.source, fix="Give one: --goal X Y, in cm")
     model = spa(arena, noise)
@@ -161,7 +161,7 @@ def claims(result: Result) -> list[Claim]:
     if not r.told:
         return _reported(r)
     switched = r.north is not None and r.south is not None and r.arrived is not None and r.north < r.south < r.arrived
-    gone = until(r.path, r.goal, NEAR)
+    gone = path_until(r.path, r.goal, NEAR)
     at = None
     if len(r.sites) > 1:
         x, y = r.sites[1]
@@ -175,7 +175,7 @@ def claims(result: Result) -> list[Claim]:
     placed: dict[str, Any] = {**printed, "assumes": PLACES}
     text = "the plan is complete: from this step on there is an intention until the robot moves"
     wave = "the wave reaches location 2, in the motivation to go west, at step"
-    path = None if gone is None else round(length(gone), 1)
+    path = None if gone is None else round(path_length(gone), 1)
     return [
         Claim("it leaves when the plan is complete: steps from one to the other", waits, f"0 to {SOON}", waits is not None and waits <= SOON, **ours),
         Claim("it takes the north route, and the south route after the obstacle came", route, f"north first, south after {COMES}", turned, **ours),
@@ -188,8 +188,8 @@ def claims(result: Result) -> list[Claim]:
 
 
 def _reported(r: Result) -> list[Claim]:
-    gone = until(r.path, r.goal, NEAR)
-    path = None if gone is None else round(length(gone), 1)
+    gone = path_until(r.path, r.goal, NEAR)
+    path = None if gone is None else round(path_length(gone), 1)
     arrives = f"it arrives within {NEAR:g} cm of the goal, at step"
     return [
         Claim("the plan is complete at step", r.planned, "none", None, "reported", origin="none"),

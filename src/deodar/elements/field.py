@@ -17,7 +17,7 @@ from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.intervals import Interval, hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.signs import Sign, sign_of, together
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
@@ -66,7 +66,7 @@ class Field(Element):
     axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 20.0
     resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
-    sigmoid: Annotated[Sigmoid, Recompile(meaning="output function")] = Logistic()
+    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()
     global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the output")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0

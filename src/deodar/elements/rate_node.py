@@ -13,7 +13,7 @@ from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, hull, times, total
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, Recompile
@@ -51,7 +51,7 @@ class RateNode(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 10.0
     resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
-    sigmoid: Annotated[Sigmoid, Recompile(meaning="output function")] = Logistic()
+    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
     self_excitation: Annotated[float, Live("activation", meaning="coupling of the node to itself")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
 

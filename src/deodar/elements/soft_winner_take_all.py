@@ -15,7 +15,7 @@ from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 from deodar.numerics.signs import Sign, sign_of, together
 from deodar.parameters import Live, Recompile
@@ -73,8 +73,8 @@ class SoftWinnerTakeAll(Element):
     drive: Annotated[float, Live(meaning="of the inhibitory unit by the integral over all units")] = 0.25
     threshold: Annotated[float, Live("activation", meaning="of the excitatory units")] = 0.0
     threshold_inhibition: Annotated[float, Live("activation", meaning="of the inhibitory unit")] = 0.0
-    sigmoid: Annotated[Sigmoid, Recompile(meaning="rate of the excitatory units")] = SemiLinear()
-    sigmoid_inhibition: Annotated[Sigmoid, Recompile(meaning="rate of the inhibitory unit")] = SemiLinear()
+    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="rate of the excitatory units")] = SemiLinear()
+    sigmoid_inhibition: Annotated[SigmoidFunction, Recompile(meaning="rate of the inhibitory unit")] = SemiLinear()
 
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise of the excitatory units")] = 0.0
 

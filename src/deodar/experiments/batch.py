@@ -56,7 +56,7 @@ def run_batch(
     measures: Sequence[Measure] = (),
     tolerant: bool = False,
 ) -> list[Course]:
-    """Run trials all at once; the course of each is that of `run` but for rounding.
+    """Run trials all at once; the course of each is that of `run_trial` but for rounding.
 
     When half of the copies have ended, the others continue in a batch of half the width: always in a world, otherwise where this saves more time
     than compiling takes. The widths follow from the trials alone, so the same call gives the same bits each time. Beside other trials the widths
@@ -100,7 +100,7 @@ def run_batch(
     views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
     watched = [(entry.id, port) for entry, port in (find.port(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
-        raise WorldError(f"the world {type(world).__name__} cannot be computed for a batch of copies", fix="Run the trials one by one: run(...)")
+        raise WorldError(f"the world {type(world).__name__} cannot be computed for a batch of copies", fix="Run them one by one: dd.run_trial(...)")
     if world is not None and values:
         raise WorldError("trials in a world have the same parameters in one batch", fix="Run those of each value on their own")
     read, at = with_readers(doc, views)

@@ -19,7 +19,7 @@ from deodar.experiments.experiment import Experiment
 from deodar.experiments.levels import swept
 from deodar.experiments.pushes import with_pushes
 from deodar.experiments.rows import KEY, Row
-from deodar.experiments.run import run
+from deodar.experiments.run import run_trial
 from deodar.experiments.tally import DIVERGED, TIME
 from deodar.experiments.writing import write_records
 from deodar.model import edit, find
@@ -156,7 +156,7 @@ class Bench:
             out: list[tuple[int, Course, Model]] = []
             for k in trials:
                 model = self._with(self.changes(k))
-                out.append((k, run(model, e.limit, trial=k, actions=e.actions, **given), model))
+                out.append((k, run_trial(model, e.limit, trial=k, actions=e.actions, **given), model))
             return out
         own = [self.changes(k) for k in trials]
         model = self._with({path: value for path, value in own[0].items() if path not in self.swept})

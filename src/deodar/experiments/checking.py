@@ -15,7 +15,7 @@ from deodar.experiments.view import PLACE, View, mask
 from deodar.model import edit, find
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.runtime.exchange import used
 from deodar.runtime.run import require_step, whole
 from deodar.worlds._base import World
@@ -125,7 +125,7 @@ def _view(view: View, model: Model, world: World | None) -> None:
     if view.reduce == PLACE and not axes:
         raise ParameterError(f"{view.of} is one number, which stands nowhere", fix="Take reduce='max'")
     sigmoid = getattr(entry.element, "sigmoid", None)
-    if view.reduce == PLACE and port == "output" and isinstance(sigmoid, Sigmoid) and float(sigmoid(np.array(-1.0))) > view.threshold:
+    if view.reduce == PLACE and port == "output" and isinstance(sigmoid, SigmoidFunction) and float(sigmoid(np.array(-1.0))) > view.threshold:
         # the smooth foot of a sigmoid would make the whole field one peak, whose centroid is drawn to the middle of the axis
         what = f"{entry.path}.output is above {view.threshold:g} everywhere, so the whole field would count as one peak"
         raise ParameterError(what, fix=f"Measure {entry.path}.activation, or give threshold=0.5")

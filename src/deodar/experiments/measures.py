@@ -18,7 +18,7 @@ class Measure(Part):
         name: what rows call it.
         of: path of a port, or name of a sensor of the world.
         reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units, interpolated between samples
-            as `analysis.peaks` does. A trial without a peak has no place (NaN in the table).
+            as `dd.peaks` does. A trial without a peak has no place (NaN in the table).
         when: the event at whose time it is taken; empty: when the trial ends.
         near: only samples around this place, in axis units, one number or one for each axis; none: all.
         radius: how far around that place, along every axis.

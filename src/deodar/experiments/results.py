@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import renamed
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, RecordError
 from deodar.experiments import parcel
@@ -60,7 +61,7 @@ def _carry(bench: Bench, out: Path, workers: int | None, progress: Callable[[Sta
     carry_out(list(_jobs(bench, workers, records)), rows, progress, workers)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
-    files.save(data, out / DATASET, force=True)
+    files.save_record(data, out / DATASET, force=True)
     return data
 
 
@@ -113,7 +114,7 @@ def _plan(bench: Bench) -> dict[str, Any]:
 # ------------------------------------------------------------------------------------------------ the table
 
 
-def load(path: str | Path) -> xarray.Dataset:
+def load_results(path: str | Path) -> xarray.Dataset:
     """The table of an experiment, from its folder; of one that was stopped, the trials that are there.
 
     Raises:
@@ -194,3 +195,7 @@ def _column(values: Sequence[Any]) -> np.ndarray:
 
 def _or_nan(value: Any) -> Any:
     return np.nan if value is None else value
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Generator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from deodar import renamed
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, ParameterError, TimeError, UnknownName, did_you_mean
@@ -31,7 +33,7 @@ from deodar.runtime.unit import unit_seconds
 from deodar.worlds._base import World
 
 
-def run(
+def run_trial(
     model: Model,
     limit: float,
     world: World | None = None,
@@ -229,3 +231,7 @@ def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]
         yield
     finally:
         here.arrange(before)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -34,4 +34,4 @@ def _write(path: Path, doc: Document, names: Sequence[str], times: np.ndarray, v
         entry, port = find.port(doc, name)
         variables.append((entry, port, nodes[entry.id].axes(port), values[name]))
     path.parent.mkdir(parents=True, exist_ok=True)
-    files.save(dataset(doc, variables, times, None, {}, about), path, force=True)
+    files.save_record(dataset(doc, variables, times, None, {}, about), path, force=True)

@@ -24,7 +24,7 @@ def claim(path: Path, force: bool = False) -> str:
     return format
 
 
-def save(figure: Figure, path: Path, force: bool = False, dots: float = _style.DOTS) -> None:
+def save_figure(figure: Figure, path: Path, force: bool = False, dots: float = _style.DOTS) -> None:
     """Write a figure, with `dots` an inch; the same figure gives the same bytes."""
     format = claim(path, force)
     about: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[format]

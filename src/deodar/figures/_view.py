@@ -41,7 +41,7 @@ class View:
     def __post_init__(self) -> None:
         v = self.variable
         if not isinstance(v, xarray.DataArray):
-            raise RecordError(f"a variable of a record is drawn, not {type(v).__name__}", fix="For example draw(data['u.activation'])")
+            raise RecordError(f"a variable of a record is drawn, not {type(v).__name__}", fix="For example dd.space_time(data['u.activation'])")
         if v.dtype.kind not in "biuf":
             raise RecordError(f"holds {v.dtype}, which cannot be drawn", where=self.name)
         if not v.size:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 from matplotlib.patches import Circle, Rectangle
 
+from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _style
 from deodar.figures._view import View
@@ -29,13 +30,13 @@ FINER = 3
 """Pixels drawn for one shown, along each side, so that edges look smooth."""
 
 
-def draw(variable: xarray.DataArray, arena: World | None = None, **view: Any) -> Figure:
+def path_figure(variable: xarray.DataArray, arena: World | None = None, **view: Any) -> Figure:
     """A figure of paths: x across, y upwards, one line for each trial and each point of a sweep.
 
     Args:
         variable: what a sensor `place` or `pose` showed, over time: x and y, or x, y and heading.
         arena: the arena it was recorded in, to draw what stands there now; none: the path alone.
-        view: see `deodar.figures._view.View`: trial, where.
+        view: see `dd.figures.View`: trial, where.
     """
     looked = View(variable, **view)
     with _style.style():
@@ -59,7 +60,7 @@ def fill(place: FigureBase, view: View) -> None:
     _paint(place.subplots(), view, None)
 
 
-def animate(
+def animate_path(
     variable: xarray.DataArray,
     file: str | Path,
     arena: World,
@@ -79,7 +80,7 @@ def animate(
         every: records between two frames.
         speed: time of the record over time of the film.
         force: whether a file of that name is replaced.
-        view: see `deodar.figures._view.View`: trial, where.
+        view: see `dd.figures.View`: trial, where.
     """
     from PIL import Image, ImageDraw
 
@@ -192,3 +193,7 @@ def _borders(arena: Arena) -> tuple[float, float, float, float]:
 def _rgb(colour: Sequence[float]) -> tuple[int, int, int]:
     r, g, b = (round(255 * c) for c in colour)
     return r, g, b
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

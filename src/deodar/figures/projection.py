@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._view import View
@@ -17,14 +18,14 @@ from deodar.figures._view import View
 ACROSS = False
 
 
-def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+def projection(variable: xarray.DataArray, **view: Any) -> Figure:
     """A figure of a field of two or more dimensions at one time, projected onto axes.
 
     Without `axes`, every pair of axes gets a panel.
 
     Args:
         variable: a variable of a record.
-        view: see `deodar.figures._view.View`: at, trial, where, axes, reduce.
+        view: see `dd.figures.View`: at, trial, where, axes, reduce.
     """
     return _draw.alone(size, fill, variable, view)
 
@@ -103,3 +104,7 @@ def _label(view: View, pairs: list[tuple[str, ...]]) -> str:
 def _grid(n: int) -> tuple[int, int]:
     columns = min(n, 3)
     return -(-n // columns), columns
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._view import TIME, TRIAL, View
@@ -16,14 +17,14 @@ from deodar.figures._view import TIME, TRIAL, View
 ACROSS = False
 
 
-def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+def snapshot(variable: xarray.DataArray, **view: Any) -> Figure:
     """A figure of one variable at one time, by default the last.
 
     A value of a node is drawn over the swept parameter or the trials, a field of one dimension as a curve, of two as a map.
 
     Args:
         variable: a variable of a record, of up to two dimensions.
-        view: see `deodar.figures._view.View`: at, trial, where.
+        view: see `dd.figures.View`: at, trial, where.
     """
     return _draw.alone(size, fill, variable, view)
 
@@ -105,3 +106,7 @@ def _title(ax: Axes, text: str) -> None:
     """One short line above: what the axes cannot say."""
     if text:
         ax.set_title(", ".join(t for t in (ax.get_title(), text) if t))
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

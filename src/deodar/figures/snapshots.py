@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 from matplotlib.figure import Figure, FigureBase
 
+from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._view import View
@@ -20,12 +21,12 @@ MOST_ASKED = 24
 ROW = 6
 
 
-def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+def snapshots(variable: xarray.DataArray, **view: Any) -> Figure:
     """A figure of a field of one or two dimensions at several times, by default four from the first record to the last.
 
     Args:
         variable: a variable of a record.
-        view: see `deodar.figures._view.View`: at, trial, where.
+        view: see `dd.figures.View`: at, trial, where.
     """
     return _draw.alone(size, fill, variable, view)
 
@@ -83,3 +84,7 @@ def _steps(view: View) -> list[int]:
 def _grid(n: int) -> tuple[int, int]:
     rows = -(-n // ROW)
     return rows, -(-n // rows)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _style
 from deodar.figures._view import TIME, View
@@ -16,12 +17,12 @@ from deodar.figures._view import TIME, View
 ACROSS = True
 
 
-def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+def space_time(variable: xarray.DataArray, **view: Any) -> Figure:
     """A figure of a field of one dimension: time across, the dimension upwards, the value as colour.
 
     Args:
         variable: a variable of a record.
-        view: see `deodar.figures._view.View`: trial, where.
+        view: see `dd.figures.View`: trial, where.
     """
     return _draw.alone(size, fill, variable, view)
 
@@ -60,3 +61,7 @@ def paint(ax: Axes, view: View) -> None:
     if view.note():
         ax.set_title(view.note())
     _color.bar(ax.figure, colors, ax, view.label(), view.threshold)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _draw, _lines, _style
 from deodar.figures._view import TIME, View
@@ -17,12 +18,12 @@ ACROSS = True
 PLACE = "place"
 
 
-def draw(variable: xarray.DataArray, **view: Any) -> Figure:
+def time_course(variable: xarray.DataArray, **view: Any) -> Figure:
     """A figure of one variable over time; several trials are thin lines with their mean, sweep points are colours.
 
     Args:
         variable: a variable of a record.
-        view: see `deodar.figures._view.View`: trial, where, places.
+        view: see `dd.figures.View`: trial, where, places.
     """
     return _draw.alone(size, fill, variable, view)
 
@@ -78,3 +79,7 @@ def _nearest(view: View, place: np.ndarray) -> tuple[int, ...]:
         if not low <= p <= high:
             raise RecordError(f"{p:g} lies outside {d}, which goes from {low:g} to {high:g}", where=view.name)
     return tuple(int(np.abs(view.points(d) - p).argmin()) for d, p in zip(view.space, place, strict=True))
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

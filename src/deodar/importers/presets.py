@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from deodar import renamed
 from deodar.errors import DeodarError
 from deodar.importers.opening import load, tool_of
 from deodar.importers.report import Line, Report
@@ -23,7 +24,7 @@ ENDS = "boundary"
 """Nor what lies beyond the ends: whether the axes themselves wrap is read from a whole file, and a preset may be a part of one."""
 
 
-def apply(model: Model, path: str | Path, bugs: bool = False) -> Report:
+def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> Report:
     """Give the elements of a model the values that elements of the same label and class have in a file; connections stay.
 
     The change is one step of the model's history. A session takes it over by `model.document`.
@@ -119,3 +120,7 @@ def _leaves(old: Any, new: Any, path: str) -> list[tuple[str, Any]]:
             for leaf in _leaves(getattr(old, p.name), getattr(new, p.name), f"{path}.{p.name}")
         ]
     return [(path, new)]
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

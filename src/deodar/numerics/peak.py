@@ -16,7 +16,7 @@ UNDIRECTED = 1e-9
 
 
 def position(values: Any, axes: Axes, threshold: float, inside: np.ndarray | None = None) -> tuple[Any, Any]:
-    """Return the position of the highest peak, as `analysis.peaks(values, axes, threshold)[0].position` gives it.
+    """Return the position of the highest peak, as `dd.peaks(values, axes, threshold)[0].position` gives it.
 
     The peak is the connected region above the threshold that holds the largest sample; its position is the centroid, weighted by the values above
     the threshold.

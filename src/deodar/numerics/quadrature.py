@@ -34,7 +34,7 @@ from jax import Array
 from jax.lax import optimization_barrier, slice_in_dim
 
 from deodar.numerics.axes import Axes
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 
 AT_SAMPLES = tuple(c / 64 for c in (3, -12, 13, 56, 13, -12, 3))
 """v(i) from u(i - 3) to u(i + 3)."""
@@ -44,7 +44,7 @@ BESIDE = 4
 """Samples beyond the ends that the rule reads."""
 
 
-def cell_means(g: Sigmoid, u: Array, axes: Axes) -> Array:
+def cell_means(g: SigmoidFunction, u: Array, axes: Axes) -> Array:
     """The mean of g over the cell of each sample; on a node, and along axes of one sample, g itself.
 
     Beyond the end of an axis that is not periodic, u continues in a straight line.
@@ -57,7 +57,7 @@ def cell_means(g: Sigmoid, u: Array, axes: Axes) -> Array:
     return _line(g, u, axes, long[0]) if len(long) == 1 else optimization_barrier(_space(g, u, axes, long))
 
 
-def _line(g: Sigmoid, u: Array, axes: Axes, d: int) -> Array:
+def _line(g: SigmoidFunction, u: Array, axes: Axes, d: int) -> Array:
     n = u.shape[d]
     wide = optimization_barrier(_padded(u, d, BESIDE, axes[d].periodic))
     knots, middles = _weighted(wide, d, n + 2, AT_SAMPLES), _weighted(wide, d, n + 1, BETWEEN)  # from sample -1, and from -1/2
@@ -68,7 +68,7 @@ def _line(g: Sigmoid, u: Array, axes: Axes, d: int) -> Array:
     return _cut(left, d, 1, n) + _cut(right, d, 0, n)
 
 
-def _space(g: Sigmoid, u: Array, axes: Axes, long: list[int]) -> Array:
+def _space(g: SigmoidFunction, u: Array, axes: Axes, long: list[int]) -> Array:
     wide = u
     for d in long:
         wide = _padded(wide, d, 1, axes[d].periodic)

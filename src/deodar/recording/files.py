@@ -9,11 +9,12 @@ import stat
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import psutil
 import xarray
 
+from deodar import renamed
 from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
 from deodar.model import output
 from deodar.recording import places, portable, table
@@ -29,7 +30,7 @@ SHARE = 0.8
 """Share of the free memory that a record may fill when it is read."""
 
 
-def save(data: xarray.Dataset, path: str | Path, format: str | None = None, force: bool = False) -> Path:
+def save_record(data: xarray.Dataset, path: str | Path, format: str | None = None, force: bool = False) -> Path:
     """Write a record.
 
     Args:
@@ -46,7 +47,9 @@ def save(data: xarray.Dataset, path: str | Path, format: str | None = None, forc
     path = Path(path)
     kind = format_of(path, format)
     if not isinstance(data, xarray.Dataset):
-        raise RecordError(f"a record is an xarray.Dataset, not {type(data).__name__}", fix="A single variable: save(data[['u.activation']], path)")
+        raise RecordError(
+            f"a record is an xarray.Dataset, not {type(data).__name__}", fix="A single variable: dd.save_record(data[['u.activation']], path)"
+        )
     claim(path, kind, force)
     if kind == "csv":
         output.write(path, lambda beside: table.write(data, beside))
@@ -84,7 +87,7 @@ def claim(path: Path, format: str, force: bool = False) -> None:
     places.claim_folder(path, force)
 
 
-def load(path: str | Path) -> xarray.Dataset:
+def load_record(path: str | Path) -> xarray.Dataset:
     """Read a record: a Zarr folder, a NetCDF file, or a folder that `deodar run` wrote.
 
     Raises:
@@ -190,3 +193,7 @@ def _read(path: Path, kind: str) -> xarray.Dataset:
         if need > SHARE * free:
             raise TooLarge(f"needs {need / 2**30:,.1f} GiB of memory and {free / 2**30:,.1f} GiB are free")
         return data.load()
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -42,12 +42,12 @@ def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: b
     name = record_name(format)
 
     def fill(inner: Path) -> None:
-        files.save(data, inner / name, format)
+        files.save_record(data, inner / name, format)
         documents.save(doc, inner / MODEL)
 
     if os.path.lexists(path):
         claim(path, format, force)
-        files.save(data, path / name, format, force)
+        files.save_record(data, path / name, format, force)
         documents.save(doc, path / MODEL, force)
         _drop_others(path, format)
     else:

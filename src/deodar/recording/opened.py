@@ -16,7 +16,7 @@ from deodar.worlds.recording import Recording
 def opened(kind: type[World], argument: str) -> World:
     """A world of a kind, from what stands after the colon of `--world KIND:ARGUMENT`."""
     if issubclass(kind, Recording):
-        return kind(files.load(Path(argument)), argument)
+        return kind(files.load_record(Path(argument)), argument)
     return kind.open(argument)
 
 

@@ -198,7 +198,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
         WorldError: there is no world, or it lacks one of them, or has it over other axes; or two elements drive one motor.
     """
     if world is not None and not isinstance(world, World):
-        raise WorldError(f"{show(world)} is no world", fix="For a picture: world=Picture('photo.jpg') from deodar.worlds.picture")
+        raise WorldError(f"{show(world)} is no world", fix="For a picture: world=dd.Picture('photo.jpg')")
     sensors: dict[str, Sensor] = {}
     motors: dict[str, Motor] = {}
     driven: dict[str, str] = {}
@@ -208,7 +208,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
                 raise WorldError(
                     f"reads the sensor {e.element.sensor!r}, and no world was given that provides it",
                     where=e.path,
-                    fix="Give one: world=Picture('photo.jpg') from deodar.worlds.picture, on the command line --world picture:photo.jpg",
+                    fix="Give one: world=dd.Picture('photo.jpg'), on the command line --world picture:photo.jpg",
                 )
             world.require(e.element.sensor)
             _fit(e.path, e.element.sensor, world.sensors, tuple(e.element.axes))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.analysis.paths import clearance, length
-from deodar.analysis.shortest import shortest
+from deodar.analysis.paths import clearance, path_length
+from deodar.analysis.shortest import shortest_path
 from deodar.architectures.spa import place
 from deodar.papers.spa import cases, pairs, trials
 from deodar.worlds.arena import Arena
@@ -45,7 +45,7 @@ def test_pairs_keep_their_distance_and_can_be_reached(maze):
     on = pairs.reference(maze)
     assert starts.shape == (100, 3) and goals.shape == (100, 2) and (starts[:, 2] == pairs.HEADINGS[maze]).all()
     for k in range(0, 100, 9):
-        path = shortest(on, starts[k, :2], goals[k])
+        path = shortest_path(on, starts[k, :2], goals[k])
         # the published pairs come within 1 cm of the rule
         assert path is not None and np.linalg.norm(path[0] - starts[k, :2]) < 1.5 and np.linalg.norm(path[-1] - goals[k]) < 1.5
     if maze == "large":
@@ -63,8 +63,8 @@ def test_the_published_pairs_are_those_of_the_lists():
 
 
 def test_the_reference_of_case_3_is_the_north_route():
-    path = shortest(pairs.reference("z"), place(50, 60), place(40, 40))
-    assert length(path) == pytest.approx(102.7, abs=2) and place(0, 0)[1] - path[:, 1].max() < 30
+    path = shortest_path(pairs.reference("z"), place(50, 60), place(40, 40))
+    assert path_length(path) == pytest.approx(102.7, abs=2) and place(0, 0)[1] - path[:, 1].max() < 30
 
 
 def test_every_condition_has_a_world_for_all_its_trials():

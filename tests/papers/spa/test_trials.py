@@ -8,7 +8,7 @@ import json
 import numpy as np
 import pytest
 
-from deodar.analysis.paths import length
+from deodar.analysis.paths import path_length
 from deodar.papers.spa import cases, trials
 from deodar.papers.spa.runs import Runs
 
@@ -25,7 +25,7 @@ def test_the_carrot_drives_to_its_goals(four):
     assert [r["key"] for r in rows] == ["z/carrot/low/000", "z/carrot/low/002", "z/carrot/low/003", "z/carrot/low/004"]
     for r in rows:
         assert r["success"] and 0.95 < r["divergence"] < 3 and r["steps"] >= r["arrival"] + trials.STAY - 1
-        assert r["length"] == pytest.approx(length(r["path"]), rel=0.03) and r["clearance"] >= 3.69
+        assert r["length"] == pytest.approx(path_length(r["path"]), rel=0.03) and r["clearance"] >= 3.69
     assert json.loads(json.dumps(rows, allow_nan=False)) == rows
     assert Runs({r["key"]: r for r in rows}, True).divergences("z/carrot/low").shape == (4,)
     assert trials.carrot("z/carrot/low", True) == rows

@@ -14,7 +14,7 @@ POINTS = 5
 
 
 @dataclass(frozen=True)
-class Sigmoid(Part):
+class SigmoidFunction(Part):
     """g(u), applied cell by cell."""
 
     def __call__(self, u: Any) -> Any:

@@ -8,14 +8,14 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from deodar.numerics.intervals import Interval
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
 
 
 @register
 @dataclass(frozen=True)
-class Absolute(Sigmoid):
+class Absolute(SigmoidFunction):
     r"""A sigmoid without an exponential; it approaches 0 and 1 slowly, so that a field at rest leaves some output.
 
     Equation:

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from deodar.numerics.intervals import Interval, times
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
 
 
 @register
 @dataclass(frozen=True)
-class Linear(Sigmoid):
+class Linear(SigmoidFunction):
     r"""Output proportional to activation, for linear stages of an architecture.
 
     Equation:

@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 
 from deodar.numerics.intervals import Interval
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
 
@@ -23,7 +23,7 @@ _NEAR, _NEAR_DOUBLE = 0.01, 1e-5
 
 @register
 @dataclass(frozen=True)
-class Logistic(Sigmoid):
+class Logistic(SigmoidFunction):
     r"""Smooth step between 0 and 1, the usual output function of a field.
 
     Equation:

@@ -8,14 +8,14 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from deodar.numerics.intervals import Interval, times
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
 
 
 @register
 @dataclass(frozen=True)
-class SemiLinear(Sigmoid):
+class SemiLinear(SigmoidFunction):
     r"""Silent below the threshold, proportional above it.
 
     Equation:

@@ -8,14 +8,14 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from deodar.numerics.intervals import Interval
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
 
 
 @register
 @dataclass(frozen=True)
-class Step(Sigmoid):
+class Step(SigmoidFunction):
     r"""All or nothing: the output function of Amari's analysis.
 
     Equation:

@@ -7,7 +7,7 @@ from importlib import resources
 
 import numpy as np
 
-from deodar.analysis.shortest import Grid, grid
+from deodar.analysis.shortest import Grid, arena_grid
 from deodar.architectures.spa import maze, place
 
 HEADINGS = {"z": 0.0, "large": 4.983}
@@ -27,7 +27,7 @@ def reference(name: str) -> Grid:
     """The grid of the reference paths of a maze: cells of 1 cm, a clearance of 4 cm, things that come and go left out."""
     arena = maze(name, "none")
     boxes = np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale
-    return grid(boxes, [v / arena.scale for v in arena.layout.border], 1.0, LEAST_CLEARANCE)
+    return arena_grid(boxes, [v / arena.scale for v in arena.layout.border], 1.0, LEAST_CLEARANCE)
 
 
 @functools.lru_cache(maxsize=2)

@@ -9,8 +9,9 @@ import numpy as np
 
 from deodar.analysis import statistics
 from deodar.analysis.claims import Claim, Kind, Origin
-from deodar.analysis.statistics import Interval, rounded
+from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
+from deodar.numerics.intervals import Interval
 from deodar.papers.spa.runs import SOURCE, count
 
 START = "the start of case 3, which the paper does not print"

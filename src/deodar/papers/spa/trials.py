@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.analysis.paths import clearance, divergence, length
-from deodar.analysis.shortest import shortest
+from deodar.analysis.paths import clearance, path_divergence, path_length
+from deodar.analysis.shortest import shortest_path
 from deodar.architectures.follow_the_carrot import follow
 from deodar.architectures.spa import CASE_3, DIRECTIONS, place, spa
 from deodar.experiments.actions import Move
@@ -17,7 +17,7 @@ from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Leaves, Within
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.experiments.run import run
+from deodar.experiments.run import run_trial
 from deodar.model.model import Model
 from deodar.papers.spa import cases
 from deodar.papers.spa.cases import LIMIT, RADIUS, STAY, Condition
@@ -66,7 +66,7 @@ def carrot(name: str, quick: bool) -> Sequence[Row]:
     """The rows of a condition in which the carrot is followed, run as one batch."""
     c = cases.conditions(quick)[name]
     arena, (starts, goals), on = cases.world(c), pairs(c.maze), reference(c.maze)
-    paths = [shortest(on, starts[k, :2], goals[k]) for k in c.trials]
+    paths = [shortest_path(on, starts[k, :2], goals[k]) for k in c.trials]
     done = follow(arena, [p for p in paths if p is not None], c.trials, c.carrot, LIMIT, 0, RADIUS, STAY)
     out: list[Row] = []
     for i, k in enumerate(c.trials):
@@ -86,11 +86,11 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
     moves = c.name.startswith("moved")
     if moves:  # by hand, so beside the step
         actions = [Move(cases.MOVES, "goal", place(*cases.GOES))]
-        course = run(model, LIMIT, arena, trial=trial, watch=watch, events=events, actions=actions)
+        course = run_trial(model, LIMIT, arena, trial=trial, watch=watch, events=events, actions=actions)
     else:
         [course] = run_batch(model, LIMIT, [trial], [*watch, *motivated.values()], events, world=arena)
     start, goal = (place(*CASE_3[0]), place(*CASE_3[1])) if not c.many_starts else (pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial])
-    best = None if moves else shortest(reference(c.maze), start, goal)
+    best = None if moves else shortest_path(reference(c.maze), start, goal)
     row = _row(c, trial, course.values[POSE], course.values[TOUCHING] > 0, place(*cases.GOES) if moves else goal, best, arena)
     intentions = np.stack([course.values[path] for path in STRONGEST.values()], axis=1)
     moved = course.events["moved"]
@@ -127,9 +127,9 @@ def _row(c: Condition, trial: int, pose: np.ndarray, touching: np.ndarray, goal:
         "success": bool(near[-1]),
         "steps": len(line) - 1,
         "arrival": _first(near),
-        "length": round(length(line), 3),
-        "shortest": None if best is None else round(length(best), 3),
-        "divergence": None if best is None else _rounded(divergence(line, best, aim, RADIUS)),
+        "length": round(path_length(line), 3),
+        "shortest": None if best is None else round(path_length(best), 3),
+        "divergence": None if best is None else _rounded(path_divergence(line, best, aim, RADIUS)),
         "touching": int(touching.sum()),
         "touches_at_end": bool(touching[-50:].any()),
         "clearance": round(float(clearance(line, boxes, border).mean()), 3),

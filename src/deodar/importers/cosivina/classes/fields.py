@@ -47,7 +47,7 @@ def single_node(b: Bench) -> Piece:
     """SingleNodeDynamics, without the samples of its phase plot."""
     for name in ("range", "resolution"):
         if name in b.element.values:
-            b.values.say(name, "carried", "of the phase plot only: deodar.analysis.phase takes its own")
+            b.values.say(name, "carried", "of the phase plot only: dd.phase takes its own")
     node = RateNode(
         b.label,
         tau=_tau(b, "tau", 10),
@@ -58,7 +58,7 @@ def single_node(b: Bench) -> Piece:
     )
     ports = {"output": "output", "activation": "activation", "rateOfChange": "rate"}
     elsewhere = {"h": _level(b), "input": f"read {display((b.label, 'input'))}"}
-    elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: deodar.analysis.phase computes it")
+    elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: dd.phase computes it")
     outlets = {c: Outlet(b.label, (None, None), port, state=True) for c, port in ports.items()}
     return Piece([node], [[Inlet(b.label, (None, None))]], outlets, elsewhere=elsewhere, sums=True, why="RateNode")
 

@@ -1,0 +1,62 @@
+"""Public names that have changed: the table old -> new, and the errors that old names raise.
+
+CHANGELOG.md holds the same table; a test compares the two. The flat names are written `dd.NAME`, others with their full path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from deodar.errors import did_you_mean
+
+RENAMED = {
+    "deodar.analysis.paths.divergence": "dd.path_divergence",
+    "deodar.analysis.paths.length": "dd.path_length",
+    "deodar.analysis.paths.until": "dd.path_until",
+    "deodar.analysis.shortest.grid": "dd.arena_grid",
+    "deodar.analysis.shortest.shortest": "dd.shortest_path",
+    "deodar.architectures.cascade.recorded": "dd.architectures.cascade_paths",
+    "deodar.architectures.serial_order.end": "dd.architectures.lesson_end",
+    "deodar.architectures.serial_order.production": "dd.architectures.production_start",
+    "deodar.experiments.results.load": "dd.load_results",
+    "deodar.experiments.run.run": "dd.run_trial",
+    "deodar.figures.path.animate": "dd.animate_path",
+    "deodar.figures.path.draw": "dd.path_figure",
+    "deodar.figures.projection.draw": "dd.projection",
+    "deodar.figures.snapshot.draw": "dd.snapshot",
+    "deodar.figures.snapshots.draw": "dd.snapshots",
+    "deodar.figures.space_time.draw": "dd.space_time",
+    "deodar.figures.time_course.draw": "dd.time_course",
+    "deodar.importers.presets.apply": "dd.apply_preset",
+    "deodar.recording.files.load": "dd.load_record",
+    "deodar.recording.files.save": "dd.save_record",
+}
+"""What each old name is called now."""
+
+
+def fix(old: str) -> str:
+    """Return what to write instead of an old name, as the `fix` of an error; "" for a name that was never public."""
+    return f"{old} is now {RENAMED[old]}" if old in RENAMED else ""
+
+
+def missing(module: str, name: str, known: Iterable[str] = ()) -> AttributeError:
+    """Make the error for a name that a module does not have: the new name of a renamed one, else the nearest known name."""
+    hint = fix(f"dd.{name}" if module == "deodar" else f"{module}.{name}") or ("" if name.startswith("_") else did_you_mean(name, known))
+    text = f"module {module!r} has no attribute {name!r}"
+    return AttributeError(f"{text}. {hint}" if hint else text, name=name, obj=None)
+
+
+def left(module: str) -> Callable[[str], Any]:
+    """Make the `__getattr__` of a module that public names have left.
+
+    An old name raises ImportError, because `from MODULE import NAME` replaces the message of an AttributeError by its own.
+    """
+
+    def __getattr__(name: str) -> Any:
+        old = f"{module}.{name}"
+        if old in RENAMED:
+            raise ImportError(fix(old), name=module)
+        raise missing(module, name)
+
+    return __getattr__
