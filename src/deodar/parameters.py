@@ -25,6 +25,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from deodar import renamed
 from deodar.declarations import TIME_ROLES, Cost, Declaration, Needed, Recompile, Role
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
@@ -107,7 +108,8 @@ class Part:
         known = [p.name for p in parameters(cls)]
         for name in kwargs:
             if name not in known:
-                raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, known))
+                hint = renamed.fix(f"dd.{cls.__name__}({name}=...)") or did_you_mean(name, known)
+                raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=hint)
         if len(args) > len(positional(cls)):
             raise ParameterError(
                 f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",

@@ -11,6 +11,8 @@ from typing import Any
 from deodar.errors import did_you_mean
 
 RENAMED = {
+    "dd.Model.change": "dd.Model.set",
+    "dd.MovingGaussian(path=...)": "dd.MovingGaussian(waypoints=...)",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",
     "deodar.analysis.paths.until": "dd.path_until",
@@ -45,6 +47,14 @@ def missing(module: str, name: str, known: Iterable[str] = ()) -> AttributeError
     hint = fix(f"dd.{name}" if module == "deodar" else f"{module}.{name}") or ("" if name.startswith("_") else did_you_mean(name, known))
     text = f"module {module!r} has no attribute {name!r}"
     return AttributeError(f"{text}. {hint}" if hint else text, name=name, obj=None)
+
+
+def no_member(obj: object, name: str) -> AttributeError:
+    """Make the error for an attribute that an object of a public class does not have; Python itself suggests the nearest one."""
+    kind = type(obj).__name__
+    text = f"{kind!r} object has no attribute {name!r}"
+    hint = fix(f"dd.{kind}.{name}")
+    return AttributeError(f"{text}. {hint}", name=name, obj=None) if hint else AttributeError(text, name=name, obj=obj)
 
 
 def left(module: str) -> Callable[[str], Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -94,12 +95,34 @@ def test_a_renamed_name_of_the_root_says_the_new_one(monkeypatch: pytest.MonkeyP
         deodar.Feild  # noqa: B018
 
 
-@pytest.mark.parametrize("old", [name for name in renamed.RENAMED if name.startswith("deodar.")])
-def test_the_old_name_of_a_module_says_the_new_one(old: str) -> None:
-    module, _, name = old.rpartition(".")
-    with pytest.raises(ImportError) as caught:
-        exec(f"from {module} import {name}", {})
-    assert str(caught.value) == f"{old} is now {renamed.RENAMED[old]}"
+CALLS: dict[str, Callable[[], object]] = {}
+"""For each old name that is an argument with a certain value, or a call that needs more than its name: the call that raises."""
+
+
+def _use(old: str) -> object:
+    """Use an old name as a script does: import it from its module, or read it, call it or look it up in an instance."""
+    if old in CALLS:
+        return CALLS[old]()
+    if not old.startswith("dd."):
+        module, _, name = old.rpartition(".")
+        return exec(f"from {module} import {name}", {})
+    name, call, argument = old.removeprefix("dd.").partition("(")
+    owner, _, member = name.partition(".")
+    if call:
+        return getattr(deodar, owner)(**{argument.removesuffix("=...)"): None})
+    return getattr(object.__new__(getattr(deodar, owner)), member) if member else getattr(deodar, owner)
+
+
+@pytest.mark.parametrize("old", sorted(renamed.RENAMED))
+def test_every_old_name_raises_an_error_that_states_the_new_one(old: str) -> None:
+    with pytest.raises((ImportError, AttributeError, deodar.errors.DeodarError)) as caught:
+        _use(old)
+    assert str(caught.value).endswith(f"{old} is now {renamed.RENAMED[old]}")
+
+
+def test_an_unknown_attribute_of_a_model_raises_an_error_of_python() -> None:
+    with pytest.raises(AttributeError, match=r"^'Model' object has no attribute 'chnge'$"):
+        deodar.Model("m").chnge  # noqa: B018
 
 
 def test_a_module_that_names_have_left_says_what_else_it_lacks() -> None:

@@ -8,8 +8,9 @@ import html
 import sys
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from deodar import renamed
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
 from deodar.leaves import get
@@ -42,6 +43,11 @@ class Model:
         self._doubted: int | None = None
         self.declared: dict[str, str] = {}
         self.programs: dict[Hashable, Any] = {}
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise renamed.no_member(self, name)
 
     def __copy__(self) -> Model:
         """An independent model with the same document, history and trust, without compiled programs."""
