@@ -176,3 +176,21 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
         return ""
     shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
     return f"There is: {shown}"
+
+
+def show(value: Any) -> str:
+    """A value as messages show it: in one short line, whatever it is."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    try:
+        text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
+    except Exception as error:  # a number of thousands of digits, an object whose repr is broken
+        text = f"{type(value).__name__} ({error})"
+    if " at 0x" in text:
+        text = f"{an(type(value).__name__)}"
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def an(name: str) -> str:
+    """A name with its article: an Axis, a Kernel."""
+    return f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}"

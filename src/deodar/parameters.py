@@ -30,6 +30,9 @@ from deodar.declarations import TIME_ROLES, Cost, Declaration, Needed, Recompile
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
+from deodar.errors import an as an
+from deodar.errors import show as show
+from deodar.part_type import PartType
 
 PerAxis = float | Sequence[float]
 """One number for all axes, or one for each."""
@@ -101,7 +104,7 @@ class Parameter:
         return self.form == "array" or (self.cost != "recompile" and self.form in ("number", "per_axis", "numbers"))
 
 
-class Part:
+class Part(metaclass=PartType):
     """Base of everything that is declared: a frozen dataclass whose annotations are read by `parameters`."""
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Part:
@@ -150,6 +153,13 @@ class Part:
     def example(cls) -> Part:
         """An instance that works on its own: what the tests, the manual and a palette start from."""
         return cls()
+
+    @classmethod
+    def __declared__(cls) -> tuple[Parameter, ...]:
+        return parameters(cls)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*dir(type(self)), *(p.name for p in parameters(type(self)))})
 
 
 def _call(cls: type[Any], last: Parameter) -> str:
@@ -379,21 +389,3 @@ def _items(value: Any) -> list[Any]:
     if isinstance(value, (str, bytes)) or not isinstance(value, collections.abc.Iterable):
         raise ValueError(f"needs a list, not {show(value)}")
     return list(typing.cast(Any, value))
-
-
-def show(value: Any) -> str:
-    """A value as messages show it: in one short line, whatever it is."""
-    if isinstance(value, type):
-        return f"the class {value.__name__}"
-    try:
-        text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
-    except Exception as error:  # a number of thousands of digits, an object whose repr is broken
-        text = f"{type(value).__name__} ({error})"
-    if " at 0x" in text:
-        text = f"{an(type(value).__name__)}"
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-def an(name: str) -> str:
-    """A name with its article: an Axis, a Kernel."""
-    return f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}"

@@ -12,6 +12,7 @@ import pytest
 from deodar import registry
 from deodar.element import Coupling, Element
 from deodar.parameters import Part, parameters
+from deodar.part_type import source_doc
 
 KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
 ELEMENTS = {name: cls for name, cls in KINDS.items() if issubclass(cls, Element)}
@@ -38,7 +39,7 @@ def sections(cls: type[Any]) -> dict[str, str]:
     """The sections of a docstring by title; what stands before the first is under ""."""
     out: dict[str, list[str]] = {"": []}
     title = ""
-    for line in (inspect.cleandoc(cls.__doc__ or "")).splitlines():
+    for line in source_doc(cls).splitlines():
         found = SECTION.match(line)
         if found:
             title = found[1]

@@ -16,7 +16,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "errors",
-        "registry declarations renamed",
+        "registry declarations renamed part_type",
         "parameters",
         "leaves",
         "numerics",

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import inspect
 import json
 from collections.abc import Iterator
+
+from deodar.part_type import source_doc
 
 HELP = "list elements, couplings, kernels, sigmoids and worlds, or show one of them with its equation and parameters"
 
@@ -26,11 +27,11 @@ def run(args: argparse.Namespace) -> int:
     if args.kind:
         cls = registry.kind(args.kind)
         if args.json:
-            found = schema(cls, reference) if issubclass(cls, Part) else {"title": cls.__name__, "description": inspect.getdoc(cls)}
+            found = schema(cls, reference) if issubclass(cls, Part) else {"title": cls.__name__, "description": source_doc(cls)}
             print(json.dumps(found, indent=2, ensure_ascii=False))
         else:
             where = f"dd.{cls.__name__}" if cls.__module__.startswith("deodar.") else cls.__module__
-            print(f"{cls.__name__}  ({where})\n\n{inspect.getdoc(cls)}")
+            print(f"{cls.__name__}  ({where})\n\n{source_doc(cls)}")
             values = list(_values(cls)) if issubclass(cls, Part) else []
             if values:
                 print("\n".join(["", "Values:", *values]))
@@ -61,4 +62,4 @@ def _values(cls: type) -> Iterator[str]:
 
 
 def _line(cls: type) -> str:
-    return (inspect.getdoc(cls) or "").splitlines()[0]
+    return (source_doc(cls) or cls.__name__).splitlines()[0]

@@ -8,6 +8,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from deodar.part_type import source_doc
+
 _SECTION = re.compile(r"([A-Z][a-z]+):[ ]*(.*)")
 _ENTRY = re.compile(r"([\w.*]+): (.*)")
 
@@ -31,7 +33,7 @@ class Docstring:
 
 def docstring(cls: type[Any]) -> Docstring:
     """A class's own docstring, read."""
-    found = _sections(cls.__dict__.get("__doc__") or "")
+    found = _sections(source_doc(cls))
     reference = " ".join(found.get("Reference", "").split())
     return Docstring(
         equation=_lines(found.get("Equation", "")),
