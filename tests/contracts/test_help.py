@@ -35,7 +35,9 @@ def shown(cls: type[Any]) -> str:
 
 def test_a_signature_is_written_as_one_types_it() -> None:
     text = str(inspect.signature(dd.Field))
-    assert text.startswith("(name: str = '', axes: Sequence[Axis] = (), tau: float = 20.0, resting_level: float = -5.0, sigmoid: Sigmoid = Logistic(")
+    assert text.startswith(
+        "(name: str = '', axes: Sequence[Axis] = (), tau: float = 20.0, resting_level: float = -5.0, sigmoid: SigmoidFunction = Logistic("
+    )
     assert "kernel: Sequence[Kernel] = ()" in text and "noise_length: float | Sequence[float] = 0.0" in text
     assert str(inspect.signature(registry.kind("Pattern"))).startswith("(name: str = '', axes: Sequence[Axis] = required")
     assert str(inspect.signature(dd.Gain)).endswith("*, name: str = '')")

@@ -128,6 +128,15 @@ def test_parts_are_assigned(model: dd.Model, u: Handle) -> None:
     assert model.get("g.u.kernel") == ()
 
 
+def test_a_part_is_deleted(model: dd.Model, u: Handle) -> None:
+    u.kernel = [dd.Gaussian(1, 3), dd.Gaussian(-1, 9)]
+    del u.kernel[-1]
+    assert u.kernel == [dd.Gaussian(1, 3)]
+    assert model.undo() and len(u.kernel) == 2
+    with pytest.raises(IndexError, match=r"u.kernel has 2 parts, counted from 0; there is no part 2"):
+        del u.kernel[2]
+
+
 def test_parts_of_one_element_are_given_to_another(model: dd.Model, u: Handle) -> None:
     model["v"].kernel = u.kernel
     model["v"].sigmoid = u.sigmoid

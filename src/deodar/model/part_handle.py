@@ -79,6 +79,11 @@ class PartsHandle(Reference):
     def __setitem__(self, index: int, value: Any) -> None:
         self._model.commit(edit.put(self._model.document, self._id, f"{self._leaf}.{self._place(index)}", value))
 
+    def __delitem__(self, index: int) -> None:
+        parts = list(self.__value__())
+        del parts[self._place(index)]
+        self._model.commit(edit.put(self._model.document, self._id, self._leaf, parts))
+
     def __iter__(self) -> Iterator[PartHandle]:
         return (self[k] for k in range(len(self)))
 
@@ -102,7 +107,7 @@ class PartsHandle(Reference):
         if any(name in _names(part) for part in parts):
             raise UnknownAttribute(f"{entry.path}.{self._leaf} is a list of parts; {name!r} is a parameter of one", fix=f"Write: {written}[0].{name}")
         what = f"{entry.path}.{self._leaf} is a list of parts in a model, without {name!r}"
-        raise UnknownAttribute(what, fix=f"Parts are added and taken away by another list. Write: {written} = [*{written}, part]")
+        raise UnknownAttribute(what, fix=f"Assign another list. Write: {written} = [*{written}, part]")
 
     def _place(self, index: Any) -> int:
         n = len(self)
