@@ -24,7 +24,6 @@ from typing import Any
 
 import deodar as dd
 from deodar import papers
-from deodar.papers._report import NOT_RUN, Report
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
@@ -57,11 +56,11 @@ class Evidence:
     design: Sequence[Mapping[str, Any]]
     rows: Mapping[str, Mapping[str, Any]]
 
-    def report(self) -> Report:
+    def report(self) -> papers.Report:
         """Claims, figures, tables and numbers of the rows."""
         return papers.paper(self.paper).report(self.rows, self.quick)
 
-    def results(self, report: Report) -> str:
+    def results(self, report: papers.Report) -> str:
         """The content of `results.json`."""
         return dd.analysis.claims.results(report.claims, {"paper": self.paper, "quick": self.quick, "runs": len(self.rows), "of": self.about["of"]})
 
@@ -123,7 +122,7 @@ def _unfinished(keys: Collection[str], found: Collection[str]) -> list[str]:
     return sorted({_condition(key) for key in keys if key not in found})
 
 
-def numbers(evidence: Evidence, report: Report) -> dict[str, str]:
+def numbers(evidence: Evidence, report: papers.Report) -> dict[str, str]:
     """What a page may say, by name: the numbers of the paper, and of its claims and runs."""
     required = [c for c in report.claims if c.kind == "required"]
     told = [c for c in report.claims if c.kind == "reported"]
@@ -152,7 +151,7 @@ def _missing(evidence: Evidence) -> str:
 def unrun(paper: str) -> dict[str, str]:
     """What a page may say of a paper whose runs are not kept: its settings, and in the place of every other number that nothing was run."""
     names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made", "command", "missing")
-    return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, NOT_RUN)}
+    return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, papers.NOT_RUN)}
 
 
 def _counted(what: str, claims: Sequence[dd.analysis.claims.Claim]) -> str:

@@ -95,7 +95,7 @@ def test_the_same_arguments_give_the_same_course_whatever_ran_before():
 
 
 def test_what_cannot_be_is_refused():
-    with pytest.raises(WorldError, match="placed, moved and removed in an arena, and there is no world"):
+    with pytest.raises(WorldError, match="the action Remove needs a world, and none is given"):
         run_trial(decider(), 10, actions=[Remove(3, "box")])
     with pytest.raises(ParameterError, match="name of two events"):
         run_trial(straight(), 10, room(), events=[GOAL, GOAL])
@@ -107,3 +107,65 @@ def test_what_cannot_be_is_refused():
         run_trial(straight(), 10, room(), actions=[Remove(1.5, "far")])
     with pytest.raises(TimeError, match="every is 0"):
         run_trial(straight(), 10, room(), every=0)
+
+
+class Shelf(dd.World):
+    """A world of things without places: its sensor reads how many there are."""
+
+    sensors = {"things": dd.Signal("how many things there are", shape=())}
+    period = 1.0
+
+    def __init__(self) -> None:
+        self.things = {"cup"}
+
+    def sense(self, sensor: str, axes: dd.Axes, time: float) -> np.ndarray:
+        return np.asarray(float(len(self.things)))
+
+    def place(self, name, center, size, color=(0, 0, 0)) -> None:
+        self.things.add(name)
+
+    def remove(self, name: str) -> None:
+        self.things.remove(name)
+
+    def arrangement(self) -> set[str]:
+        return set(self.things)
+
+    def arrange(self, kept: set[str]) -> None:
+        self.things = kept
+
+
+def test_actions_change_any_world_that_has_their_methods():
+    world = Shelf()
+    given = {"actions": [Place(2, "plate", (0, 0), (1, 1)), Remove(4, "cup"), Remove(6, "plate")], "watch": ["things"]}
+    for _ in range(2):  # the second trial finds what the first one found; at the time of an action the sample is taken first
+        assert run_trial(decider(), 8, world, **given).values["things"].tolist() == [1, 1, 1, 2, 2, 1, 1, 0, 0]
+    assert world.things == {"cup"}
+
+
+class Fixed(Shelf):
+    """The same without a way back."""
+
+    arrangement = dd.World.arrangement
+
+
+@pytest.mark.parametrize(
+    ("world", "action", "what"),
+    [
+        (Shelf(), Move(3, "cup", (0, 0)), "the action Move calls World.move, which the world Shelf does not have"),
+        (
+            Fixed(),
+            Remove(3, "cup"),
+            "the action Remove needs World.arrangement, to put things back after a trial, which the world Fixed does not have",
+        ),
+        (dd.Picture(np.zeros((2, 2, 3))), Remove(3, "cup"), "the action Remove calls World.remove, which the world Picture does not have"),
+    ],
+    ids=["no move", "no way back", "a picture"],
+)
+def test_an_action_refuses_a_world_without_its_method(world: dd.World, action: dd.Action, what: str):
+    with pytest.raises(WorldError, match=what):
+        run_trial(decider(), 10, world, actions=[action])
+
+
+def test_an_experiment_refuses_an_action_that_its_world_cannot_do():
+    (problem,) = dd.Experiment("none", decider(), 10, actions=[Move(3, "cup", (0, 0))], world=Shelf()).check()
+    assert (problem.where, problem.what) == ("actions.0", "the action Move calls World.move, which the world Shelf does not have")

@@ -12,7 +12,6 @@ from deodar.model import find
 from deodar.parameters import Part, PerAxis, Recompile
 from deodar.runtime.run import whole
 from deodar.worlds._base import World
-from deodar.worlds.arena import Arena
 
 AT = Recompile("time", role="moment", lower=0.0, meaning="document time at which it is done; with `when` the time after that event")
 WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own")
@@ -29,8 +28,8 @@ class Action(Part):
     at: float
     when: str
 
-    moves: ClassVar[bool] = False
-    """Whether it moves things of the world."""
+    world_method: ClassVar[str] = ""
+    """Method of the world that `apply` calls: "place", "move" or "remove"; "": none."""
 
     def paths(self) -> Iterator[str]:
         """Parameters of the model that it changes."""
@@ -53,12 +52,12 @@ def _plane(action: Any, *names: str) -> Iterator[tuple[str, str]]:
 
 @dataclass(frozen=True)
 class Place(Action):
-    """Put a thing into the arena, or another one in the place of one of that name.
+    """Put a thing into the world, or replace the one of that name.
 
     Attributes:
         at: document time from which on it stands there; with `when` the time after that event.
         thing: its name.
-        center: x and y of its middle, in the unit of the arena.
+        center: x and y of its middle, in the unit of the world.
         size: along x and y.
         color: red, green and blue, 0 to 1.
         when: the event after which it is done; empty: at a time of its own.
@@ -71,24 +70,24 @@ class Place(Action):
     color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0, meaning="red, green and blue")] = (0.72, 0.53, 0.3)
     when: Annotated[str, WHEN] = ""
 
-    moves: ClassVar[bool] = True
+    world_method: ClassVar[str] = "place"
 
     def faults(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center", "size")
 
     def apply(self, stage: Stage) -> None:
         found: Any = self
-        arena(stage.session.world).place(self.thing, found.center, found.size, found.color)
+        changed(self, stage.session.world).place(self.thing, found.center, found.size, found.color)
 
 
 @dataclass(frozen=True)
 class Move(Action):
-    """Put a thing of the arena elsewhere.
+    """Move a thing of the world.
 
     Attributes:
         at: document time at which it is done; with `when` the time after that event.
         thing: its name.
-        center: x and y of its middle, in the unit of the arena.
+        center: x and y of its middle, in the unit of the world.
         when: the event after which it is done; empty: at a time of its own.
     """
 
@@ -97,19 +96,19 @@ class Move(Action):
     center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
     when: Annotated[str, WHEN] = ""
 
-    moves: ClassVar[bool] = True
+    world_method: ClassVar[str] = "move"
 
     def faults(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center")
 
     def apply(self, stage: Stage) -> None:
         found: Any = self
-        arena(stage.session.world).move(self.thing, found.center)
+        changed(self, stage.session.world).move(self.thing, found.center)
 
 
 @dataclass(frozen=True)
 class Remove(Action):
-    """Take a thing out of the arena.
+    """Remove a thing from the world.
 
     Attributes:
         at: document time at which it is done; with `when` the time after that event.
@@ -121,10 +120,10 @@ class Remove(Action):
     thing: Annotated[str, Recompile(meaning="its name")]
     when: Annotated[str, WHEN] = ""
 
-    moves: ClassVar[bool] = True
+    world_method: ClassVar[str] = "remove"
 
     def apply(self, stage: Stage) -> None:
-        arena(stage.session.world).remove(self.thing)
+        changed(self, stage.session.world).remove(self.thing)
 
 
 @dataclass(frozen=True)
@@ -291,9 +290,10 @@ class End(Action):
 
 
 def require(actions: Sequence[Action], world: World | None) -> None:
-    """Refuse things that are placed, moved or removed where there is no arena."""
-    if any(a.moves for a in actions):
-        arena(world)
+    """Refuse actions that call a method which the world does not have."""
+    for action in actions:
+        if action.world_method:
+            changed(action, world)
 
 
 def targets(action: Action, doc: Any) -> None:
@@ -306,9 +306,20 @@ def targets(action: Action, doc: Any) -> None:
         find.element(doc, action.element)
 
 
-def arena(world: World | None) -> Arena:
-    """The world as one in which things stand, refused if it is another."""
-    if not isinstance(world, Arena):
-        what = "there is no world" if world is None else f"the world {type(world).__name__} has none"
-        raise WorldError(f"things are placed, moved and removed in an arena, and {what}", fix="Give one: world=Arena('blocks')")
+def changed(action: Action, world: World | None) -> World:
+    """The world that an action changes.
+
+    Raises:
+        WorldError: there is no world, or it does not have the method, or cannot be put back after the trial.
+    """
+    name = type(action).__name__
+    if world is None:
+        raise WorldError(f"the action {name} needs a world, and none is given", fix="Give one, such as world=dd.Arena('blocks')")
+    needs = {action.world_method: "calls World.{}", **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to put things back after a trial")}
+    for method, what in needs.items():
+        if getattr(type(world), method) is getattr(World, method):
+            kind = type(world).__name__
+            raise WorldError(
+                f"the action {name} {what.format(method)}, which the world {kind} does not have", fix="Take a world that has it, such as dd.Arena"
+            )
     return world

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did_you_mean
-from deodar.experiments.actions import Record, arena, targets
+from deodar.experiments.actions import Record, changed, targets
 from deodar.experiments.events import Reached
 from deodar.experiments.tally import require
 from deodar.experiments.view import PLACE, View, mask
@@ -54,8 +54,8 @@ def check(experiment: Experiment, model: Model, world: World | None) -> None:
     names = [c.name for c in experiment.conditions]
     for k, action in enumerate(experiment.actions):
         attempt(f"actions.{k}", lambda action=action: targets(action, doc))
-        if action.moves:
-            attempt(f"actions.{k}", lambda: arena(world))
+        if action.world_method:
+            attempt(f"actions.{k}", lambda action=action: changed(action, world))
         if action.when and action.when not in names:
             attempt(f"actions.{k}.when", lambda action=action: _no_event(action.when, names))
         if isinstance(action, Record) and not experiment.record:

@@ -12,7 +12,7 @@ from deodar import renamed
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, ParameterError, TimeError, UnknownName, did_you_mean
-from deodar.experiments.actions import Action, Record, Reset, arena, targets
+from deodar.experiments.actions import Action, Record, Reset, targets
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.course import Course
 from deodar.experiments.events import Event
@@ -221,16 +221,15 @@ def _axes(shape: Sequence[int]) -> Axes:
 
 @contextlib.contextmanager
 def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]:
-    """Things in the world and its goal as they were, when the trial is over."""
-    if not any(a.moves for a in actions):
+    """Put what actions change in the world back when the trial is over."""
+    if world is None or not any(a.world_method for a in actions):
         yield
         return
-    here = arena(world)
-    before = here.arrangement()
+    before = world.arrangement()
     try:
         yield
     finally:
-        here.arrange(before)
+        world.arrange(before)
 
 
 if not TYPE_CHECKING:

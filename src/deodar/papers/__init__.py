@@ -6,7 +6,7 @@ A paper is a module or a package with
 * `about(quick)`: what makes its design, as plain data;
 * `BY_CONDITION`: the entries of `about` that map names of conditions to settings; a folder with fewer conditions is extended;
 * `jobs(quick)`: its trials as `experiments.jobs.Job`;
-* `report(rows, quick)`: a `papers._report.Report` of the rows that are there;
+* `report(rows, quick)`: a `papers.Report` of the rows that are there;
 * `kept(row)`: a row without what no claim, figure or number reads; so it is kept in the repository;
 * `PICTURES`: pictures of the manual, and which figure each of them is.
 
@@ -18,8 +18,20 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from deodar.errors import UnknownName, did_you_mean
+
+if TYPE_CHECKING:
+    from deodar.papers._report import NOT_RUN as NOT_RUN
+    from deodar.papers._report import Report as Report
+else:
+
+    def __getattr__(name: str) -> Any:
+        """What reports are made of, imported when it is first used."""
+        if name not in ("NOT_RUN", "Report"):
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return getattr(importlib.import_module("deodar.papers._report"), name)
 
 
 def names() -> list[str]:

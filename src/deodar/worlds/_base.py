@@ -90,13 +90,21 @@ class World:
         """Put a thing or a mark of the scene elsewhere: x and y of its middle."""
         raise WorldError(f"nothing in the world {type(self).__name__} can be moved", where=name)
 
-    def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
-        """Put a thing there, or another one in the place of one of that name: x and y of its middle, its size along both."""
+    def place(self, name: str, center: Sequence[float], size: Sequence[float], color: Sequence[float] = (0.72, 0.53, 0.3)) -> None:
+        """Put a thing there, or replace the one of that name: x and y of its middle, its size along both, red, green and blue from 0 to 1."""
         raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
 
     def remove(self, name: str) -> None:
         """Take a thing away."""
         raise WorldError(f"nothing can be taken out of the world {type(self).__name__}", where=name)
+
+    def arrangement(self) -> Any:
+        """All that `place`, `move` and `remove` change, as it is now, for `arrange`. Actions of experiments need both methods."""
+        raise WorldError(f"the world {type(self).__name__} does not say what its things are")
+
+    def arrange(self, kept: Any) -> None:
+        """Put things back as they were when `arrangement` returned `kept`."""
+        raise WorldError(f"the world {type(self).__name__} cannot put its things back")
 
     def describe(self) -> dict[str, Any]:
         """What a record keeps of the world, as plain data."""
