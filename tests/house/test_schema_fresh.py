@@ -20,10 +20,10 @@ VALIDATOR = jsonschema.Draft202012Validator(SHIPPED)
 
 
 def _documents() -> list[Path]:
-    """Every committed JSON file that says it is a deodar document."""
+    """Every committed JSON file that says it is a deodar document, without the documents of older versions that tests/old_files opens."""
     found = []
     for path in texts():
-        if path.suffix == ".json" and path != schema.SHIPPED:
+        if path.suffix == ".json" and path != schema.SHIPPED and "old_files" not in path.parts:
             data = json.loads(path.read_text(encoding="utf-8"))
             if isinstance(data, dict) and "deodar" in data and "elements" in data:
                 found.append(path)

@@ -1,0 +1,88 @@
+"""How the files of `version_1` and `version_2` were made: by deodar at the last commit that wrote documents of that version.
+
+    git worktree add --detach OLD 792e504
+    PYTHONPATH=OLD/src python tests/old_files/make.py 1 FOLDER
+    git -C OLD checkout 85a2d0c
+    PYTHONPATH=OLD/src python tests/old_files/make.py 2 FOLDER
+
+They are kept as those versions wrote them, with one exception: `axis` is taken out of the peak position in `version_1/choice.json`. Version 1 read
+documents that left it out, and always wrote it: the other files, which are made of this document, state the axis.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import warnings
+from pathlib import Path
+
+import deodar as dd
+from deodar.couplings.peak_position import PeakPosition
+from deodar.couplings.weights import Weights
+from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.experiments.events import Appears
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.factor import Factor
+from deodar.experiments.measures import Measure
+from deodar.recording import files
+from deodar.server.keeper import Keeper
+
+
+def choice(version: int) -> dd.Model:
+    """A field that an input brings to a peak, the place of the peak, and weights (an array) onto two nodes; the input moves in version 2."""
+    x = dd.Axis("x", 0, 20, 21)
+    two = dd.Axis("two", 0, 1, 2)
+    model = dd.Model("choice")
+    u = model.add(dd.Field("u", [x], tau=10, resting_level=-5, kernel=[dd.Gaussian(1.2, 2)], global_inhibition=0.6, noise=1.0))
+    if version == 1:
+        model.add(dd.GaussianStimulus("input", [x], center=8, sigma=2, amplitude=7, windows=[(10, 60)])) >> u
+    else:
+        moving = {"path": [[0, 8], [40, 12]]}  # the name that versions 1 and 2 have for `waypoints`
+        model.add(MovingGaussian("input", [x], sigma=2, amplitude=7, windows=[(10, 60)], **moving)) >> u
+    u >> model.add(PeakPosition(x, name="place"))
+    weights = [[round(0.1 * ((3 * i + j) % 7), 1) for i in range(21)] for j in range(2)]
+    u >> model.add(Weights(weights, [two], name="map")) >> model.add(dd.Field("n", [two], tau=10))
+    return model
+
+
+def main(version: int, folder: Path) -> None:
+    """Write every kind of file."""
+    model = choice(version)
+    dd.save(model, folder / "choice.json")
+    if version == 1:
+        data = json.loads((folder / "choice.json").read_text())
+        del data["elements"]["place"]["axis"]
+        (folder / "choice.json").write_text(json.dumps(data, indent=2) + "\n")
+    model = dd.load(folder / "choice.json")
+    dd.save(model, folder / "choice.deodar")
+    record = dd.simulate(model, 40, seed=3, record=["u.activation", "place.output", "n.activation"], every=10, trials=2)
+    files.save(record, folder / "record.nc")
+    if version == 1:
+        files.save(record, folder / "record.zarr")
+    experiment = Experiment(
+        "choice", model, 80, trials=4, seed=2, precision="float64", record=["n.activation"], every=5,
+        conditions=[Appears("detected", "u", threshold=1.0)],
+        factors=[Factor("strength", [6.0, 7.0], "input.amplitude")],
+        measures=[Measure("end", "u.activation", "mean")],
+    )  # fmt: skip
+    experiment.save(folder / "experiment.json")
+
+    def stop(standing: object) -> None:
+        if standing.rows >= 3:  # type: ignore[attr-defined]
+            raise KeyboardInterrupt
+
+    experiment.run(folder / "whole")
+    import deodar.experiments.bench as bench
+
+    bench.MOST_COPIES = 2
+    try:
+        experiment.run(folder / "stopped", progress=stop)
+    except KeyboardInterrupt:
+        rows = folder / "stopped" / "trials.jsonl"
+        rows.write_bytes(rows.read_bytes()[:-40])
+    Keeper(folder / "state").keep("0123456789abcdef", model.document, "choice.json")
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main(int(sys.argv[1]), Path(sys.argv[2]))
