@@ -128,7 +128,7 @@ from deodar.figures.time_course import time_course as time_course
 from deodar.importers.opening import load as load
 from deodar.importers.opening import read as read
 from deodar.importers.presets import apply_preset as apply_preset
-from deodar.model.diagram import draw as draw
+from deodar.model.draw import draw as draw
 from deodar.model.model import Model as Model
 from deodar.model.model import save as save
 from deodar.model.paths import quote as quote

@@ -12,6 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning
+from deodar.experiments import experiment as module
 from deodar.experiments.actions import End, Move, Push, Ramp, Record, Reset, Set, Snapshot
 from deodar.experiments.events import All, AnyOf, Appears, Crosses, Reached, Vanishes
 from deodar.experiments.experiment import Experiment
@@ -20,7 +21,6 @@ from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
 from deodar.experiments.run import run_trial
 from deodar.recording import files
-from deodar.runtime import simulate
 from tests.experiments.robots import decider, room, straight
 
 
@@ -201,11 +201,11 @@ def test_workers_give_the_same_table(tmp_path, monkeypatch):
 
 def test_very_many_steps_in_total_are_announced(monkeypatch):
     experiment = Experiment("d", decider(), 50, 4)
-    monkeypatch.setattr(simulate, "LONG_STEPS", 200)
+    monkeypatch.setattr(module, "LONG_STEPS", 200)
     with pytest.warns(RunWarning, match=r"200 steps in total \(4 trials of at most 50 steps of dt = 1\): a smaller number may be meant") as told:
         experiment.run()
     assert [t.filename for t in told] == [__file__]
-    monkeypatch.setattr(simulate, "LONG_STEPS", 201)
+    monkeypatch.setattr(module, "LONG_STEPS", 201)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         experiment.run()
@@ -223,7 +223,7 @@ def test_very_many_steps_in_total_are_announced(monkeypatch):
         ({"actions": [Set(5, "u.tua", 3)]}, "actions.0", "has no parameter 'tua'"),
         ({"actions": [Set(5, "u.tau", 3, when="found")]}, "actions.0.when", "no condition 'found'"),
         ({"actions": [Set(500, "u.tau", 3)]}, "actions.0", "is never done"),
-        ({"actions": [Move(5, "box", (1, 2))]}, "actions.0", "there is no world"),
+        ({"actions": [Move(5, "box", (1, 2))]}, "actions.0", "the action Move needs a world"),
         ({"actions": [Record(5)]}, "actions.0", "nothing is recorded"),
         ({"factors": [Factor("f", [1.0], "left.amplitud")]}, "factors.f", "has no parameter 'amplitud'"),
         ({"factors": [Factor("f", [-1.0], "u.tau")]}, "factors.f", "lower bound"),

@@ -9,6 +9,7 @@ from typing import Any, cast
 import pytest
 
 from deodar.server.connection import Connection
+from deodar.server.page import Page
 from deodar.server.to_page import ToPage
 
 
@@ -29,11 +30,11 @@ def test_the_sending_ends_when_its_page_goes_at_the_moment_of_news(between: int)
     """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone would stay for ever."""
 
     async def main() -> None:
-        one = Silent(cast("Any", None), cast("Any", SimpleNamespace(numbered=lambda: 1, welcome=None)))
+        one = Silent(cast("Any", None), cast("Any", SimpleNamespace(new_page=lambda: Page(1), welcome=None)))
         task = one.sending()
         for _ in range(5):
             await asyncio.sleep(0)
-        one.wake()
+        one.page.wake()
         for _ in range(between):
             await asyncio.sleep(0)
         task.cancel()

@@ -25,7 +25,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Draw, write and say where."""
     from deodar.importers.opening import load
-    from deodar.model.diagram import draw
+    from deodar.model.draw import draw
     from deodar.recording import places
 
     made = draw(load(args.file), legend=not args.no_legend, depth=args.depth)

@@ -15,7 +15,7 @@ from deodar.experiments.actions import Push
 from deodar.experiments.batch import run_batch
 from deodar.experiments.checking import check
 from deodar.experiments.course import Course
-from deodar.experiments.experiment import Experiment
+from deodar.experiments.design import Design
 from deodar.experiments.levels import swept
 from deodar.experiments.pushes import with_pushes
 from deodar.experiments.rows import KEY, Row
@@ -49,12 +49,12 @@ class Bench:
         world: its world, or None.
     """
 
-    experiment: Experiment
+    experiment: Design
     model: Model
     world: World | None
 
     @classmethod
-    def open(cls, experiment: Experiment, trust: bool = False) -> Bench:
+    def open(cls, experiment: Design, trust: bool = False) -> Bench:
         """Open model and world of an experiment, and check everything that can be checked before a trial runs."""
         given: Any = experiment.model
         model = given if isinstance(given, Model) else load(given, trust)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.experiments.actions import Record, changed, targets
+from deodar.experiments.design import Design
 from deodar.experiments.events import Reached
 from deodar.experiments.tally import require
 from deodar.experiments.view import PLACE, View, mask
@@ -20,11 +21,8 @@ from deodar.runtime.exchange import used
 from deodar.runtime.run import require_step, whole
 from deodar.worlds._base import World
 
-if TYPE_CHECKING:
-    from deodar.experiments.experiment import Experiment
 
-
-def check(experiment: Experiment, model: Model, world: World | None) -> None:
+def check(experiment: Design, model: Model, world: World | None) -> None:
     """Refuse an experiment that names what is not there, or holds what cannot be; every problem is listed.
 
     Raises:
@@ -66,7 +64,7 @@ def check(experiment: Experiment, model: Model, world: World | None) -> None:
         raise ParameterError(problems)
 
 
-def _times(experiment: Experiment, step: float, t0: float, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
+def _times(experiment: Design, step: float, t0: float, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
     dt, limit = step if experiment.dt is None else experiment.dt, experiment.limit
 
     def within(at: float, what: str) -> None:
@@ -91,7 +89,7 @@ def _positive(steps: int) -> None:
         raise ParameterError("is 0; it is at least one step")
 
 
-def _factors(experiment: Experiment, model: Model, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
+def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
     doc, taken = model.document, dict[str, str]()
     step = doc.step if experiment.dt is None else experiment.dt
 

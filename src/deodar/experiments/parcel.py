@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from deodar.experiments.bench import Bench
-from deodar.experiments.experiment import Experiment
+from deodar.experiments.design import Design
 from deodar.experiments.rows import Row
 from deodar.runtime import parcel
 
@@ -39,7 +39,7 @@ class Parcel:
     def open(self) -> Bench:
         """The bench again."""
         model = self.bench.model  # first: it imports what the experiment's model is made of
-        return Bench(Experiment.from_data(json.loads(self.experiment)), model, self.bench.world())
+        return Bench(Design.from_data(json.loads(self.experiment)), model, self.bench.world())
 
 
 def work(handed: Parcel, trials: Sequence[int], records: Path | None) -> list[Row]:

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from deodar.element import Element
 from deodar.errors import ParameterError, UnknownAttribute, UnknownName, did_you_mean
 from deodar.model import edit, find
-from deodar.model.part_handle import brief, inside, links_of
+from deodar.model.document import Entry
+from deodar.model.part_handle import Owner, brief, inside, links_of
 from deodar.model.paths import quote
 from deodar.numerics.axes import describe
 from deodar.parameters import parameters
 
-if TYPE_CHECKING:
-    from deodar.model.document import Entry
-    from deodar.model.model import Model
-
-
 _OWN = frozenset({"model", "id", "port", "path", "element"})
+
+
+class Builder(Owner, Protocol):
+    """What `>>` asks of the model."""
+
+    def connect(self, source: Handle, target: Handle) -> None:
+        """Connect an output port to an input port."""
+        ...
+
+    def follow(self, source: Handle, element: Element) -> Handle:
+        """Add an element that reads `source`."""
+        ...
 
 
 class Handle:
@@ -33,11 +41,11 @@ class Handle:
         port: name of the port, or "" for the element.
     """
 
-    model: Model
+    model: Builder
     id: str
     port: str
 
-    def __init__(self, model: Model, id: str, port: str = "") -> None:
+    def __init__(self, model: Builder, id: str, port: str = "") -> None:
         vars(self).update(model=model, id=id, port=port)
 
     # -------------------------------------------------------------------------------- ports

@@ -3,15 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeGuard, cast
+from typing import Any, Protocol, TypeGuard, cast
 
 from deodar.errors import ParameterError, UnknownAttribute, UnknownName, did_you_mean
 from deodar.leaves import get
 from deodar.model import edit
+from deodar.model.document import Document, Entry
 from deodar.parameters import Part, Reference, normal, parameter, parameters, show
 
-if TYPE_CHECKING:
-    from deodar.model.model import Model
+
+class Owner(Protocol):
+    """What handles ask of the model that they belong to."""
+
+    @property
+    def document(self) -> Document:
+        """The present document."""
+        ...
+
+    def entry(self, ident: str) -> Entry:
+        """The entry of an id."""
+        ...
+
+    def commit(self, document: Document) -> None:
+        """Replace the document by an edited one."""
+        ...
 
 
 class PartHandle(Reference):
@@ -21,7 +36,7 @@ class PartHandle(Reference):
     that the model has at that moment: `v.sigmoid = u.sigmoid`.
     """
 
-    def __init__(self, model: Model, ident: str, leaf: str) -> None:
+    def __init__(self, model: Owner, ident: str, leaf: str) -> None:
         vars(self).update(_model=model, _id=ident, _leaf=leaf)
 
     def __value__(self) -> Part:
@@ -64,7 +79,7 @@ class PartHandle(Reference):
 class PartsHandle(Reference):
     """The kernels, windows or other parts inside an element of a model, in their order: items are handles of parts."""
 
-    def __init__(self, model: Model, ident: str, leaf: str) -> None:
+    def __init__(self, model: Owner, ident: str, leaf: str) -> None:
         vars(self).update(_model=model, _id=ident, _leaf=leaf)
 
     def __value__(self) -> tuple[Part, ...]:
@@ -130,7 +145,7 @@ class PartsHandle(Reference):
         return _shown(self._model, self._id, self._leaf, self.__value__)
 
 
-def inside(model: Model, ident: str, part: Part, leaf: str, name: str) -> Any:
+def inside(model: Owner, ident: str, part: Part, leaf: str, name: str) -> Any:
     """The value of a parameter of an element, or of a part at the path `leaf` inside it; parts as handles."""
     form, path = parameter(type(part), name).form, f"{leaf}.{name}" if leaf else name
     value = getattr(part, name)
@@ -171,14 +186,14 @@ def _is_default(p: Any, value: Any) -> bool:
         return False
 
 
-def _shown(model: Model, ident: str, leaf: str, value: Any) -> str:
+def _shown(model: Owner, ident: str, leaf: str, value: Any) -> str:
     try:
         return f"<{model.entry(ident).path}.{leaf}: {_value(value(), links_of(model, ident), leaf)}>"
     except UnknownName:
         return f"<{leaf} of a removed element, id {ident}>"
 
 
-def links_of(model: Model, ident: str) -> dict[str, str]:
+def links_of(model: Owner, ident: str) -> dict[str, str]:
     """The document parameter that drives each linked parameter of an element."""
     return {leaf: name for (i, leaf), name in model.document.links().items() if i == ident}
 

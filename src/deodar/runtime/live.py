@@ -5,19 +5,15 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from deodar.runtime.interrupt import stoppable
 from deodar.runtime.meter import Meter
-from deodar.runtime.pace import Pace, require_longest, require_speed
+from deodar.runtime.pace import Pace, Paced, require_longest, require_speed
 from deodar.runtime.run import require_duration, whole
-
-if TYPE_CHECKING:
-    from deodar.runtime.session import Session
 
 
 def run_live(
-    session: Session,
+    session: Paced,
     duration: float,
     speed: float | None = 1.0,
     longest_step: float | None = None,

@@ -9,16 +9,16 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
+from deodar.compiler.executable import Executable
 from deodar.errors import DeodarError, TimeError
+from deodar.model.document import Document
 from deodar.parameters import real, show
 from deodar.runtime.meter import Meter
 from deodar.runtime.run import require_step, whole
 from deodar.runtime.unit import unit_seconds
-
-if TYPE_CHECKING:
-    from deodar.runtime.session import Session
+from deodar.worlds._base import World
 
 EXCHANGE = 0.01
 """Wall time of the steps between two exchanges, in seconds; with what else is done there, changes act within 20 ms."""
@@ -32,6 +32,47 @@ that slept), after which a burst of old steps would help nobody. What is beyond 
 
 RESERVE = 1.1
 """Wall time that a lengthened step has, over what it takes: a tenth more, a guess, so that the lag shrinks."""
+
+
+class Paced(Protocol):
+    """What a pace asks of a session."""
+
+    @property
+    def world(self) -> World | None:
+        """The world that provides its sensors."""
+        ...
+
+    @property
+    def document(self) -> Document:
+        """The document that runs."""
+        ...
+
+    @property
+    def program(self) -> Executable:
+        """Its compiled functions."""
+        ...
+
+    @property
+    def time(self) -> float:
+        """Document time."""
+        ...
+
+    @property
+    def dt(self) -> float:
+        """Euler step."""
+        ...
+
+    @dt.setter
+    def dt(self, value: float) -> None: ...
+
+    @property
+    def next_dt(self) -> float:
+        """Euler step from the next common tick on."""
+        ...
+
+    def step(self, n: int = 1) -> None:
+        """Advance by `n` Euler steps."""
+        ...
 
 
 class Pace:
@@ -58,7 +99,7 @@ class Pace:
         self.steps = 0.0
         self._cost = 0.0
         self._planned = self._asked = 0.0
-        self._of: Session | None = None
+        self._of: Paced | None = None
         self.restart()
 
     def go(self, speed: float | None) -> None:
@@ -82,7 +123,7 @@ class Pace:
         """Steps that fit between two exchanges."""
         return max(1, int(EXCHANGE / self._cost)) if self._cost else 1
 
-    def due(self, session: Session) -> int:
+    def due(self, session: Paced) -> int:
         """Steps to take now."""
         if self.speed is None:
             return self.most()
@@ -94,11 +135,11 @@ class Pace:
         self._late(owed - self._wall(session), session)
         return min(int(owed / self._wall(session) + 1e-6), self.most())
 
-    def rest(self, session: Session) -> float:
+    def rest(self, session: Paced) -> float:
         """Wall time until the next step is due, in seconds."""
         return min(0.02, max(0.0, self._wall(session) - self._owed(session)))
 
-    def took(self, session: Session, n: int, passed: float, seconds: float) -> None:
+    def took(self, session: Paced, n: int, passed: float, seconds: float) -> None:
         """Learn from steps that were taken: how many, how much document time passed, and in what wall time."""
         each = seconds / n
         self._cost = each if not self._cost else 0.7 * self._cost + 0.3 * each
@@ -118,7 +159,7 @@ class Pace:
             began, time_passed, steps = now, 0.0, 0
         self._since = (began, time_passed, steps)
 
-    def lengthen(self, session: Session) -> None:
+    def lengthen(self, session: Paced) -> None:
         """Take a longer step where there is not enough time for the planned one, and the planned one again where there is.
 
         A step grows at once and shrinks after half a second at the earliest. It fits into the world's period and into every time constant.
@@ -136,12 +177,12 @@ class Pace:
             return
         self._take(session, self._allowed(session, wanted))
 
-    def shorten(self, session: Session) -> None:
+    def shorten(self, session: Paced) -> None:
         """The planned step again."""
         if session is self._of and session.next_dt == self._asked:
             self._take(session, self._planned)
 
-    def meter(self, session: Session) -> Meter:
+    def meter(self, session: Paced) -> Meter:
         """What was measured since the beginning."""
         unit, wall = unit_seconds(session.document.time_unit), self._now() - self._began
         late = 0.0 if self._late_since is None else self._now() - self._late_since
@@ -153,16 +194,16 @@ class Pace:
 
     # -------------------------------------------------------------------------------- inside
 
-    def _owed(self, session: Session) -> float:
+    def _owed(self, session: Paced) -> float:
         """Wall time for which no step was taken yet."""
         self._unit = unit_seconds(session.document.time_unit)
         return self._now() - self._began - self._given_up - self._passed * self._unit / (self.speed or 1.0)
 
-    def _wall(self, session: Session) -> float:
+    def _wall(self, session: Paced) -> float:
         """Wall time of one step."""
         return unit_seconds(session.document.time_unit) * session.dt / (self.speed or 1.0)
 
-    def _late(self, lag: float, session: Session) -> None:
+    def _late(self, lag: float, session: Paced) -> None:
         """Note a lag: how late the oldest step that is due is, or the newest that was taken."""
         self._lag = max(0.0, lag)
         self._worst = max(self._worst, self._lag)
@@ -175,7 +216,7 @@ class Pace:
             self._longest = max(self._longest, now - self._late_since)
             self._late_since = None
 
-    def _allowed(self, session: Session, wanted: int) -> float:
+    def _allowed(self, session: Paced, wanted: int) -> float:
         """The longest step, at most `n` planned ones, that the bound, the time constants and the world allow."""
         bound = self._planned if self.longest is None else self.longest
         for k in range(min(wanted, int(bound / self._planned + 1e-9)), 1, -1):
@@ -189,7 +230,7 @@ class Pace:
             return step
         return self._planned
 
-    def _take(self, session: Session, step: float) -> None:
+    def _take(self, session: Paced, step: float) -> None:
         if step != self._asked:
             self._asked, self._changed = step, self._now()
             session.dt = step
@@ -203,7 +244,7 @@ def require_speed(speed: object) -> float | None:
     return given
 
 
-def require_longest(session: Session, longest: object) -> float | None:
+def require_longest(session: Paced, longest: object) -> float | None:
     """The bound of a step that may grow: at least the present step, at most what the time constants allow."""
     if longest is None:
         return None

@@ -15,7 +15,7 @@ from deodar.compiler.layout import require_range
 from deodar.compiler.plan import ways_of
 from deodar.compiler.program import Port
 from deodar.compiler.ways import widths
-from deodar.errors import ModelError, ParameterError, TimeError, UnknownName
+from deodar.errors import ModelError, ParameterError, TimeError, UnknownName, WorldError
 from deodar.leaves import get, step_limits
 from deodar.model import edit, find
 from deodar.model.document import Document
@@ -253,7 +253,7 @@ class Session:
 
     def keep(self) -> list[str]:
         """Take what elements have learned (weights, traces, gains) into the model, for `save`: what they start from. Returns its paths."""
-        return keep(self, self._model)
+        return keep(self.snapshot(), self._model)
 
     # -------------------------------------------------------------------------------- a hand in the world
 
@@ -266,15 +266,21 @@ class Session:
 
     def move(self, name: str, center: Sequence[float]) -> None:
         """Put a thing of the world, or its goal, elsewhere: x and y of its middle. Refused where it does not fit."""
-        self._note(*rearrange.move(self, name, center))
+        self._note(*rearrange.move(*self._seen(), name, center))
 
     def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
         """Put a thing into the world, or another one in the place of one of that name. Refused where it does not fit."""
-        self._note(*rearrange.place(self, name, center, size))
+        self._note(*rearrange.place(*self._seen(), name, center, size))
 
     def remove(self, name: str) -> None:
         """Take a thing out of the world."""
-        self._note(*rearrange.remove(self, name))
+        self._note(*rearrange.remove(*self._seen(), name))
+
+    def _seen(self) -> tuple[World, Scene]:
+        scene = self.scene()
+        if self.world is None or scene is None:
+            raise WorldError("there is no world that is seen from above", fix="Give one: --world arena:blocks, or world=Arena('blocks')")
+        return self.world, scene
 
     def _note(self, what: str, value: Any) -> None:
         if self.journal and (self.journal[-1].tick, self.journal[-1].what) == (self.tick, what):

@@ -15,11 +15,9 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from deodar.errors import Interrupted, ParameterError
+from deodar.errors import Interrupted
 from deodar.model.model import Model
-from deodar.parameters import show
+from deodar.runtime.compute import compute
 from deodar.runtime.interrupt import AtOnce
 from deodar.runtime.parcel import Parcel
 from deodar.runtime.pieces import Part
@@ -45,13 +43,6 @@ class Job:
     settings: Mapping[str, Any]
     board: str
     number: int
-
-
-def require_workers(workers: Any) -> int:
-    """The number of workers, refused if it is none."""
-    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
-        raise ParameterError(f"workers is {show(workers)}; it is a number of processes, at least 1", fix="One for each core is best")
-    return int(workers)
 
 
 def run(model: Model, world: World | None, pieces: Sequence[Mapping[str, Any]], workers: int, between: Callable[[int], None]) -> list[Part | None]:
@@ -109,8 +100,6 @@ def _mapped(path: str) -> Generator[memoryview]:
 
 def work(job: Job) -> Part:
     """Run one piece."""
-    from deodar.runtime.simulate import compute
-
     with _mapped(job.board) as board:
 
         def told(done: int) -> None:

@@ -11,21 +11,17 @@ import contextlib
 import json
 import logging
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from deodar.errors import DeodarError
 from deodar.server import requests, scene, view
+from deodar.server.hub import Hub
 from deodar.server.project import Asks
-from deodar.server.scene import Follower
-from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Checked, Clock, Costs, Folder, Gallery, Opened, Problem, Scene, ToPage, Trouble
 from deodar.server.to_server import Drawn, ToServer
-
-if TYPE_CHECKING:
-    from deodar.server.hub import Hub
 
 MOST_ANSWERS = 64
 """Answers that may wait for a page; one that asks for more without reading is not listened to meanwhile."""
@@ -36,23 +32,12 @@ IDLE = 0.25
 
 
 class Connection:
-    """One socket.
-
-    Attributes:
-        number: tells this connection from all others of this studio, also from those that ended.
-        streams: what the page watches, by its numbers.
-        pushes: whether the hand that reaches in is this page's.
-        follower: what the page knows of the bodies in the world; None: it does not look.
-    """
+    """The socket of one page."""
 
     def __init__(self, socket: WebSocket, hub: Hub) -> None:
-        self.hub = hub
-        self.number = hub.numbered()
-        self.streams: dict[int, Stream] = {}
-        self.pushes = False
-        self.follower: Follower | None = None
+        self._hub = hub
+        self.page = hub.new_page()
         self._socket = socket
-        self._news = asyncio.Event()
         self._room = asyncio.Event()
         self._answers: deque[Answer | Folder] = deque()
         self._exchange = 0
@@ -63,21 +48,17 @@ class Connection:
         self._malformed = 0
         self._decoder = msgspec.json.Decoder(ToServer)
 
-    def wake(self) -> None:
-        """Look whether there is something to send."""
-        self._news.set()
-
     async def run(self) -> None:
         """Until the page goes."""
         await self._socket.accept()
-        self.hub.connections.add(self)
+        self._hub.pages.add(self.page)
         both = [asyncio.create_task(self._receive()), asyncio.create_task(self._send())]
         try:
             done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
             for task in done:
                 task.result()  # an error of ours is told on the terminal; the page comes back and starts afresh
         finally:
-            self.hub.leave(self)
+            self._hub.leave(self.page)
             for task in both:
                 task.cancel()
 
@@ -101,8 +82,8 @@ class Connection:
             if isinstance(message, Drawn):
                 if message.frame == self._exchange:
                     self._ready = True
-                    self.hub.engine.want()
-                    self.wake()
+                    self._hub.engine.want()
+                    self.page.wake()
                 continue
             await self._do(message)
             while len(self._answers) >= MOST_ANSWERS:
@@ -111,11 +92,11 @@ class Connection:
 
     async def _do(self, message: Any) -> None:
         try:
-            answers = await requests.do(self, message)
+            answers = await requests.do(self._hub, self.page, message)
         except Asks as asks:
             answers = [Answer(request=message.request, ask=asks.question)]
         except DeodarError as error:
-            model = self.hub.project.model
+            model = self._hub.project.model
             problems = view.problems(error.problems, None if model is None else model.document)
             answers = [Answer(request=message.request, problems=problems)]
         except OSError as error:
@@ -126,30 +107,30 @@ class Connection:
             what = f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the studio tells more."
             answers = [Answer(request=message.request, problems=[Problem(what=what)])]
         self._answers.extend(a for a in answers if message.request)
-        self.wake()
+        self.page.wake()
 
     def _refuse(self, request: int, what: str) -> None:
         self._answers.append(Answer(request=request, problems=[Problem(what=what)]))
-        self.wake()
+        self.page.wake()
 
     # -------------------------------------------------------------------------------- to the page
 
     async def _send(self) -> None:
         try:
-            await self._text(self.hub.welcome)
+            await self._text(self._hub.welcome)
             while True:
-                self._news.clear()
+                self.page.news.clear()
                 if self._ready:
                     await self._say()
                 with contextlib.suppress(TimeoutError):  # `wait_for` of Python 3.11 loses a cancellation that comes together with news
                     async with asyncio.timeout(IDLE):
-                        await self._news.wait()
+                        await self.page.news.wait()
         except (WebSocketDisconnect, RuntimeError, OSError):
             pass  # it is gone; the receiving side ends the connection
 
     async def _say(self) -> None:
         """Everything that is new, ended by a clock."""
-        hub, engine = self.hub, self.hub.engine
+        hub, engine = self._hub, self._hub.engine
         spoke = False
         while True:
             for message in await self._news_of_state():
@@ -160,7 +141,7 @@ class Connection:
         shot = engine.shot
         sent = shot.number != self._shot
         self._shot = shot.number
-        for stream in list(self.streams.values()):
+        for stream in list(self.page.streams.values()):
             told = stream.news(engine.session)
             if told is not None:
                 await self._text(told)
@@ -183,14 +164,14 @@ class Connection:
             engine.want()  # the last shot held nothing for this page, and it is still waiting for one that does
 
     async def _news_of_state(self) -> list[ToPage]:
-        project = self.hub.project
+        project = self._hub.project
         out: list[ToPage] = []
         now = project.session, project.version
         if (self._session, self._version) != now:
             changes = project.changes_since(self._session, self._version)
             if changes is None:
                 out.append(Opened(session=project.session, version=project.version, document=project.view()))
-                self._new("gallery", await self.hub.gallery(), out)
+                self._new("gallery", await self._hub.gallery(), out)
             else:
                 out.extend(changes)
             self._session, self._version = now
@@ -198,10 +179,10 @@ class Connection:
             self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
         if project.checker.found is not None:
             self._new("checked", project.checker.found, out)
-        self._new("costs", self.hub.costs(), out)
-        track = self.hub.engine.track
+        self._new("costs", self._hub.costs(), out)
+        track = self._hub.engine.track
         self._new("scene", scene.scene(track.scene), out)
-        moved = None if self.follower is None else self.follower.news(track)
+        moved = None if self.page.follower is None else self.page.follower.news(track)
         return out if moved is None else [*out, moved]
 
     def _new(self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[ToPage]) -> None:

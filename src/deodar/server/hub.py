@@ -12,9 +12,9 @@ from deodar.runtime.engine import Engine
 from deodar.runtime.meter import Meter
 from deodar.server import gallery, kinds, view
 from deodar.server.aside import attempt
-from deodar.server.connection import Connection
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
+from deodar.server.page import Page
 from deodar.server.project import Project
 from deodar.server.to_page import Clock, Costs, CostView, Gallery, Welcome
 from deodar.server.workspace import Workspace
@@ -32,7 +32,7 @@ class Hub:
         self._told = False
         self._gallery = Gallery(recent=[], recoveries=[])
         self._told_costs: tuple[Bill, Costs] | None = None
-        self.connections: set[Connection] = set()
+        self.pages: set[Page] = set()
         self._connected = 0
         self.workspace = Workspace(root)
         self.keeper = Keeper(state_folder())
@@ -47,8 +47,8 @@ class Hub:
     def tell(self) -> None:
         """Something changed: every page looks whether it concerns it."""
         self._told = False
-        for connection in self.connections:
-            connection.wake()
+        for page in self.pages:
+            page.wake()
 
     def _from_engine(self) -> None:
         """The same from the engine's thread, once for many calls."""
@@ -108,22 +108,22 @@ class Hub:
 
     # -------------------------------------------------------------------------------- watching
 
-    def numbered(self) -> int:
-        """The number of a new connection."""
+    def new_page(self) -> Page:
+        """A page with a number of its own; once its socket is open it belongs to `pages`."""
         self._connected += 1
-        return self._connected
+        return Page(self._connected)
 
     def watch(self) -> None:
         """Tell the engine what all pages together look at."""
-        streams = [s for c in self.connections for s in c.streams.values()]
+        streams = [s for p in self.pages for s in p.streams.values()]
         places = {s.place for s in streams if s.wish is None}
         wishes = list(dict.fromkeys(s.wish for s in streams if s.wish is not None))
         self.engine.call(lambda: self.engine.show(places, wishes))
 
-    def leave(self, connection: Connection) -> None:
+    def leave(self, page: Page) -> None:
         """A page is gone; the run goes on."""
-        self.connections.discard(connection)
-        if self.engine.hand is not None and connection.pushes:
+        self.pages.discard(page)
+        if self.engine.hand is not None and page.pushes:
             self.engine.call(lambda: self.engine.push(None))
         self.watch()
 

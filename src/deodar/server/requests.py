@@ -6,7 +6,7 @@ import asyncio
 import math
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -21,13 +21,12 @@ from deodar.runtime.session import Session
 from deodar.runtime.trace import Wish
 from deodar.server import content, gallery, to_server
 from deodar.server.aside import aside
+from deodar.server.hub import Hub
+from deodar.server.page import Page
 from deodar.server.scene import Follower
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
 from deodar.worlds._base import World
-
-if TYPE_CHECKING:
-    from deodar.server.connection import Connection
 
 MOST_STREAMS = 2000
 """Streams that one page may watch."""
@@ -35,120 +34,120 @@ MOST_STREAMS = 2000
 Answers = list[Answer | Folder]
 
 
-async def do(page: Connection, message: Any) -> Answers:
+async def do(hub: Hub, page: Page, message: Any) -> Answers:
     """Do what is asked; the last of the answers ends the request. Requests that change the document are done one after the other."""
     if isinstance(message, to_server.DocumentRequest):
-        return await page.hub.project.turns.take(lambda: _change(page, message), message.session)
-    return await _done(page, message)
+        return await hub.project.turns.take(lambda: _change(hub, page, message), message.session)
+    return await _done(hub, page, message)
 
 
-async def _done(page: Connection, message: Any) -> Answers:
-    done = await _DO[type(message)](page, message)
+async def _done(hub: Hub, page: Page, message: Any) -> Answers:
+    done = await _DO[type(message)](hub, page, message)
     if isinstance(done, Folder):
         return [done, Answer(request=message.request)]
     return [done or Answer(request=message.request)]
 
 
-async def _change(page: Connection, message: to_server.DocumentRequest) -> Answers:
-    answers = await _done(page, message)
-    version = page.hub.project.version
+async def _change(hub: Hub, page: Page, message: to_server.DocumentRequest) -> Answers:
+    answers = await _done(hub, page, message)
+    version = hub.project.version
     return [msgspec.structs.replace(a, version=version) if isinstance(a, Answer) else a for a in answers]
 
 
 # ------------------------------------------------------------------------------------------------ files
 
 
-async def _open_file(page: Connection, m: to_server.OpenFile) -> Answer:
-    imported = await page.hub.project.open_file(page.hub.workspace.inside(m.path), m.discard)
+async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
+    imported = await hub.project.open_file(hub.workspace.inside(m.path), m.discard)
     return Answer(request=m.request, imported=imported)
 
 
-async def _open_example(page: Connection, m: to_server.OpenExample) -> None:
+async def _open_example(hub: Hub, page: Page, m: to_server.OpenExample) -> None:
     path = gallery.example_file(m.name)
-    await page.hub.project.open_copy(lambda: files.load(path), m.name, m.discard)
+    await hub.project.open_copy(lambda: files.load(path), m.name, m.discard)
 
 
-async def _open_package(page: Connection, m: to_server.OpenPackage) -> None:
-    await page.hub.project.open_copy(lambda: content.read_package(m.content, m.name), m.name, m.discard)
+async def _open_package(hub: Hub, page: Page, m: to_server.OpenPackage) -> None:
+    await hub.project.open_copy(lambda: content.read_package(m.content, m.name), m.name, m.discard)
 
 
-async def _open_text(page: Connection, m: to_server.OpenText) -> Answer:
-    imported = await page.hub.project.open_text(m.text, m.name, m.discard)
+async def _open_text(hub: Hub, page: Page, m: to_server.OpenText) -> Answer:
+    imported = await hub.project.open_text(m.text, m.name, m.discard)
     return Answer(request=m.request, imported=imported)
 
 
-async def _recover(page: Connection, m: to_server.Recover) -> None:
-    await page.hub.project.recover(m.name, m.discard)
+async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
+    await hub.project.recover(m.name, m.discard)
 
 
-async def _forget(page: Connection, m: to_server.Forget) -> None:
-    await aside(lambda: page.hub.keeper.forget(m.name), m.name)
-    page.hub.project.touch()
+async def _forget(hub: Hub, page: Page, m: to_server.Forget) -> None:
+    await aside(lambda: hub.keeper.forget(m.name), m.name)
+    hub.project.touch()
 
 
-async def _close(page: Connection, m: to_server.Close) -> None:
-    await page.hub.project.close(m.discard)
+async def _close(hub: Hub, page: Page, m: to_server.Close) -> None:
+    await hub.project.close(m.discard)
 
 
-async def _save(page: Connection, m: to_server.Save) -> Answer:
-    path: Path = await page.hub.project.save(m.path, m.replace)
-    return Answer(request=m.request, file=page.hub.workspace.shown(path))
+async def _save(hub: Hub, page: Page, m: to_server.Save) -> Answer:
+    path: Path = await hub.project.save(m.path, m.replace)
+    return Answer(request=m.request, file=hub.workspace.shown(path))
 
 
-async def _list_folder(page: Connection, m: to_server.ListFolder) -> Folder:
-    return await aside(lambda: page.hub.workspace.listed(m.request, m.path), m.path)
+async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
+    return await aside(lambda: hub.workspace.listed(m.request, m.path), m.path)
 
 
 # ------------------------------------------------------------------------------------------------ edits
 
 
-async def _set(page: Connection, m: to_server.Set) -> Answer:
+async def _set(hub: Hub, page: Page, m: to_server.Set) -> Answer:
     gesture = (page.number, m.gesture) if m.gesture else None
-    cost = await page.hub.project.set(m.element, m.parameter, m.value, gesture)
+    cost = await hub.project.set(m.element, m.parameter, m.value, gesture)
     return Answer(request=m.request, cost=cost)
 
 
-async def _describe(page: Connection, m: to_server.Describe) -> None:
+async def _describe(hub: Hub, page: Page, m: to_server.Describe) -> None:
     given = {key: value for key in ("name", "notes", "dt") if (value := getattr(m, key)) is not None}
-    await page.hub.project.describe(given)
+    await hub.project.describe(given)
 
 
-async def _add_knob(page: Connection, m: to_server.AddKnob) -> None:
+async def _add_knob(hub: Hub, page: Page, m: to_server.AddKnob) -> None:
     def change(doc: edit.Document) -> edit.Document:
         if m.name in [k.name for k in doc.knobs]:
             raise ParameterError("there is already a document parameter of that name", where=m.name)
         return edit.link(edit.knob(doc, m.name, find.number(doc, m.element, m.parameter)), m.element, m.parameter, m.name)
 
-    await page.hub.project.change(change)
+    await hub.project.change(change)
 
 
-async def _link(page: Connection, m: to_server.Link) -> None:
-    await page.hub.project.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
+async def _link(hub: Hub, page: Page, m: to_server.Link) -> None:
+    await hub.project.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
 
 
-async def _unlink(page: Connection, m: to_server.Unlink) -> None:
-    await page.hub.project.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
+async def _unlink(hub: Hub, page: Page, m: to_server.Unlink) -> None:
+    await hub.project.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
 
 
-async def _remove_knob(page: Connection, m: to_server.RemoveKnob) -> None:
-    await page.hub.project.change(lambda doc: edit.remove_knob(doc, m.name))
+async def _remove_knob(hub: Hub, page: Page, m: to_server.RemoveKnob) -> None:
+    await hub.project.change(lambda doc: edit.remove_knob(doc, m.name))
 
 
-async def _arrange(page: Connection, m: to_server.Arrange) -> None:
-    await page.hub.project.arrange(m.layout, m.undoable)
+async def _arrange(hub: Hub, page: Page, m: to_server.Arrange) -> None:
+    await hub.project.arrange(m.layout, m.undoable)
 
 
-async def _apply_preset(page: Connection, m: to_server.ApplyPreset) -> Answer:
-    place = page.hub.workspace.inside(m.path)
-    preset = await aside(lambda: content.load(page.hub.workspace, place), m.path)
-    return await _take_over(page, m.request, preset)
+async def _apply_preset(hub: Hub, page: Page, m: to_server.ApplyPreset) -> Answer:
+    place = hub.workspace.inside(m.path)
+    preset = await aside(lambda: content.load(hub.workspace, place), m.path)
+    return await _take_over(hub, page, m.request, preset)
 
 
-async def _apply_preset_text(page: Connection, m: to_server.ApplyPresetText) -> Answer:
-    return await _take_over(page, m.request, await asyncio.to_thread(content.read, m.text, m.name))
+async def _apply_preset_text(hub: Hub, page: Page, m: to_server.ApplyPresetText) -> Answer:
+    return await _take_over(hub, page, m.request, await asyncio.to_thread(content.read, m.text, m.name))
 
 
-async def _take_over(page: Connection, request: int, preset: edit.Document) -> Answer:
+async def _take_over(hub: Hub, page: Page, request: int, preset: edit.Document) -> Answer:
     """Change the values of what is open to those of another document."""
     lines: list[Line] = []
 
@@ -157,60 +156,60 @@ async def _take_over(page: Connection, request: int, preset: edit.Document) -> A
         lines.extend(found)
         return new
 
-    cost = await page.hub.project.change(change)
+    cost = await hub.project.change(change)
     unmatched = [str(line) for line in lines if line.verdict == "dropped"]
     return Answer(request=request, cost=cost, carried=len(lines) - len(unmatched), unmatched=unmatched)
 
 
-async def _undo(page: Connection, m: to_server.Undo) -> None:
-    await page.hub.project.undo()
+async def _undo(hub: Hub, page: Page, m: to_server.Undo) -> None:
+    await hub.project.undo()
 
 
-async def _redo(page: Connection, m: to_server.Redo) -> None:
-    await page.hub.project.redo()
+async def _redo(hub: Hub, page: Page, m: to_server.Redo) -> None:
+    await hub.project.redo()
 
 
 # ------------------------------------------------------------------------------------------------ running
 
 
-async def _engine(page: Connection, function: Callable[[], Any]) -> None:
-    await asyncio.wrap_future(page.hub.engine.call(function))
+async def _engine(hub: Hub, page: Page, function: Callable[[], Any]) -> None:
+    await asyncio.wrap_future(hub.engine.call(function))
 
 
-async def _play(page: Connection, m: to_server.Play) -> None:
-    page.hub.project.require_run()
-    await _engine(page, lambda: page.hub.engine.play(True))
+async def _play(hub: Hub, page: Page, m: to_server.Play) -> None:
+    hub.project.require_run()
+    await _engine(hub, page, lambda: hub.engine.play(True))
 
 
-async def _pause(page: Connection, m: to_server.Pause) -> None:
-    await _engine(page, lambda: page.hub.engine.play(False))
+async def _pause(hub: Hub, page: Page, m: to_server.Pause) -> None:
+    await _engine(hub, page, lambda: hub.engine.play(False))
 
 
-async def _step(page: Connection, m: to_server.Step) -> None:
-    page.hub.project.require_run()
-    await _engine(page, lambda: page.hub.engine.step(m.n))
+async def _step(hub: Hub, page: Page, m: to_server.Step) -> None:
+    hub.project.require_run()
+    await _engine(hub, page, lambda: hub.engine.step(m.n))
 
 
-async def _reset(page: Connection, m: to_server.Reset) -> None:
-    await _engine(page, lambda: page.hub.engine.reset(m.seed))
+async def _reset(hub: Hub, page: Page, m: to_server.Reset) -> None:
+    await _engine(hub, page, lambda: hub.engine.reset(m.seed))
 
 
-async def _speed(page: Connection, m: to_server.Speed) -> None:
-    await _engine(page, lambda: page.hub.engine.pace.go(m.factor))
+async def _speed(hub: Hub, page: Page, m: to_server.Speed) -> None:
+    await _engine(hub, page, lambda: hub.engine.pace.go(m.factor))
 
 
-async def _lengthen(page: Connection, m: to_server.Lengthen) -> None:
-    page.hub.project.require_run()
-    await _engine(page, lambda: page.hub.engine.lengthen(m.longest))
+async def _lengthen(hub: Hub, page: Page, m: to_server.Lengthen) -> None:
+    hub.project.require_run()
+    await _engine(hub, page, lambda: hub.engine.lengthen(m.longest))
 
 
-async def _measure_costs(page: Connection, m: to_server.MeasureCosts) -> None:
-    page.hub.project.require_run()
-    await _engine(page, page.hub.engine.measure)
+async def _measure_costs(hub: Hub, page: Page, m: to_server.MeasureCosts) -> None:
+    hub.project.require_run()
+    await _engine(hub, page, hub.engine.measure)
 
 
-async def _push(page: Connection, m: to_server.Push) -> None:
-    engine = page.hub.engine
+async def _push(hub: Hub, page: Page, m: to_server.Push) -> None:
+    engine = hub.engine
     session = engine.session
     entry = None if session is None else session.document.by_id().get(m.element)
     if session is None or entry is None:
@@ -218,12 +217,12 @@ async def _push(page: Connection, m: to_server.Push) -> None:
     session.require_push(m.element)
     hand = Hand(m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m))
     page.pushes = True
-    await _engine(page, lambda: engine.push(hand))
+    await _engine(hub, page, lambda: engine.push(hand))
 
 
-async def _release(page: Connection, m: to_server.Release) -> None:
+async def _release(hub: Hub, page: Page, m: to_server.Release) -> None:
     page.pushes = False
-    await _engine(page, lambda: page.hub.engine.push(None))
+    await _engine(hub, page, lambda: hub.engine.push(None))
 
 
 def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:
@@ -242,70 +241,70 @@ def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:
     return out
 
 
-async def _use_world(page: Connection, m: to_server.UseWorld) -> None:
-    place = page.hub.workspace.inside(m.path)
+async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
+    place = hub.workspace.inside(m.path)
 
     def read() -> World:
-        page.hub.workspace.require_file(place)
-        return page.hub.embodiment.open(m.kind, place, m.path)
+        hub.workspace.require_file(place)
+        return hub.embodiment.open(m.kind, place, m.path)
 
     world = await aside(read, m.path)
-    await page.hub.project.embody(world)
+    await hub.project.embody(world)
 
 
-async def _use_world_content(page: Connection, m: to_server.UseWorldContent) -> None:
-    world = await asyncio.to_thread(page.hub.embodiment.open_content, m.kind, m.name, m.content)
-    await page.hub.project.embody(world)
+async def _use_world_content(hub: Hub, page: Page, m: to_server.UseWorldContent) -> None:
+    world = await asyncio.to_thread(hub.embodiment.open_content, m.kind, m.name, m.content)
+    await hub.project.embody(world)
 
 
-async def _watch_world(page: Connection, m: to_server.WatchWorld) -> None:
+async def _watch_world(hub: Hub, page: Page, m: to_server.WatchWorld) -> None:
     page.follower = Follower() if m.on else None
 
 
-async def _move_thing(page: Connection, m: to_server.MoveThing) -> None:
-    await _rearrange(page, lambda session: session.move(m.name, (m.x, m.y)))
+async def _move_thing(hub: Hub, page: Page, m: to_server.MoveThing) -> None:
+    await _rearrange(hub, page, lambda session: session.move(m.name, (m.x, m.y)))
 
 
-async def _place_thing(page: Connection, m: to_server.PlaceThing) -> None:
-    await _rearrange(page, lambda session: session.place(m.name, (m.x, m.y), (m.width, m.height)))
+async def _place_thing(hub: Hub, page: Page, m: to_server.PlaceThing) -> None:
+    await _rearrange(hub, page, lambda session: session.place(m.name, (m.x, m.y), (m.width, m.height)))
 
 
-async def _remove_thing(page: Connection, m: to_server.RemoveThing) -> None:
-    await _rearrange(page, lambda session: session.remove(m.name))
+async def _remove_thing(hub: Hub, page: Page, m: to_server.RemoveThing) -> None:
+    await _rearrange(hub, page, lambda session: session.remove(m.name))
 
 
-async def _rearrange(page: Connection, how: Callable[[Session], None]) -> None:
-    page.hub.project.require_run()
-    await _engine(page, lambda: page.hub.engine.rearrange(how))
+async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> None:
+    hub.project.require_run()
+    await _engine(hub, page, lambda: hub.engine.rearrange(how))
 
 
 # ------------------------------------------------------------------------------------------------ watching
 
 
-async def _watch(page: Connection, m: to_server.Watch) -> None:
-    _require_room(page, m.stream)
+async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
+    _require_room(hub, page, m.stream)
     page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most)
-    page.hub.watch()
+    hub.watch()
 
 
-async def _trace(page: Connection, m: to_server.Trace) -> None:
-    _require_room(page, m.stream)
+async def _trace(hub: Hub, page: Page, m: to_server.Trace) -> None:
+    _require_room(hub, page, m.stream)
     place = (m.element, m.port)
     page.streams[m.stream] = Stream(m.stream, place, wish=Wish(place, m.reduce, tuple(m.at)))
-    page.hub.watch()
+    hub.watch()
 
 
-async def _unwatch(page: Connection, m: to_server.Unwatch) -> None:
+async def _unwatch(hub: Hub, page: Page, m: to_server.Unwatch) -> None:
     if page.streams.pop(m.stream, None) is not None:
-        page.hub.watch()
+        hub.watch()
 
 
-def _require_room(page: Connection, stream: int) -> None:
+def _require_room(hub: Hub, page: Page, stream: int) -> None:
     if stream not in page.streams and len(page.streams) >= MOST_STREAMS:
         raise ParameterError(f"a page watches at most {MOST_STREAMS} streams")
 
 
-_DO: dict[type[Any], Callable[[Connection, Any], Awaitable[Any]]] = {
+_DO: dict[type[Any], Callable[[Hub, Page, Any], Awaitable[Any]]] = {
     to_server.OpenFile: _open_file, to_server.OpenExample: _open_example, to_server.OpenText: _open_text, to_server.OpenPackage: _open_package,
     to_server.Recover: _recover, to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save,
     to_server.ListFolder: _list_folder, to_server.Set: _set,

@@ -1,0 +1,202 @@
+"""The design of an experiment as data: model, trials, conditions, actions, factors and measures; and its file."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Self, cast
+
+from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
+from deodar.experiments import actions as done
+from deodar.experiments import events as happens
+from deodar.experiments.actions import Action
+from deodar.experiments.events import Event
+from deodar.experiments.factor import DESIGNS, Factor, assign
+from deodar.experiments.measures import Measure
+from deodar.experiments.plain import from_data, schema, to_data
+from deodar.model import files, output
+from deodar.model.model import Model, save
+from deodar.parameters import Part, Recompile, show
+from deodar.worlds._base import World
+
+VERSION = 1
+EVENTS = (happens.Crosses, happens.Reached, happens.Appears, happens.Vanishes, happens.Within, happens.Leaves, happens.All, happens.AnyOf)
+ACTIONS = (done.Place, done.Move, done.Remove, done.Set, done.Ramp, done.Push, done.Record, done.Snapshot, done.Reset, done.End)
+KINDS: Mapping[str, Mapping[str, type[Part]]] = {
+    "conditions": {cls.__name__: cls for cls in EVENTS},
+    "actions": {cls.__name__: cls for cls in ACTIONS},
+    "factors": {"Factor": Factor},
+    "measures": {"Measure": Measure},
+}
+"""What may stand under each key of a file."""
+
+OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
+"""Names of columns that every table has."""
+
+
+@dataclass(frozen=True)
+class Design(Part):
+    """An experiment as data; `Experiment` documents its parameters and runs it."""
+
+    name: Annotated[str, Recompile(meaning="what it is called")]
+    model: Annotated[object, Recompile(meaning="the model, or the path of its document")]
+    limit: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="after which a trial ends at the latest")]
+    trials: Annotated[int, Recompile(lower=1, meaning="of each combination of levels")] = 1
+    conditions: Annotated[Sequence[Event], Recompile(meaning="what may happen")] = ()
+    actions: Annotated[Sequence[Action], Recompile(meaning="what is done to each trial, and when")] = ()
+    factors: Annotated[Sequence[Factor], Recompile(meaning="what trials differ in")] = ()
+    measures: Annotated[Sequence[Measure], Recompile(meaning="what is measured of each trial")] = ()
+    design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(default="crossed", kw_only=True)
+    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise, and of what is drawn")] = dc.field(default=0, kw_only=True)
+    every: Annotated[float | None, Recompile("time", role="duration", meaning="between looks; none: each step")] = dc.field(
+        default=None, kw_only=True
+    )
+    record: Annotated[Sequence[str], Recompile(meaning="ports of which a record is kept")] = dc.field(default=(), kw_only=True)
+    world: Annotated[object, Recompile(meaning="what sensors read and motors move")] = dc.field(default=None, kw_only=True)
+    dt: Annotated[float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")] = dc.field(
+        default=None, kw_only=True
+    )
+    precision: Annotated[str, Recompile(choices=("float32", "float64"), meaning="of all numbers")] = dc.field(default="float32", kw_only=True)
+
+    def __post_init__(self) -> None:
+        if self.world is None:  # a parameter that may be anything may also be nothing
+            object.__setattr__(self, "world", "")
+        super().__post_init__()
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        if not isinstance(self.model, (Model, str, Path)):
+            yield "model", f"needs a model or the path of its document, not {show(self.model)}"
+        if not isinstance(self.world, (World, str)):
+            yield "world", f"needs a world, or text such as arena:blocks, not {show(self.world)}"
+        names = [p.name for p in (*self.conditions, *self.factors, *self.measures)]
+        for name in dict.fromkeys(names):
+            if not name or name in OWN or names.count(name) > 1:
+                what = "is the name of two columns" if names.count(name) > 1 else "is a column of every table" if name else "is no name"
+                yield "conditions, factors and measures", f"{name!r} {what}; give each a name of its own"
+
+    # -------------------------------------------------------------------------------- what it will do
+
+    @property
+    def cells(self) -> list[tuple[int, ...]]:
+        """For each trial the level (its number) of each factor."""
+        return assign(self.factors, self.design, self.trials, self.seed)
+
+    # -------------------------------------------------------------------------------- files
+
+    def to_data(self) -> dict[str, Any]:
+        """Plain data, as a file holds it; a model or a world that is no file is left out."""
+        out: dict[str, Any] = {"experiment": VERSION, "name": self.name}
+        out |= {"model": str(self.model)} if isinstance(self.model, (str, Path)) else {}
+        out |= {"world": self.world} if isinstance(self.world, str) and self.world else {}
+        out |= to_data(self, False, ("name", "model", "world", *KINDS))
+        for key in KINDS:
+            parts = cast("Sequence[Any]", getattr(self, key))
+            plain = [to_data(part, key in ("conditions", "actions")) for part in parts]
+            if plain:
+                out[key] = plain if key == "actions" else {part.name: data for part, data in zip(parts, plain, strict=True)}
+        return out
+
+    @classmethod
+    def from_data(cls, data: Any, folder: Path | None = None) -> Self:
+        """The experiment that plain data describe; `folder`: where the files that it names stand.
+
+        Raises:
+            DocumentError: the data describe none; every problem is listed.
+        """
+        if not isinstance(data, dict) or "experiment" not in data:
+            raise DocumentError("is no experiment: it has no key 'experiment'")
+        given = dict(cast("dict[str, Any]", data))
+        if given.pop("experiment") != VERSION:
+            raise DocumentError(f"is an experiment of another version; this deodar reads version {VERSION}", fix="Type: pip install --upgrade deodar")
+        problems: list[Problem] = []
+        for key, kinds in KINDS.items():
+            rows = given.pop(key, None)
+            if rows is None:
+                continue
+            if not isinstance(rows, list if key == "actions" else dict):
+                problems.append(Problem(key, f"needs {'a list' if key == 'actions' else 'an object of named parts'}, not {show(rows)}"))
+                continue
+            pairs = list(enumerate(rows)) if isinstance(rows, list) else list(rows.items())
+            kind = "" if len(kinds) > 1 else next(iter(kinds))
+            given[key] = [from_data(v, f"{key}.{k}", kinds, {} if key == "actions" else {"name": k}, problems, kind) for k, v in pairs]
+        if problems:
+            raise DocumentError(problems)
+        for key in ("model", "world"):
+            given[key] = _beside(given.get(key, ""), folder, key == "world") if key in given else ""
+        if not given["model"]:
+            problems.append(Problem("model", "is missing", 'Name the file of the model: "model": "model.json"'))
+        found: Any = from_data(given, "", {"Experiment": cls}, {}, problems, "Experiment") if not problems else None
+        if problems:
+            raise DocumentError([dc.replace(p, where=p.where.strip(".")) for p in problems])
+        return found
+
+    def save(self, path: str | Path, force: bool = False) -> None:
+        """Write it as a file; a model that is no file yet is written beside it, as NAME.model.json."""
+        path = output.claim(path, force)
+        data = self.to_data()
+        if isinstance(self.model, Model):
+            beside = path.with_name(f"{path.stem}.model.json")
+            save(self.model, beside, force)
+            data = {"experiment": VERSION, "name": self.name, "model": beside.name} | data
+        if isinstance(self.world, World):
+            raise ParameterError(
+                "a world that was made by a script cannot be written", where="world", fix="Name it as on the command line: world='arena:blocks'"
+            )
+        output.write(path, (json.dumps(data, indent=2, ensure_ascii=False) + "\n").encode())
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read a file; the model that it names is in the same folder.
+
+        Raises:
+            DocumentError: there is none, or it holds something else; every problem is listed.
+        """
+        path = output.location(path)
+        try:
+            if not path.is_file():
+                near = did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")]) if path.parent.is_dir() else ""
+                raise DocumentError("there is no such file", fix=near)
+            return cls.from_data(files.parse(path.read_bytes()), path.parent)
+        except DeodarError as error:
+            raise DocumentError([Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]) from None
+        except OSError as error:
+            raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
+
+    @staticmethod
+    def schema() -> dict[str, Any]:
+        """JSON Schema of a file."""
+        own: dict[str, Any] = schema({"Experiment": Design}, named=False)["oneOf"][0]["properties"]
+        own = {key: value for key, value in own.items() if key not in (*KINDS, "kind")}
+        own |= {"experiment": {"const": VERSION}, "name": {"type": "string"}, "model": {"type": "string"}, "world": {"type": "string"}}
+        for key, kinds in KINDS.items():
+            parts = schema(kinds, named=key != "actions")
+            if len(kinds) == 1:
+                parts["oneOf"][0]["required"].remove("kind")
+            own[key] = {"type": "array", "items": parts} if key == "actions" else {"type": "object", "additionalProperties": parts}
+        return {
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": "deodar experiment",
+            "type": "object",
+            "properties": own,
+            "required": ["experiment", "name", "model", "limit"],
+            "additionalProperties": False,
+        }
+
+
+EXAMPLE = "example:"
+"""What the name of an example begins with, which the commands open in the place of a file."""
+
+
+def _beside(text: Any, folder: Path | None, world: bool) -> Any:
+    """The path of a file that an experiment names, which stands in its folder."""
+    if not isinstance(text, str) or folder is None or not text:
+        return text
+    if not world and text.startswith(EXAMPLE):
+        return text
+    kind, sign, argument = text.partition(":") if world else ("", "", text)
+    if world and not (argument and (folder / argument).exists()):
+        return text  # the name of something that comes with deodar, or a file that is found from the working folder
+    return f"{kind}{sign}{folder / argument}"
