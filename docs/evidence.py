@@ -72,7 +72,7 @@ class Evidence:
 
 def kept() -> list[str]:
     """The papers whose runs are kept."""
-    return sorted(folder.name for folder in EVIDENCE.iterdir() if folder.is_dir()) if EVIDENCE.is_dir() else []
+    return sorted(rows.parent.name for rows in EVIDENCE.glob(f"*/{ROWS}"))
 
 
 def read(paper: str, folder: Path | None = None) -> Evidence:

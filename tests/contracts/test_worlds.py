@@ -8,42 +8,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar import registry
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis, shape
 from deodar.worlds._pure import PureWorld
-
-WORLDS = registry.kinds("worlds")
-
-
-def example_axes(kind, sensor):
-    return WORLDS[kind].example_axes(sensor)
-
-
-def everything(kind):
-    """A model with every sensor of a world, and its motors driven by a constant."""
-    model, world = dd.Model("embodied"), WORLDS[kind].example()
-    for sensor in world.sensors:
-        model.add(Sensor(f"see {sensor}", example_axes(kind, sensor), sensor))
-    for k, (motor, signal) in enumerate(world.motors.items()):
-        axes = [Axis(f"a{d}", 0, n - 1, n) for d, n in enumerate(signal.shape or ())]
-        push = model.add(dd.GaussianStimulus(f"push {motor}", axes, center=0, sigma=1, amplitude=300.0 + 100 * k) if axes else _constant(motor, k))
-        model.connect(push, model.add(Motor(f"move {motor}", axes, motor)))
-    return model
-
-
-def _constant(motor, k):
-    from deodar.elements.boost import Boost
-
-    return Boost(f"push {motor}", [], 300.0 + 100 * k)
-
-
-def step_of(kind):
-    """Half the period of a world, so that it takes two steps; 1 where it never changes."""
-    period = WORLDS[kind].example().period
-    return 1.0 if period is None else period / 2
+from tests.contracts.embodied import WORLDS, everything, example_axes, step_of
 
 
 @pytest.mark.parametrize("kind", WORLDS)

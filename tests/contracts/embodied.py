@@ -1,0 +1,35 @@
+"""A model around the example of anything registered as a world: every sensor is read, every motor is driven."""
+
+from __future__ import annotations
+
+import deodar as dd
+from deodar import registry
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
+from deodar.elements.sensor import Sensor
+from deodar.numerics.axes import Axis
+
+WORLDS = registry.kinds("worlds")
+
+
+def example_axes(kind, sensor):
+    return WORLDS[kind].example_axes(sensor)
+
+
+def everything(kind):
+    """A model with every sensor of a world, and its motors driven by a constant."""
+    model, world = dd.Model("embodied"), WORLDS[kind].example()
+    for sensor in world.sensors:
+        model.add(Sensor(f"see {sensor}", example_axes(kind, sensor), sensor))
+    for k, (motor, signal) in enumerate(world.motors.items()):
+        axes = [Axis(f"a{d}", 0, n - 1, n) for d, n in enumerate(signal.shape or ())]
+        name, strength = f"push {motor}", 300.0 + 100 * k
+        push = model.add(dd.GaussianStimulus(name, axes, center=0, sigma=1, amplitude=strength) if axes else Boost(name, [], strength))
+        model.connect(push, model.add(Motor(f"move {motor}", axes, motor)))
+    return model
+
+
+def step_of(kind):
+    """Half the period of a world, so that it takes two steps; 1 where it never changes."""
+    period = WORLDS[kind].example().period
+    return 1.0 if period is None else period / 2
