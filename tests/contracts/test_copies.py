@@ -103,9 +103,9 @@ def test_compiled_programs_do_not_travel(again):
 
 def test_a_copied_model_runs_to_the_same_bits():
     model = around(any_example("Field"), noisy=True)
-    first = record(model, 20, ["example"], seed=3)["example.output"].values
+    first = record(model, 20, ["example"], seed=3)["example.activation"].values
     for name in ("deepcopy", "pickle 5"):
-        assert np.array_equal(record(COPIES[name](model), 20, ["example"], seed=3)["example.output"].values, first)
+        assert np.array_equal(record(COPIES[name](model), 20, ["example"], seed=3)["example.activation"].values, first)
 
 
 def test_a_session_goes_on_from_a_copied_snapshot_as_from_the_snapshot(again):

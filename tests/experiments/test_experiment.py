@@ -153,6 +153,49 @@ def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_
         experiment.run(tmp_path / "out")
 
 
+def test_the_path_of_a_field_alone_means_its_activation():
+    parts = {"conditions": [Crosses("up", "u", ends=False)], "measures": [Measure("end", "u")], "actions": [Snapshot(10, "then", ["u"])]}
+    short, full = (choice(record=[path], factors=[], trials=1, **parts) for path in ("u", "u.activation"))
+    assert [v.place(short.model.document)[1] for v in (short.conditions[0].views[0], short.measures[0].view)] == ["activation"] * 2
+    assert full.bench().rows([0]) == short.bench().rows([0])
+
+
+def test_records_of_a_field_alone_hold_its_activation(tmp_path):
+    choice(actions=[Snapshot(10, "then", ["u"])], record=["u"], factors=[], measures=[], trials=1).run(tmp_path / "out")
+    for name in ("000000.nc", "000000-then.nc"):
+        assert list(files.load_record(tmp_path / "out" / "records" / name).data_vars) == ["u.activation"]
+
+
+def version_1(folder, experiment):
+    """Save an experiment, as version 1 wrote it: a path without a port meant the output."""
+    experiment.save(folder / "e.json")
+    data = json.loads((folder / "e.json").read_text()) | {"experiment": 1, "record": ["u"]}
+    data["measures"] = {"end": {"of": "u"}, "pushed": {"of": "left"}, "high": {"of": "u.activation"}, "where": {"of": "pose"}}
+    data["conditions"] = {"up": {"kind": "Crosses", "of": "u"}, "both": {"kind": "All", "of": ["up"]}}
+    data["actions"] = [{"kind": "Snapshot", "at": 3, "label": "then", "of": ["u", "u.input"]}]
+    (folder / "e.json").write_text(json.dumps(data))
+    return folder / "e.json"
+
+
+def test_a_file_of_version_1_means_the_output_by_the_path_of_a_field_alone(tmp_path):
+    found = Experiment.load(version_1(tmp_path, choice()))
+    assert found.record == ("u.output",) and [m.of for m in found.measures] == ["u.output", "left", "u.activation", "pose"]
+    assert found.conditions[0].of == "u.output" and found.conditions[1].of == ("up",)
+    assert found.actions[0].of == ("u.output", "u.input")
+
+
+def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
+    new = choice(trials=1, measures=[Measure("end", "u.output")])
+    whole = new.run(tmp_path / "out")
+    first, *rows = (tmp_path / "out" / ROWS).read_text().splitlines()
+    about = json.loads(first)
+    about["about"] |= {"experiment": 1, "measures": {"end": {"of": "u"}}}
+    (tmp_path / "out" / ROWS).write_text("\n".join([json.dumps(about), *rows[:-1]]) + "\n")
+    assert new.run(tmp_path / "out").drop_attrs().identical(whole.drop_attrs())
+    with pytest.raises(OutputExists, match="another experiment: measures differ"):
+        choice(trials=1, measures=[Measure("end", "u")]).run(tmp_path / "out")
+
+
 def test_records_and_snapshots(tmp_path):
     actions = [Record(30), Record(10, on=False, when="detected"), Snapshot(0, "then", ["u.activation"], when="detected")]
     data = choice(actions=actions, record=["u.activation"], every=5, factors=[], trials=1).run(tmp_path / "out")
@@ -250,7 +293,7 @@ def test_all_problems_of_a_file_are_told_at_once(tmp_path):
         Experiment.load(file)
     told = str(refused.value)
     assert "Did you mean 'Appears'" in told and "a Set needs 'value'" in told and "holds no levels" in told and "Did you mean 'of'" in told
-    file.write_text(json.dumps(data | {"experiment": 2}))
+    file.write_text(json.dumps(data | {"experiment": 3}))
     with pytest.raises(DocumentError, match="another version"):
         Experiment.load(file)
     file.write_text("{}")

@@ -101,11 +101,11 @@ def test_a_trial_without_a_peak_has_no_place():
 
 def test_the_threshold_of_an_output_has_to_be_given():
     with pytest.raises(ParameterError, match=r"u.output is above 0 everywhere.*threshold=0.5"):
-        experiment(measures=[Measure("place", "u", "place")]).run()
-    assert not experiment(measures=[Measure("place", "u", "place", threshold=0.5)]).check()
+        experiment(measures=[Measure("place", "u.output", "place")]).run()
+    assert not experiment(measures=[Measure("place", "u.output", "place", threshold=0.5)]).check()
     heaviside = experiment()
     heaviside.model.set({"u.sigmoid": Step()})
-    assert not dc.replace(heaviside, measures=[Measure("place", "u", "place")]).check()
+    assert not dc.replace(heaviside, measures=[Measure("place", "u.output", "place")]).check()
 
 
 def test_a_threshold_belongs_to_a_place_alone():

@@ -13,7 +13,7 @@ import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.elements.function import Function
 from deodar.recording import files
-from deodar.recording.provenance import KEY
+from deodar.recording.provenance import KEY, document
 from deodar.recording.record import about
 from deodar.recording.repeat import repeat
 from deodar.runtime.simulate import simulate
@@ -26,6 +26,14 @@ def test_the_same_bits_on_the_same_machine(settings: dict[str, object], tmp_path
     data = record(**settings)
     done = repeat(files.load_record(files.save_record(data, tmp_path / "record.zarr")), simulate)
     assert done.same_bits and not done.differences and done.faithful and done.data.drop_attrs().identical(data.drop_attrs())
+
+
+@pytest.mark.parametrize(("version", "port"), [(2, "output"), (3, "activation")])
+def test_the_path_of_a_field_alone_means_what_it_meant_when_the_record_was_made(version: int, port: str) -> None:
+    data = dd.simulate(dd.Model(document=document(about(record()))), 5, record=f"u.{port}")
+    made = about(data)
+    made |= {"record": ["u"], "document": made["document"] | {"deodar": version}}
+    assert repeat(data.assign_attrs({KEY: json.dumps(made)}), simulate).same_bits
 
 
 def test_what_differs_is_listed() -> None:

@@ -49,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.recording import places
 
     _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
-    found = Experiment.load(args.file)
+    found = Experiment.load(args.file, load)
     given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
     given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
     experiment = dc.replace(found, **given)

@@ -231,7 +231,7 @@ class Snapshot(Action):
     Attributes:
         at: document time at which it is done; with `when` the time after that event.
         label: what the record calls it.
-        of: paths of the ports.
+        of: paths of the ports; the path of a field alone means its activation.
         when: the event after which it is done; empty: at a time of its own.
     """
 
@@ -301,7 +301,7 @@ def targets(action: Action, doc: Any) -> None:
     for path in action.paths():
         find.target(doc, path)
     for path in action.ports():
-        find.port(doc, path)
+        find.shown(doc, path)
     if isinstance(action, Push):
         find.element(doc, action.element)
 

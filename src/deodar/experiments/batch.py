@@ -68,7 +68,7 @@ def run_batch(
         model: the model, as it now is.
         limit: document time after which each trial ends at the latest.
         trials: which trials of the seed.
-        watch: paths of ports whose values are kept.
+        watch: paths of ports whose values are kept; the path of a field alone means its activation.
         events: what may happen; those that `ends` says end a trial.
         seed: seed of all noise.
         world: what the model's sensors read and its motors move, one of pure functions such as an arena; of starts and goals given for each
@@ -98,7 +98,7 @@ def run_batch(
         raise ParameterError(f"trials are numbers, each of them once, not {list(trials)}")
     tally = Tally(events, measures, len(numbers))
     views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
-    watched = [(entry.id, port) for entry, port in (find.port(doc, name) for name in watch)]
+    watched = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
         raise WorldError(f"the world {type(world).__name__} cannot be computed for a batch of copies", fix="Run them one by one: dd.run_trial(...)")
     if world is not None and values:

@@ -182,7 +182,7 @@ class Bench:
         looks = e.limit / (e.every or e.dt or self.model.document.step) + 1
         cells = 0
         for name in e.record:
-            entry, port = find.port(self.model.document, name)
+            entry, port = find.shown(self.model.document, name)
             cells += math.prod(shape(by[entry.id].axes(port)))
         recorded = cells * looks * (8 if e.precision == "float64" else 4)
         return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), int(RECORD_BYTES // max(1.0, recorded))))

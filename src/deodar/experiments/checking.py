@@ -59,7 +59,7 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
         if isinstance(action, Record) and not experiment.record:
             problems.append(Problem(f"actions.{k}", "starts or stops recording, but nothing is recorded", "Name ports under record"))
     for path in experiment.record:
-        attempt("record", lambda path=path: find.port(doc, path))
+        attempt("record", lambda path=path: find.shown(doc, path))
     if problems:
         raise ParameterError(problems)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self, cast
@@ -16,13 +16,14 @@ from deodar.experiments.actions import Action
 from deodar.experiments.events import Event
 from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import Measure
+from deodar.experiments.migrations import migrate
 from deodar.experiments.plain import from_data, schema, to_data
 from deodar.model import files, output
-from deodar.model.model import Model, save
+from deodar.model.model import Model, load, save
 from deodar.parameters import Part, Recompile, show
 from deodar.worlds._base import World
 
-VERSION = 1
+VERSION = 2
 EVENTS = (happens.Crosses, happens.Reached, happens.Appears, happens.Vanishes, happens.Within, happens.Leaves, happens.All, happens.AnyOf)
 ACTIONS = (done.Place, done.Move, done.Remove, done.Set, done.Ramp, done.Push, done.Record, done.Snapshot, done.Reset, done.End)
 KINDS: Mapping[str, Mapping[str, type[Part]]] = {
@@ -100,17 +101,23 @@ class Design(Part):
         return out
 
     @classmethod
-    def from_data(cls, data: Any, folder: Path | None = None) -> Self:
-        """The experiment that plain data describe; `folder`: where the files that it names stand.
+    def from_data(cls, data: Any, folder: Path | None = None, read: Callable[[str], Model] = load) -> Self:
+        """The experiment that plain data describe.
+
+        Args:
+            data: the plain data.
+            folder: where the files that it names stand.
+            read: what opens the model of an experiment of version 1, whose paths are rewritten.
 
         Raises:
             DocumentError: the data describe none; every problem is listed.
         """
         if not isinstance(data, dict) or "experiment" not in data:
             raise DocumentError("is no experiment: it has no key 'experiment'")
-        given = dict(cast("dict[str, Any]", data))
+        given = _migrated(cast("dict[str, Any]", data), folder, read)
         if given.pop("experiment") != VERSION:
-            raise DocumentError(f"is an experiment of another version; this deodar reads version {VERSION}", fix="Type: pip install --upgrade deodar")
+            what = f"is an experiment of another version; this deodar reads versions 1 to {VERSION}"
+            raise DocumentError(what, fix="Type: pip install --upgrade deodar")
         problems: list[Problem] = []
         for key, kinds in KINDS.items():
             rows = given.pop(key, None)
@@ -148,8 +155,12 @@ class Design(Part):
         output.write(path, (json.dumps(data, indent=2, ensure_ascii=False) + "\n").encode())
 
     @classmethod
-    def load(cls, path: str | Path) -> Self:
+    def load(cls, path: str | Path, read: Callable[[str], Model] = load) -> Self:
         """Read a file; the model that it names is in the same folder.
+
+        Args:
+            path: the file.
+            read: what opens the model of an experiment of version 1, whose paths are rewritten.
 
         Raises:
             DocumentError: there is none, or it holds something else; every problem is listed.
@@ -159,7 +170,7 @@ class Design(Part):
             if not path.is_file():
                 near = did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")]) if path.parent.is_dir() else ""
                 raise DocumentError("there is no such file", fix=near)
-            return cls.from_data(files.parse(path.read_bytes()), path.parent)
+            return cls.from_data(files.parse(path.read_bytes()), path.parent, read)
         except DeodarError as error:
             raise DocumentError([Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]) from None
         except OSError as error:
@@ -170,7 +181,12 @@ class Design(Part):
         """JSON Schema of a file."""
         own: dict[str, Any] = schema({"Experiment": Design}, named=False)["oneOf"][0]["properties"]
         own = {key: value for key, value in own.items() if key not in (*KINDS, "kind")}
-        own |= {"experiment": {"const": VERSION}, "name": {"type": "string"}, "model": {"type": "string"}, "world": {"type": "string"}}
+        own |= {
+            "experiment": {"enum": list(range(1, VERSION + 1))},
+            "name": {"type": "string"},
+            "model": {"type": "string"},
+            "world": {"type": "string"},
+        }
         for key, kinds in KINDS.items():
             parts = schema(kinds, named=key != "actions")
             if len(kinds) == 1:
@@ -188,6 +204,17 @@ class Design(Part):
 
 EXAMPLE = "example:"
 """What the name of an example begins with, which the commands open in the place of a file."""
+
+
+def _migrated(data: Mapping[str, Any], folder: Path | None, read: Callable[[str], Model]) -> dict[str, Any]:
+    """Plain data in the present version. Of a model that cannot be opened the paths stay as they are: nothing runs before it can."""
+    model = _beside(data.get("model", ""), folder, False)
+    if data["experiment"] != 1:
+        return dict(data)
+    try:
+        return migrate(data, read(str(model)).document)
+    except DeodarError:
+        return {**data, "experiment": VERSION}
 
 
 def _beside(text: Any, folder: Path | None, world: bool) -> Any:

@@ -72,7 +72,7 @@ class Crosses(Event):
 
     Attributes:
         name: what rows call it.
-        of: path of the port, or name of a sensor of the world.
+        of: path of the port, or name of a sensor of the world; the path of a field alone means its activation.
         level: the value.
         side: `above` or `below` it.
         reduce: what is compared of an array: max, min, mean or sum.

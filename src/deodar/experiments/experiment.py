@@ -39,7 +39,7 @@ class Experiment(Design):
         design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for each trial).
         seed: of all noise, and of what is drawn.
         every: document time between looks (and records); none: each step.
-        record: paths of ports of which every trial keeps a record.
+        record: paths of ports of which every trial keeps a record; the path of a field alone means its activation.
         world: what sensors read and motors move: a world, or KIND:ARGUMENT as on the command line.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.

@@ -16,7 +16,7 @@ class Measure(Part):
 
     Attributes:
         name: what rows call it.
-        of: path of a port, or name of a sensor of the world.
+        of: path of a port, or name of a sensor of the world; the path of a field alone means its activation.
         reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units, interpolated between samples
             as `dd.peaks` does. A trial without a peak has no place (NaN in the table).
         when: the event at whose time it is taken; empty: when the trial ends.

@@ -19,6 +19,7 @@ from deodar.errors import DeodarError, RecordError
 from deodar.experiments import parcel
 from deodar.experiments.bench import Bench
 from deodar.experiments.jobs import Job, Standing, carry_out
+from deodar.experiments.migrations import migrate
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.tally import DIVERGED
 from deodar.experiments.writing import RECORDS
@@ -52,7 +53,7 @@ def carry(bench: Bench, out: str | Path | None, workers: int | None = None, prog
 
 def _carry(bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None) -> xarray.Dataset:
     about = _about(bench, workers, out)
-    rows = Rows(out / ROWS, about)
+    rows = Rows(out / ROWS, about, read=lambda made: migrate(made, bench.model.document))
     if not (out / MODEL).exists():
         documents.save(bench.model.document, out / MODEL)
     if not (out / EXPERIMENT).exists():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,7 @@ class Rows:
         about: what makes the experiment, as plain data: rows of another one are never mixed with these.
         by_condition: names of the entries of `about` that map names of conditions to their settings. A condition that the file has must have
             the same settings in all of these entries; a condition that the file does not have is an extension. Every other entry must be equal.
+        read: makes of the `about` that the file holds the same of the present version.
 
     Attributes:
         found: rows by their keys.
@@ -40,7 +41,9 @@ class Rows:
         OutputError: it cannot be written.
     """
 
-    def __init__(self, path: Path, about: Mapping[str, Any], by_condition: Sequence[str] = ()) -> None:
+    def __init__(
+        self, path: Path, about: Mapping[str, Any], by_condition: Sequence[str] = (), read: Callable[[dict[str, Any]], dict[str, Any]] = dict
+    ) -> None:
         self.path = path
         self.found: dict[str, Row] = {}
         told = json.loads(json.dumps({ABOUT: about}))
@@ -51,7 +54,7 @@ class Rows:
             return
         if not isinstance(lines[0].get(ABOUT), dict):
             raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
-        made = [line[ABOUT] for line in lines if KEY not in line][-1]
+        made = read([line[ABOUT] for line in lines if KEY not in line][-1])
         changed = different(told[ABOUT], made, by_condition)
         if changed:
             raise OutputExists(f"holds runs of another experiment: {', '.join(changed)} differ", where=str(path), fix="Choose another name")

@@ -60,7 +60,7 @@ def run_trial(
         world: what its sensors read and its motors move; of starts and goals given for each trial it takes those of this one.
         seed: seed of all noise.
         trial: which trial of the seed it is.
-        watch: paths of ports and names of sensors of the world whose values are kept.
+        watch: paths of ports and names of sensors of the world whose values are kept; the path of a field alone means its activation.
         events: what may happen; those that `ends` says end the trial.
         actions: what is done, at which times, or after which events.
         every: document time between looks; none: dt.
@@ -163,7 +163,7 @@ class _Eye:
         self.sensors = {name for name in [*watch, *(v.of for v in views)] if name in known}
         self.ports: dict[str | View, tuple[str, str]] = {}
         for name in [n for n in watch if n not in self.sensors]:
-            entry, port = find.port(session.document, name)
+            entry, port = find.shown(session.document, name)
             self.ports[name] = entry.id, port
         for view in [v for v in self.views if v.of not in self.sensors]:
             entry, port = view.place(session.document)

@@ -28,7 +28,7 @@ class View:
         reduce: max, min, mean or sum of all samples, or `place` of the highest peak; empty: the values as they are.
         near: only samples around this place, in axis units, one number for each axis; empty: all.
         radius: how far around it, along every axis.
-        port: which port a path without one means.
+        port: which port a path without one means; empty: of a field its activation, else the default output.
         threshold: samples above it belong to a peak, for `place`.
     """
 
@@ -36,11 +36,13 @@ class View:
     reduce: str = ""
     near: tuple[float, ...] = ()
     radius: float = 0.0
-    port: str = "output"
+    port: str = ""
     threshold: float = 0.0
 
     def place(self, doc: Document) -> tuple[Entry, str]:
         """The element and the port that it means in a document; an unknown one is an error that suggests the nearest."""
+        if not self.port:
+            return find.shown(doc, self.of)
         entry, port = find.port(doc, self.of, "")
         port = port or self.port
         if port not in find.readable(entry):

@@ -31,7 +31,7 @@ def _write(path: Path, doc: Document, names: Sequence[str], times: np.ndarray, v
     nodes = {node.id: node for node in resolve(doc)[0]}
     variables: list[Any] = []
     for name in names:
-        entry, port = find.port(doc, name)
+        entry, port = find.shown(doc, name)
         variables.append((entry, port, nodes[entry.id].axes(port), values[name]))
     path.parent.mkdir(parents=True, exist_ok=True)
     files.save_record(dataset(doc, variables, times, None, {}, about), path, force=True)

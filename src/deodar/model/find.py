@@ -7,7 +7,7 @@ import dataclasses as dc
 from deodar.errors import ParameterError, UnknownName, did_you_mean
 from deodar.leaves import leaves
 from deodar.model.document import Document, Entry
-from deodar.model.paths import readings
+from deodar.model.paths import quote, readings
 from deodar.parameters import parameters
 
 
@@ -55,6 +55,21 @@ def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]
         raise UnknownName(f"{entry.path} has no port {rest!r}", fix=did_you_mean(rest, readable(entry)))
     ports = [f"{e.path}.{p}" for e in doc.entries for p in readable(e)]
     raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, [*ports, *(e.path for e in doc.entries)]))
+
+
+def shown(doc: Document, path: str) -> tuple[Entry, str]:
+    """The element and the port whose values a path names, to record or to read: of a field without a port its activation, else the default output.
+
+    In a connection a path without a port means the default output of every element: `port`.
+    """
+    entry, name = port(doc, path, "")
+    return entry, name or ("activation" if "activation" in outputs(entry) else outputs(entry)[0])
+
+
+def written(doc: Document, path: str) -> str:
+    """The same with its port, as text: `u` is `u.activation`."""
+    entry, name = shown(doc, path)
+    return f"{entry.path}.{quote(name)}"
 
 
 def readable(entry: Entry) -> list[str]:

@@ -8,6 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, cast
 
+from deodar.errors import UnknownName
+from deodar.model import find
+from deodar.model.document import Document
+
 AxisData = Mapping[str, Any]
 
 _X: AxisData = {"name": "x", "lower": 0, "upper": 20, "samples": 21}
@@ -44,6 +48,15 @@ def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
     if data.get("deodar") == 1:
         data = _from_1(data)
     return _from_2(data) if data.get("deodar") in (1, 2) else dict(data)
+
+
+def recorded(doc: Document, path: str) -> str:
+    """Rewrite a path that was recorded with versions 1 and 2, where the path of a field alone meant its output, not its activation."""
+    try:
+        entry, port = find.port(doc, path, "")
+    except UnknownName:  # the sensor of a world, or a mistake that whoever reads the path reports
+        return path
+    return path if port or "activation" not in find.outputs(entry) else f"{path}.output"
 
 
 def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:

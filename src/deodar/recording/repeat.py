@@ -11,6 +11,7 @@ import xarray
 
 from deodar import registry
 from deodar.errors import DeodarError, RecordError, WorldError
+from deodar.model.migrations import recorded
 from deodar.model.model import Model
 from deodar.recording import provenance
 from deodar.recording.opened import again
@@ -94,7 +95,7 @@ def repeat(
     try:
         model = Model(document=provenance.document(made), trusted=trust)
         settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
-        settings |= {"record": made["record"], "sweep": made["sweep"] or None}
+        settings |= {"record": _recorded(made, model), "sweep": made["sweep"] or None}
         settings |= {"workers": made.get("workers"), "batch": made.get("batch"), "device": device or made.get("device")}
         settings |= {"accuracy": made.get("accuracy", "default")}
     except (KeyError, TypeError, ValueError) as error:
@@ -102,6 +103,14 @@ def repeat(
     world = world or _world(made.get("world"))
     new = simulate(model, world=world, progress=progress, **settings)
     return compare(data, new)
+
+
+def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:
+    """The ports that were recorded; versions of the document before 3 meant another one by the path of a field alone."""
+    record: list[str] | None = made["record"]
+    if record is None or made["document"].get("deodar", 0) >= 3:
+        return record
+    return [recorded(model.document, path) for path in record]
 
 
 def world_of(data: xarray.Dataset) -> World | None:

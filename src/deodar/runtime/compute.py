@@ -84,7 +84,8 @@ def compute(
     memory.require(
         nodes, precision, cut.batch, recorded * (2 if cut.count > 1 else 1), points.rebuilt(), min(points.size, cut.batch), beside
     )  # fmt: skip
-    settings = {"duration": float(duration), "seed": seed, "every": every, "accuracy": accuracy, "record": None if record is None else _list(record)}
+    paths = None if record is None else [find.written(doc, path) for path in _list(record)]
+    settings = {"duration": float(duration), "seed": seed, "every": every, "accuracy": accuracy, "record": paths}
     labels, grid = list(numbers) if names else None, points.by_path
     asked = {"trials": labels, "sweep": grid, "workers": workers, "device": device}
     if cut.count > 1:
@@ -223,7 +224,7 @@ def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str,
         if not fields:
             raise ParameterError("the model has no field, so it must be said what to record", fix="For example record=['left.output']")
         return fields
-    found = [find.port(doc, path) for path in _list(record)]
+    found = [find.shown(doc, path) for path in _list(record)]
     if not found:
         raise ParameterError("record is empty", fix="Name at least one port, or leave it out")
     return list(dict.fromkeys((entry.id, port) for entry, port in found))

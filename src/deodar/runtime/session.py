@@ -198,7 +198,10 @@ class Session:
         return "rebuild" if exact or widths(old) == widths(document) or ways_of(old) == ways_of(document) else "recompile"
 
     def read(self, path: str | Handle) -> np.ndarray:
-        """What a port holds now: an array over the port's axes in their order, of shape () for a node."""
+        """Return what a port holds now: an array over the port's axes in their order, of shape () for a node.
+
+        The path of a field alone means its activation: `session.read("u")`.
+        """
         return self._run.read([self._port(path)])[0]
 
     def get(self, path: str) -> Any:
@@ -358,7 +361,7 @@ class Session:
     def _port(self, path: str | Handle) -> Port:
         path, program = path_of(path), self._run.program
         if self._ports.get(path, (None,))[0] is not program:  # found once for each program: a renamed element has another path
-            entry, name = find.port(self.document, path)
+            entry, name = find.shown(self.document, path)
             self._ports[path] = (program, program.port(entry.id, name))
         return self._ports[path][1]
 

@@ -60,7 +60,7 @@ def simulate(
         duration: document time; a whole number of steps.
         dt: Euler step; none: the document's own, else 1.
         seed: seed of all noise, 0 to 2^32 - 1.
-        record: paths of ports. None: the activation of every field and node, at one time, the end.
+        record: paths of ports; the path of a field alone means its activation. None: the activation of every field and node, at one time, the end.
         every: document time between records; none: dt. The first record is the initial state.
         trials: number of trials (0 to n - 1 of the seed), or a list of trial numbers; trials differ in their noise.
         sweep: for each parameter path its values; several entries form a grid. All points share the noise.
