@@ -40,7 +40,7 @@ def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) 
 def test_without_runs_a_page_states_settings_and_no_results() -> None:
     none = {name: evidence.unrun(name) for name in papers.names()}
     results = [value for name, value in none["spa"].items() if name.startswith(("success:", "ratio:", "arrival:", "weak:", "stuck", "required"))]
-    assert len(results) > 100 and set(results) == {evidence.NOT_RUN}
+    assert len(results) > 100 and set(results) == {evidence.papers.NOT_RUN}
     assert none["spa"]["reflection"] == "0.6" and none["spa"]["factor"] == "1.2" and none["spa"]["runs"] == "0"
     for page in evidence.pages():
         assert evidence.loose(evidence.filled(page.read_text(encoding="utf-8"), none)) == []
@@ -123,7 +123,7 @@ def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) ->
     assert evidence.filled(text, known) == text
     assert "| large/reflection-1.0-planner/low | 40 |" in known["spa"]["settings"]
     for page in evidence.pages():  # whole runs give every name that a page asks for
-        assert evidence.NOT_RUN not in evidence.filled(page.read_text(encoding="utf-8"), known)
+        assert evidence.papers.NOT_RUN not in evidence.filled(page.read_text(encoding="utf-8"), known)
 
 
 def test_a_quick_reproduction_is_taken_as_one(folder: Path, tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_a_condition_that_is_not_complete_is_left_out(folder: Path, tmp_path: Pa
     taken = evidence.take(folder, tmp_path / "evidence")
     assert last in capsys.readouterr().err
     known = evidence.numbers(taken, taken.report())
-    assert known["missing"] == last and known[f"success:{last}"] == evidence.NOT_RUN
+    assert known["missing"] == last and known[f"success:{last}"] == evidence.papers.NOT_RUN
     assert {row["condition"] for row in taken.rows.values()} == {json.loads(line)["condition"] for line in lines[1:-1]} - {last}
     assert taken.about["runs"] == len(taken.rows) < taken.about["of"]
 
