@@ -19,9 +19,8 @@ from pathlib import Path
 from typing import Any
 
 import deodar as dd
-from deodar import cli, registry
+from deodar import cli, part_type, registry
 from deodar.parameters import Needed, Parameter, Part, parameters
-from deodar.part_type import source_doc
 from deodar.server.docstring import docstring
 
 DOCS = Path(__file__).parent
@@ -154,7 +153,7 @@ def room_page(room: str) -> str:
 
 def kind_section(cls: type) -> str:
     """Heading, equation, parameters, ports, source."""
-    opening, found = sections(source_doc(cls))
+    opening, found = sections(part_type.source_doc(cls))
     out = [f"## {cls.__name__}\n", f"`dd.{cls.__name__}`\n", prose(opening) + "\n"]
     if "Equation" in found:
         out += [f"```math\n{line}\n```\n" for line in docstring(cls).equation]

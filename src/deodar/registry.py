@@ -1,7 +1,8 @@
 """The folder is the registry: every module of an extension folder registers exactly one kind.
 
 A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...). `scan` imports its modules once, when a
-kind is first looked up, and refuses a module that registers nothing or two things.
+kind is first looked up, and refuses a module that registers nothing or two things. Kinds of installed packages are found by the
+entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking up one of them imports it alone.
 """
 
 from __future__ import annotations
@@ -10,13 +11,17 @@ import importlib
 import pkgutil
 from typing import Any, TypeVar
 
+from deodar import plugins
 from deodar.errors import ModelError, UnknownName, did_you_mean
+from deodar.plugins import Plugin
 
 ROOMS = ("numerics.sigmoids", "numerics.kernels", "elements", "couplings", "worlds")
 
 T = TypeVar("T", bound=type[Any])
 
 _kinds: dict[str, type[Any]] = {}
+
+_packages: dict[str, str] = {}
 
 
 def register(cls: T) -> T:
@@ -44,21 +49,58 @@ def imported(room: str) -> list[Any]:
 
 
 def kinds(room: str | None = None) -> dict[str, type[Any]]:
-    """Every registered kind by name, or those declared in one room; a user's own kinds belong to the room None."""
+    """Every registered kind by name, or those of one room: kinds from outside belong to the room None, worlds of packages to `worlds` too."""
     for each in ROOMS:
         _scan(each)
-    if room is None:
-        return dict(sorted(_kinds.items()))
-    return {name: cls for name, cls in sorted(_kinds.items()) if cls.__module__.startswith(f"deodar.{room}.")}
+    outside = [p for p in packaged() if room is None or p.group == room]
+    taken = {p.name for p in outside if not take(p)}
+    return {name: cls for name, cls in sorted(_kinds.items()) if room is None or cls.__module__.startswith(f"deodar.{room}.") or name in taken}
 
 
 def kind(name: str) -> type[Any]:
-    """The class registered under `name`; an unknown name is an error that suggests the nearest one."""
+    """The class registered under `name`, of deodar or of an installed package.
+
+    Raises:
+        UnknownName: nothing is called so (the nearest name is suggested), or its package cannot be used.
+    """
     if name not in _kinds:
-        known = kinds()
-        if name not in known:
-            raise UnknownName(f"no element, coupling, kernel or sigmoid is called {name!r}", fix=did_you_mean(name, known))
+        for each in ROOMS:
+            _scan(each)
+    if name not in _kinds:
+        outside = {p.name: p for p in reversed(packaged())}
+        if name not in outside:
+            raise UnknownName(f"no element, coupling, kernel or sigmoid is called {name!r}", fix=did_you_mean(name, [*_kinds, *outside]))
+        problem = take(outside[name])
+        if problem:
+            of = outside[name]
+            raise UnknownName(f"{name!r} cannot be used: the package {of.package} {of.version} {problem}", fix="Type: deodar doctor")
     return _kinds[name]
+
+
+def packaged() -> list[Plugin]:
+    """The kinds and worlds that installed packages name, without importing them."""
+    own = {name for name, cls in _kinds.items() if cls.__module__.startswith("deodar.")}
+    return [*plugins.found("kinds", own), *plugins.found("worlds", own)]
+
+
+def take(plugin: Plugin) -> str:
+    """Register the kind of a package; returns what is wrong, "" where nothing is."""
+    before = dict(_kinds)
+    cls, problem = plugin.load()
+    if not problem and getattr(cls, "__name__", "") != plugin.name:
+        problem = f"names {plugin.entry.value} as {plugin.name!r}, which is no class of that name"
+    if problem:
+        _kinds.clear()  # a module that raises may have registered a part of its kinds
+        _kinds.update(before)
+        return problem
+    _kinds.setdefault(plugin.name, cls)
+    _packages[plugin.name] = f"{plugin.package} {plugin.version}"
+    return ""
+
+
+def packages() -> dict[str, str]:
+    """For each kind of an installed package that was looked up: the package and its version, as documents state it."""
+    return dict(_packages)
 
 
 def _scan(room: str) -> None:

@@ -15,7 +15,7 @@ from tests.house.source import MODULES, SRC, imported, module, tree
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
-        "errors",
+        "errors plugins",
         "registry declarations renamed part_type",
         "parameters",
         "leaves",

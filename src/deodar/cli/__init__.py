@@ -15,14 +15,27 @@ from pathlib import Path
 from types import ModuleType
 from typing import NoReturn
 
-from deodar import __version__
+from deodar import __version__, plugins
 from deodar.errors import DeodarError, UnknownName, did_you_mean
+from deodar.plugins import Plugin
 
 
 def commands() -> dict[str, ModuleType]:
-    """Every command by name; a module ends in an underscore where the name is a word of Python's own."""
+    """Every command of deodar by name; a module ends in an underscore where the name is a word of Python's own."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
     return {name.rstrip("_"): importlib.import_module(f"deodar.cli.{name}") for name in names}
+
+
+def packaged() -> list[Plugin]:
+    """The commands that installed packages name, without importing them."""
+    return plugins.found("commands", list(commands()))
+
+
+def _outside(given: Sequence[str]) -> dict[str, ModuleType]:
+    """The commands of packages that a call needs: the one it names, or all where the list of commands is shown."""
+    named = next((word for word in given if not word.startswith("-")), None)
+    loaded = {p.name: p.load() for p in packaged() if named in (None, p.name) and not p.problem}
+    return {name: module for name, (module, problem) in loaded.items() if not problem}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -31,15 +44,15 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}. Type: {self.prog} --help\n")
 
 
-def parser() -> argparse.ArgumentParser:
-    """The parser of the whole command line."""
+def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
+    """The parser of the whole command line; of packages it holds the commands that the call needs."""
     top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
     top.add_argument(
         "--import", dest="imports", action="append", default=[], metavar="MODULE", help="import a module with elements of your own first"
     )
     inside = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, module in commands().items():
+    for name, module in (commands() | _outside(given)).items():
         sub = inside.add_parser(name, help=module.HELP, description=module.HELP)
         module.arguments(sub)
         sub.set_defaults(run=module.run)
@@ -49,10 +62,10 @@ def parser() -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; 0 means done, 1 an error told in one paragraph on stderr, 2 a wrong call."""
     given = list(sys.argv[1:] if argv is None else argv)
-    if given and not given[0].startswith("-") and given[0] not in commands():
-        print(f"deodar: there is no command {given[0]!r}. {did_you_mean(given[0], commands())}", file=sys.stderr)
+    if given and not given[0].startswith("-") and given[0] not in commands() | _outside(given):
+        print(f"deodar: {_no_command(given[0])}", file=sys.stderr)
         return 2
-    args = parser().parse_args(given)
+    args = parser(given).parse_args(given)
     try:
         for name in args.imports:
             _import(name)
@@ -68,6 +81,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     except MemoryError:
         print(f"deodar {args.command}: there is not enough memory for this. Take fewer samples or fewer trials", file=sys.stderr)
     return 1
+
+
+def _no_command(name: str) -> str:
+    """Why there is no command of that name: nothing is called so, or its package cannot be used."""
+    for p in packaged():
+        if p.name == name:
+            return f"the command {name!r} cannot be used: the package {p.package} {p.version} {p.load()[1]}. Type: deodar doctor"
+    return f"there is no command {name!r}. {did_you_mean(name, [*commands(), *(p.name for p in packaged())])}"
 
 
 def _import(name: str) -> None:

@@ -98,6 +98,7 @@ def examine() -> dict[str, Any]:
         "system": platform.platform(),
         "packages": packages,
         "missing": [name for name, found in packages.items() if found is None],
+        "plugins": _plugins(),
         "extras": {extra: version(package) is not None for extra, package in EXTRAS.items()},
         "device": device.name(device.find()),
         "devices": {name: device.find(name).device_kind for name in device.names()},
@@ -112,6 +113,17 @@ def examine() -> dict[str, Any]:
     }
 
 
+def _plugins() -> list[dict[str, str]]:
+    """What installed packages add, each with what is wrong with it; "" where nothing is."""
+    from deodar import cli, papers, registry
+    from deodar.importers import opening
+
+    registry.kinds()  # names that deodar itself has
+    listed = [(p, registry.take(p)) for p in registry.packaged()]
+    listed += [(p, p.load()[1]) for p in (*opening.packaged(), *cli.packaged(), *papers.packaged())]
+    return [{"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem} for p, problem in listed]
+
+
 def _page(found: dict[str, Any]) -> str:
     from deodar.compiler import device
 
@@ -124,6 +136,10 @@ def _page(found: dict[str, Any]) -> str:
     lines.append("packages   " + ", ".join(f"{name} {version}" for name, version in found["packages"].items() if version))
     if found["missing"]:
         lines.append(f"MISSING    {', '.join(found['missing'])}. Type: pip install --upgrade deodar")
+    for p in found["plugins"]:
+        lines.append(
+            f"plug-in    {p['package']} {p['version']}: " + (f"PROBLEM: {p['name']} {p['problem']}" if p["problem"] else f"{p['group']} {p['name']}")
+        )
     for extra, there in found["extras"].items():
         lines.append(f"extra      {extra}: " + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'"))
     programs = found["compiled_programs"]

@@ -37,6 +37,9 @@ def run(args: argparse.Namespace) -> int:
                 print("\n".join(["", "Values:", *values]))
         return 0
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
+    known = {name for found in listed.values() for name in found}
+    outside = {name: cls for name, cls in registry.kinds().items() if name not in known and not cls.__module__.startswith("deodar.")}
+    listed |= {"own": outside} if outside else {}
     if args.json:
         print(json.dumps({room: {name: _line(cls) for name, cls in found.items()} for room, found in listed.items()}, indent=2))
         return 0

@@ -6,13 +6,14 @@ import importlib
 from pathlib import Path
 from types import ModuleType
 
-from deodar import registry
+from deodar import plugins, registry
 from deodar.errors import DeodarError, DocumentError, Problem
 from deodar.importers import examples
 from deodar.importers.imported import Imported
 from deodar.model import model as models
 from deodar.model.files import MOST_BYTES
 from deodar.model.model import Model
+from deodar.plugins import Plugin
 
 HEAD = 65536
 """Bytes by which a file is told."""
@@ -22,9 +23,23 @@ OWN = b'"deodar":'
 
 
 def tools() -> dict[str, ModuleType]:
-    """The importers by name: every folder beside this file. Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs) -> Imported`."""
+    """The importers by name: every folder beside this file, and those of installed packages.
+
+    Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs) -> Imported`.
+    """
+    outside = {p.name: p.load() for p in packaged() if not p.problem}
+    return own() | {name: module for name, (module, problem) in outside.items() if not problem}
+
+
+def own() -> dict[str, ModuleType]:
+    """The importers that come with deodar."""
     found = [importlib.import_module(name) for name in registry.modules("importers")]
     return {module.NAME: module for module in found if hasattr(module, "sniff")}
+
+
+def packaged() -> list[Plugin]:
+    """The importers that installed packages name, without importing them."""
+    return plugins.found("importers", list(own()))
 
 
 def require(path: str | Path) -> Path:

@@ -1,4 +1,4 @@
-"""Published experiments, run again: one folder for each paper; the folder is the registry.
+"""Published experiments, run again: one folder for each paper; the folder is the registry, and entry points `deodar.papers` of installed packages.
 
 A paper is a module or a package with
 
@@ -20,7 +20,9 @@ import pkgutil
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from deodar import plugins
 from deodar.errors import UnknownName, did_you_mean
+from deodar.plugins import Plugin
 
 if TYPE_CHECKING:
     from deodar.papers._report import NOT_RUN as NOT_RUN
@@ -35,12 +37,32 @@ else:
 
 
 def names() -> list[str]:
-    """Every paper that can be reproduced."""
+    """Every paper that can be reproduced: those of deodar, then those that installed packages name."""
+    return [*own(), *(p.name for p in packaged() if not p.problem)]
+
+
+def own() -> list[str]:
+    """The papers that come with deodar."""
     return sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
 
 
+def packaged() -> list[Plugin]:
+    """The papers that installed packages name, without importing them."""
+    return plugins.found("papers", own())
+
+
 def paper(name: str) -> ModuleType:
-    """A paper by its name; an unknown name is an error that suggests the nearest one."""
-    if name not in names():
-        raise UnknownName(f"there is no paper {name!r} to reproduce", fix=did_you_mean(name, names()))
-    return importlib.import_module(f"deodar.papers.{name}")
+    """A paper by its name.
+
+    Raises:
+        UnknownName: nothing is called so (the nearest name is suggested), or its package cannot be used.
+    """
+    if name in own():
+        return importlib.import_module(f"deodar.papers.{name}")
+    for p in packaged():
+        if p.name == name:
+            module, problem = p.load()
+            if problem:
+                raise UnknownName(f"the paper {name!r} cannot be used: the package {p.package} {p.version} {problem}", fix="Type: deodar doctor")
+            return module
+    raise UnknownName(f"there is no paper {name!r} to reproduce", fix=did_you_mean(name, names()))

@@ -61,7 +61,7 @@ def _room(cls: type[Any]) -> str:
     """The last part of the folder it stands in; windows, which are no folder, stand for themselves."""
     package, *inner = cls.__module__.split(".")
     if package != "deodar":
-        return "own"
+        return "worlds" if issubclass(cls, World) else "own"
     return inner[-1] if inner[:-1] == ["numerics"] else inner[-2]
 
 

@@ -1,0 +1,1 @@
+"""A detector of change for deodar, a lamp to look at, and a command."""

@@ -1,0 +1,52 @@
+"""A detector of change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+
+import deodar as dd
+
+
+@dd.register
+@dataclass(frozen=True)
+class Change(dd.Element):
+    r"""What is new in the input: strong where something appears, silent where it stays.
+
+    Equation:
+        \tau \frac{dz}{dt} = -z + \mathrm{input}
+        y(x) = \max(0, \mathrm{input}(x) - z(x))
+
+    Parameters:
+        axes: where it is defined; none: one number.
+        tau: time constant, in the document's time unit; > 0.
+
+    Ports:
+        input: over `axes`.
+        output: y, over `axes`.
+
+    Reference:
+        no reference
+    """
+
+    name: Annotated[str, dd.Recompile(meaning="name inside its group")] = ""
+    axes: Annotated[Sequence[dd.Axis], dd.Recompile(meaning="where it is defined")] = ()
+    tau: Annotated[float, dd.Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 100.0
+
+    stateful: ClassVar[bool] = True
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
+
+    def outputs(self, ins: Mapping[str, dd.Axes]) -> Mapping[str, dd.Axes]:
+        return {"output": tuple(self.axes)}
+
+    def init(self, at: dd.Setting) -> dd.Arrays:
+        return {"z": at.full(tuple(self.axes), 0.0)}
+
+    def output(self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any) -> dd.Arrays:
+        return {"output": jnp.maximum(0.0, inputs["input"] - state["z"])}
+
+    def advance(self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any) -> dd.Arrays:
+        return {"z": dd.euler(state["z"], -state["z"] + inputs["input"], self.tau, time.dt)}

@@ -1,0 +1,97 @@
+"""Packages that extend deodar, found by their entry points.
+
+A package names in its metadata what it brings, for example
+
+    [project.entry-points."deodar.kinds"]
+    Change = "deodar_change.change:Change"
+
+Nothing is imported before its name is looked up. What is wrong with a package is text, not an error: the rest works, and `deodar doctor` lists it.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.metadata
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+GROUPS = {
+    "kinds": "elements, couplings, kernels and sigmoids, by the name of their class",
+    "worlds": "worlds, by the name of their class",
+    "importers": "modules with NAME, sniff and read",
+    "commands": "modules with HELP, arguments and run",
+    "papers": "modules with HELP, about, jobs, report and so on",
+}
+"""What the entry points of each group `deodar.GROUP` name."""
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """One entry point of a package.
+
+    Attributes:
+        group: a key of `GROUPS`.
+        name: what it is looked up by.
+        package: name of the package as it is installed.
+        version: its version.
+        problem: why it is not imported, known without importing it; "" where nothing is.
+        entry: the entry point.
+    """
+
+    group: str
+    name: str
+    package: str
+    version: str
+    problem: str
+    entry: importlib.metadata.EntryPoint
+
+    def load(self) -> tuple[Any, str]:
+        """Import it, once: the object and "", or None and what is wrong."""
+        return (None, self.problem) if self.problem else _load(self)
+
+
+def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
+    """The entry points of a group, in the order of their packages. A name of deodar itself (`taken`), or of an earlier package, is a problem."""
+    out: list[Plugin] = []
+    owners = dict.fromkeys(taken, "deodar")
+    for entry in _entries(group):
+        assert entry.dist is not None
+        package, version = entry.dist.name, entry.dist.version
+        owner = owners.setdefault(entry.name, package)
+        problem = f"takes the name {entry.name!r}, which {owner} has" if owner != package else _misfit(package)
+        out.append(Plugin(group, entry.name, package, version, problem, entry))
+    return out
+
+
+@functools.cache
+def _entries(group: str) -> tuple[importlib.metadata.EntryPoint, ...]:
+    entries = importlib.metadata.entry_points(group=f"deodar.{group}")
+    return tuple(sorted((e for e in entries if e.dist is not None), key=lambda e: (e.dist.name if e.dist else "", e.name)))
+
+
+@functools.cache
+def _misfit(package: str) -> str:
+    """What is wrong where a package requires another version of deodar than this one."""
+    from packaging.requirements import InvalidRequirement, Requirement
+    from packaging.utils import canonicalize_name
+
+    from deodar import __version__
+
+    for text in importlib.metadata.requires(package) or ():
+        try:
+            requirement = Requirement(text)
+        except InvalidRequirement:
+            continue
+        if canonicalize_name(requirement.name) == "deodar" and not requirement.specifier.contains(__version__, prereleases=True):
+            return f"is made for deodar {requirement.specifier}, and this is {__version__}"
+    return ""
+
+
+@functools.cache
+def _load(plugin: Plugin) -> tuple[Any, str]:
+    try:
+        return plugin.entry.load(), ""
+    except (Exception, SystemExit) as error:  # a module may raise anything
+        first = (str(error).strip() or "no message").splitlines()[0]
+        return None, f"raises {type(error).__name__} when it is imported: {first}"
