@@ -21,8 +21,6 @@ T = TypeVar("T", bound=type[Any])
 
 _kinds: dict[str, type[Any]] = {}
 
-_packages: dict[str, str] = {}
-
 
 def register(cls: T) -> T:
     """Class decorator: make `cls` known by its class name, the `kind` that documents store."""
@@ -85,22 +83,25 @@ def packaged() -> list[Plugin]:
 
 def take(plugin: Plugin) -> str:
     """Register the kind of a package; returns what is wrong, "" where nothing is."""
-    before = dict(_kinds)
+    before = set(_kinds)
     cls, problem = plugin.load()
     if not problem and getattr(cls, "__name__", "") != plugin.name:
         problem = f"names {plugin.entry.value} as {plugin.name!r}, which is no class of that name"
     if problem:
-        _kinds.clear()  # a module that raises may have registered a part of its kinds
-        _kinds.update(before)
+        for extra in set(_kinds) - before:  # a module that raises may have registered a part of its kinds
+            del _kinds[extra]
         return problem
     _kinds.setdefault(plugin.name, cls)
-    _packages[plugin.name] = f"{plugin.package} {plugin.version}"
     return ""
 
 
-def packages() -> dict[str, str]:
-    """For each kind of an installed package that was looked up: the package and its version, as documents state it."""
-    return dict(_packages)
+def package(name: str) -> str:
+    """Name and version of the installed package that a registered kind comes from, as documents state them; "" where it comes from none."""
+    cls = _kinds.get(name)
+    if cls is None or cls.__module__.startswith("deodar."):
+        return ""
+    outside = (p for p in packaged() if p.name == name)
+    return next((f"{p.package} {p.version}" for p in outside if p.load()[0] is cls), "")
 
 
 def _scan(room: str) -> None:

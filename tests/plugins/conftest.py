@@ -24,7 +24,6 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
     before = set(sys.modules)
     registry.kinds()
     monkeypatch.setattr(registry, "_kinds", dict(registry._kinds))
-    monkeypatch.setattr(registry, "_packages", {})
     monkeypatch.syspath_prepend(str(site))
 
     def put(

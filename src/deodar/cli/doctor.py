@@ -16,6 +16,7 @@ GIB = 2**30
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
+    parser.add_argument("files", nargs="*", metavar="FILE", help="documents whose packages are looked for")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
     parser.add_argument(
         "--sbom", action="store_true", help="print the bill of materials as CycloneDX 1.5: every package and library, with its licence"
@@ -32,7 +33,7 @@ def run(args: argparse.Namespace) -> int:
         return 0
     if args.plans:
         return _plans(args.json)
-    found = examine()
+    found = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
     if args.json:
         print(json.dumps(found, indent=2))
     else:
@@ -113,6 +114,23 @@ def examine() -> dict[str, Any]:
     }
 
 
+def _needs(path: str) -> dict[str, Any]:
+    """The packages that a document needs and that are missing or of another version."""
+    from deodar.errors import DocumentError
+    from deodar.importers import opening
+    from deodar.model import files
+
+    try:
+        files.load(opening.require(path))
+    except DocumentError as error:
+        return {
+            "file": path,
+            "problems": [f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where],
+            "opens": False,
+        }
+    return {"file": path, "problems": [], "opens": True}
+
+
 def _plugins() -> list[dict[str, str]]:
     """What installed packages add, each with what is wrong with it; "" where nothing is."""
     from deodar import cli, papers, registry
@@ -140,6 +158,9 @@ def _page(found: dict[str, Any]) -> str:
         lines.append(
             f"plug-in    {p['package']} {p['version']}: " + (f"PROBLEM: {p['name']} {p['problem']}" if p["problem"] else f"{p['group']} {p['name']}")
         )
+    for document in found.get("documents", ()):
+        other = "opens" if document["opens"] else "no package is missing, but it does not open. Type: deodar check " + document["file"]
+        lines += [f"document   {document['file']}: {what}" for what in ["PROBLEM: " + p for p in document["problems"]] or [other]]
     for extra, there in found["extras"].items():
         lines.append(f"extra      {extra}: " + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'"))
     programs = found["compiled_programs"]

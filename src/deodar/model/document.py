@@ -12,7 +12,10 @@ from deodar.model.paths import Index, Names, display
 
 VERSION = 3
 READS = ("", "previous", "current", "delayed")
-KEYS = ("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "uses", "arrays", "notes", "layout")
+KEYS = (
+    *("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "uses", "packages", "arrays"),
+    *("notes", "layout"),
+)
 """Keys of a document file, in their order."""
 
 

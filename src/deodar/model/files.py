@@ -18,11 +18,12 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 import psutil
 
+from deodar import registry
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
 from deodar.model.keys import collect, repeated
-from deodar.model.parts import to_json
+from deodar.model.parts import kinds_in, to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data
 from deodar.numerics.axes import Axis
@@ -68,6 +69,8 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     data |= {"parameters": knobs, "elements": elements, "connections": connections, "groups": [display(g) for g in doc.groups]}
     uses = {display(u.group): {"template": u.template, "elements": {t: by[i].path for t, i in u.elements}} for u in doc.uses}
     data |= {"uses": uses} if uses else {}
+    packages = {kind: registry.package(kind) for kind in sorted(set(kinds_in(elements)))}
+    data |= {"packages": {kind: p for kind, p in packages.items() if p}} if any(packages.values()) else {}
     data |= {"notes": doc.notes} if doc.notes else {}
     data |= {"layout": dict(doc.layout)} if doc.layout else {}
     return data, arrays

@@ -255,3 +255,16 @@ def _declared(part: Any, path: str) -> tuple[Parameter, bool]:
     if p is None:
         raise UnknownName(f"nothing lies inside {path!r}")
     return p, False
+
+
+def kinds_in(data: Any) -> Iterator[str]:
+    """The kinds of all parts in plain data, at every depth."""
+    if isinstance(data, Mapping):
+        found = typing.cast("Mapping[str, Any]", data)
+        if isinstance(found.get("kind"), str):
+            yield found["kind"]
+        for value in found.values():
+            yield from kinds_in(value)
+    elif isinstance(data, list):
+        for value in typing.cast("list[Any]", data):
+            yield from kinds_in(value)

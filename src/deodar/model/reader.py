@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from typing import Any, cast
 
+from deodar import registry
 from deodar.element import Element
 from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import leaves
@@ -16,6 +18,9 @@ from deodar.model.parts import part_from_json
 from deodar.model.paths import Names, display, split, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
+
+PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99} [0-9A-Za-z][0-9A-Za-z.!+_-]{0,49}")
+"""A package and its version, as a document states them."""
 
 MOST_PROBLEMS = 100
 """Connections with problems that are listed: each is compared with all names there are, which takes long where both are many."""
@@ -54,8 +59,9 @@ class _Reader:
         doc = self.groups(doc)
         if not self.problems:  # connections and links of elements that could not be read would only repeat their problems
             doc = self.uses(self.knobs(self.connections(doc)))
+        needed = self.packages()
         if self.problems:
-            raise DocumentError(self.problems)
+            raise DocumentError([*self.unfit_packages(needed), *self.problems])
         return doc
 
     def problem(self, where: str, what: str, fix: str = "") -> None:
@@ -88,6 +94,34 @@ class _Reader:
             self.problem(key, f"needs a list, not {type(value).__name__}")
             return []
         return cast("list[Any]", value)
+
+    def packages(self) -> dict[str, str]:
+        """For each kind that comes from a package: the package and its version."""
+        found: dict[str, str] = {}
+        for kind, text in self.table("packages").items():
+            if isinstance(text, str) and PACKAGE.fullmatch(text):
+                found[kind] = text
+            else:
+                self.problem(f"packages.{kind}", f"needs a package and its version, such as 'deodar-change 0.1.0', not {show(text)}")
+        return found
+
+    @staticmethod
+    def unfit_packages(needed: Mapping[str, str]) -> Iterator[Problem]:
+        """Packages that the document was saved with and that are missing, or of another version: the cause of other problems."""
+        for kind, package in needed.items():
+            where = f"packages.{kind}"
+            try:
+                registry.kind(kind)
+            except UnknownName:
+                if kind not in [p.name for p in registry.packaged()]:
+                    name, _, version = package.partition(" ")
+                    yield Problem(
+                        where, f"{kind} is of the package {package}, which is not installed", f"If you trust it, type: pip install {name}=={version}"
+                    )
+            else:
+                here = registry.package(kind)
+                if here != package:
+                    yield Problem(where, f"the document was saved with {package}; {kind} is of {here or 'a module that is in no package'} now")
 
     def general(self, doc: Document) -> Document:
         doc = self.attempt("time_unit", doc, lambda d: edit.describe(d, time_unit=self.data.get("time_unit", "ms")))

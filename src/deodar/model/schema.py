@@ -17,8 +17,12 @@ SHIPPED = Path(__file__).with_name("document.schema.json")
 
 
 def reference(base: type[Any]) -> dict[str, Any]:
-    """Any registered part that may stand where `base` is declared."""
-    return {"oneOf": [{"$ref": f"#/$defs/{name}"} for name, cls in registry.kinds().items() if issubclass(cls, base)]}
+    """Any part of deodar that may stand where `base` is declared."""
+    return {
+        "oneOf": [
+            {"$ref": f"#/$defs/{name}"} for name, cls in registry.kinds().items() if issubclass(cls, base) and cls.__module__.startswith("deodar.")
+        ]
+    }
 
 
 def document_schema() -> dict[str, Any]:
@@ -72,6 +76,7 @@ def document_schema() -> dict[str, Any]:
             "connections": {"type": "array", "items": connection},
             "groups": {"type": "array", "items": {"type": "string"}},
             "uses": {"type": "object", "additionalProperties": use},
+            "packages": {"type": "object", "additionalProperties": {"type": "string"}},
             "arrays": {"type": "object", "properties": {"file": {"type": "string"}, "sha256": {"type": "string"}}},
             "notes": {"type": "string"},
             "layout": {"type": "object"},

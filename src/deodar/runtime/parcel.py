@@ -9,13 +9,14 @@ import dataclasses as dc
 import functools
 import json
 import pickle
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, cast
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from deodar import registry
 from deodar.errors import WorkerError
 from deodar.model import files
 from deodar.model.model import Model
+from deodar.model.parts import kinds_in
 from deodar.worlds._base import World
 
 
@@ -68,7 +69,7 @@ def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
 
 def _outside(data: Mapping[str, Any]) -> list[type]:
     """Classes outside deodar that the document names."""
-    used = {name: registry.kind(name) for name in _kinds(data["elements"])}
+    used = {name: registry.kind(name) for name in kinds_in(data["elements"])}
     return [cls for _, cls in sorted(used.items()) if not cls.__module__.startswith("deodar.")]
 
 
@@ -79,18 +80,6 @@ def _require_module(classes: Sequence[type]) -> None:
             f"{', '.join(here)} is written in the script itself, which worker processes do not run",
             fix="Put it into a module of its own and import it, or run without workers",
         )
-
-
-def _kinds(data: Any) -> Iterator[str]:
-    if isinstance(data, Mapping):
-        found = cast("Mapping[str, Any]", data)
-        if isinstance(found.get("kind"), str):
-            yield found["kind"]
-        for value in found.values():
-            yield from _kinds(value)
-    elif isinstance(data, list):
-        for value in cast("list[Any]", data):
-            yield from _kinds(value)
 
 
 def _pickled(what: Any, name: str) -> bytes:
