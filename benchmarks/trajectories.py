@@ -401,7 +401,7 @@ def compare_all(texts: Sequence[str]) -> int:
         print(done[-1], flush=True)
     for precision, limit in LIMITS.items():
         largest = max(((c.largest[precision][0], c.name) for c in done if precision in c.largest), default=(0.0, "-"))
-        print(f"{precision}: largest difference {largest[0]:.3g} ({largest[1]}), limit {limit:g}")
+        print(f"{precision}: largest difference {largest[0]:.3g}{f' ({largest[1]})' if largest[0] else ''}, limit {limit:g}")
     new = [name for name in now if name not in found.models]
     print(f"not stored: {', '.join(new)}" if new else "every model is stored")
     bad = [c for c in done if c.problems]

@@ -32,8 +32,8 @@ def test_a_model_has_its_stored_trajectory(name: str, stored: trajectories.Store
     assert found.largest["float64"][0] <= trajectories.LIMITS["float64"]
 
 
-def test_the_events_of_an_experiment_in_a_world_have_their_stored_times(stored: trajectories.Stored) -> None:
-    name = "experiment robot"
+def test_the_events_of_an_experiment_have_their_stored_times(stored: trajectories.Stored) -> None:
+    name = "experiment decider"
     assert not trajectories.compare(name, tables()[name], stored.models[name], {}, ["float64"]).problems
 
 
