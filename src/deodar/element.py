@@ -49,13 +49,13 @@ class Time:
         origin: document time at some tick before, or at the present one.
         passed: steps since then, a whole number.
         step: step of the model.
-        every: step of the element as a multiple of it.
+        ticks: step of the element as a multiple of it.
     """
 
     origin: Any
     passed: Any
     step: Exact
-    every: int = 1
+    ticks: int = 1
 
     @classmethod
     def at(cls, now: float, dt: float, dtype: Any) -> Time:
@@ -65,7 +65,7 @@ class Time:
     @property
     def dt(self) -> Any:
         """Step of the element (of its own rate), in the working precision."""
-        return self.step.high * self.every
+        return self.step.high * self.ticks
 
     @property
     def wide(self) -> Any:
@@ -75,7 +75,7 @@ class Time:
     @property
     def wide_dt(self) -> Any:
         """Step of the element in float64, inside `exact()`."""
-        return wide(self.step) * self.every
+        return wide(self.step) * self.ticks
 
     @property
     def moment(self) -> Exact:

@@ -5,14 +5,21 @@ CHANGELOG.md holds the same table; a test compares the two. The flat names are w
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
-from deodar.errors import did_you_mean
+from deodar.errors import UnknownName, did_you_mean
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 RENAMED = {
+    "dd.Model.add(every=...)": "dd.Model.add(ticks=...)",
     "dd.Model.change": "dd.Model.set",
+    "dd.Model.every": "dd.Model.set_ticks",
     "dd.MovingGaussian(path=...)": "dd.MovingGaussian(waypoints=...)",
+    "dd.animate_path(every=...)": "dd.animate_path(stride=...)",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",
     "deodar.analysis.paths.until": "dd.path_until",
@@ -55,6 +62,22 @@ def no_member(obj: object, name: str) -> AttributeError:
     text = f"{kind!r} object has no attribute {name!r}"
     hint = fix(f"dd.{kind}.{name}")
     return AttributeError(f"{text}. {hint}", name=name, obj=None) if hint else AttributeError(text, name=name, obj=obj)
+
+
+def arguments(call: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Make a decorator for a public function, under its name in the table: a call with an old argument raises an error that states the new one."""
+    old = {key.removeprefix(f"{call}(").removesuffix("=...)") for key in RENAMED if key.startswith(f"{call}(")}
+
+    def decorate(function: Callable[P, R]) -> Callable[P, R]:
+        @functools.wraps(function)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+            for name in old & kwargs.keys():
+                raise UnknownName(f"{call} has no argument {name!r}", fix=fix(f"{call}({name}=...)"))
+            return function(*args, **kwargs)
+
+        return checked
+
+    return decorate
 
 
 def left(module: str) -> Callable[[str], Any]:

@@ -81,8 +81,8 @@ def test_euler_increments_at_any_step(every):
     model = dd.Model("increments")
     own = dd.Field("own", [LINE], tau=tau, resting_level=0, noise=q)
     fed = dd.Field("fed", [LINE], tau=tau, resting_level=0)
-    model.add(own, every=every)
-    model.connect(model.add(Noise("n", [LINE], q), every=every), model.add(fed, every=every))
+    model.add(own, ticks=every)
+    model.connect(model.add(Noise("n", [LINE], q), ticks=every), model.add(fed, ticks=every))
     data = dd.simulate(model, steps * dt, dt=dt, every=every * dt, record=["own.activation", "fed.activation"])
     expected = q**2 * every * dt / tau**2 / LINE.step
     for name in ("own", "fed"):

@@ -63,7 +63,7 @@ def test_what_changes_the_program_makes_another_group() -> None:
     model.add(dd.Field("a", [x], tau=10))
     model.add(dd.Field("b", [x], tau=20, resting_level=-3, global_inhibition=1))  # the same program
     model.add(dd.Field("c", [x], kernel=[dd.Gaussian()]))
-    model.add(dd.Field("d", [x]), every=2)
+    model.add(dd.Field("d", [x]), ticks=2)
     model.add(dd.Field("e", [dd.Axis("x", 0, 10, samples=21)]))
     model.add(dd.Field("f", [x], noise=0.5))
     model.add(dd.Field("g", [x], sigmoid=dd.Logistic(beta=9)))  # the same as a

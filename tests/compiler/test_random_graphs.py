@@ -56,7 +56,7 @@ class Graph:
     def model(self) -> tuple[dd.Model, list[Any]]:
         """The graph as a model, and for each link the path of its first coupling."""
         model = dd.Model("random graph")
-        handles = [model.add(f, every=k) for f, k in zip(self.fields, self.every, strict=True)]
+        handles = [model.add(f, ticks=k) for f, k in zip(self.fields, self.every, strict=True)]
         for k, h in enumerate(handles):
             center = [a.lower + (0.2 + 0.15 * k) * (a.upper - a.lower) for a in self.axes]
             model.add(dd.GaussianStimulus(f"s{k}", self.axes, center=center, sigma=[4 * a.step for a in self.axes], amplitude=2.5 + 0.5 * k)) >> h

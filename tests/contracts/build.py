@@ -62,7 +62,7 @@ def around(element: Element, every: int = 1, noisy: bool = False) -> dd.Model:
     problems: list[Any] = []
     for axes in candidates(element):
         model = dd.Model("contract")
-        handle = model.add(element, every=every)
+        handle = model.add(element, ticks=every)
         for port in element.ports():
             model.connect(model.add(source(f"to {port}", axes)), handle[port])
             if noisy:

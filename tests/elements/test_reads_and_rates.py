@@ -77,7 +77,7 @@ def test_parts_at_steps_of_their_own(slow, fast):
     """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks later."""
     model = dd.Model("rates")
     s = model.add(S)
-    u, v = model.add(U, every=slow), model.add(V, every=fast)
+    u, v = model.add(U, ticks=slow), model.add(V, ticks=fast)
     s >> u
     u >> v >> dd.Gain(-2.0) >> u
     data = dd.simulate(model, STEPS, dt=0.5, record=["u.activation", "v.activation"], precision="float64")
@@ -102,6 +102,6 @@ def test_parts_at_steps_of_their_own(slow, fast):
 
 def test_a_slow_part_does_not_move_between_its_ticks():
     model = dd.Model("slow")
-    model.add(Boost("b", [], 4.0)) >> model.add(dd.Field("n", [], tau=20), every=4)
+    model.add(Boost("b", [], 4.0)) >> model.add(dd.Field("n", [], tau=20), ticks=4)
     data = dd.simulate(model, 40, record="n.activation")["n.activation"].values
     assert np.flatnonzero(np.diff(data)).tolist() == [3, 7, 11, 15, 19, 23, 27, 31, 35, 39]

@@ -31,7 +31,7 @@ def rich() -> dd.Model:
     """A model that uses every part of a document."""
     model = dd.Model("rich", time_unit="ms", dt=0.5)
     u = model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2), Shifted(dd.Gaussian(), 1.0)], noise=0.1))
-    v = model.add(dd.Field("v", [X, HUE], kernel=[dd.Gaussian(sigma=[2, 30], boundary=["zero", "periodic"])]), group="g.inner", every=2)
+    v = model.add(dd.Field("v", [X, HUE], kernel=[dd.Gaussian(sigma=[2, 30], boundary=["zero", "periodic"])]), group="g.inner", ticks=2)
     boost = model.add(Boost("boost", windows=[(0, 5)]))
     product = model.add(Product(name="gate"))
     f = model.add(Function("f", [X], values={"rate": 0.5}))

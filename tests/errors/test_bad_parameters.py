@@ -112,7 +112,7 @@ CASES: dict[str, Case] = {
     "model: a name of numbers": (lambda: dd.Model(5), ParameterError, ("name needs text, not 5",)),
     "model: a time unit": (lambda: dd.Model("m", time_unit="hours"), ParameterError, ("time_unit is 'hours'", "1 = 64 ms")),
     "model: a step": (lambda: dd.Model("m", dt=-1), ParameterError, ("dt is -1; it is a number above 0",)),
-    "model: every": (lambda: dd.Model("m").add(dd.Field("u", [X]), every=0), ParameterError, ("u: every is 0",)),
+    "model: ticks": (lambda: dd.Model("m").add(dd.Field("u", [X]), ticks=0), ParameterError, ("u: the step is 0 ticks; it is a whole number, 1 to",)),
 }
 
 

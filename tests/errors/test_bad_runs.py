@@ -240,7 +240,7 @@ def test_a_step_as_long_as_the_time_constant() -> None:
 
 def test_a_step_of_a_slow_part_counts_whole() -> None:
     model = dd.Model("m")
-    model.add(dd.Field("u", [X], tau=5), every=4)
+    model.add(dd.Field("u", [X], tau=5), ticks=4)
     refused(lambda: dd.simulate(model, 8, dt=2), TimeError, "u: the step of 8 ms is longer than the time constant tau = 5", "Take dt <= 1.25")
 
 

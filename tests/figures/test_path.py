@@ -39,7 +39,7 @@ def test_the_figure_shows_arena_and_paths_to_scale(walked: xarray.DataArray) -> 
 
 def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path) -> None:
     arena = Arena("blocks", unit="cm")
-    file = path.animate_path(walked * 100, tmp_path / "walk.gif", arena, width=240, every=5)
+    file = path.animate_path(walked * 100, tmp_path / "walk.gif", arena, width=240, stride=5)
     with Image.open(file) as film:
         assert film.size == (240, 160) and getattr(film, "n_frames", 1) == 6
         first = np.asarray(film.convert("RGB"), float)
@@ -60,4 +60,4 @@ def test_what_is_no_path_is_refused(walked: xarray.DataArray, tmp_path: Path) ->
     with pytest.raises(RecordError, match=r"\.gif"):
         path.animate_path(walked, tmp_path / "walk.mp4", Arena("blocks"))
     with pytest.raises(RecordError, match="1 frames"):
-        path.animate_path(walked, tmp_path / "walk.gif", Arena("blocks"), every=100)
+        path.animate_path(walked, tmp_path / "walk.gif", Arena("blocks"), stride=100)

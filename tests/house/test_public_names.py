@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import subprocess
 import sys
@@ -109,7 +110,8 @@ def _use(old: str) -> object:
     name, call, argument = old.removeprefix("dd.").partition("(")
     owner, _, member = name.partition(".")
     if call:
-        return getattr(deodar, owner)(**{argument.removesuffix("=...)"): None})
+        found = getattr(deodar, owner)
+        return (getattr(found, member) if member else found)(**{argument.removesuffix("=...)"): None})
     return getattr(object.__new__(getattr(deodar, owner)), member) if member else getattr(deodar, owner)
 
 
@@ -118,6 +120,21 @@ def test_every_old_name_raises_an_error_that_states_the_new_one(old: str) -> Non
     with pytest.raises((ImportError, AttributeError, deodar.errors.DeodarError)) as caught:
         _use(old)
     assert str(caught.value).endswith(f"{old} is now {renamed.RENAMED[old]}")
+
+
+@pytest.mark.parametrize("call", [deodar.Model.add, deodar.animate_path, deodar.Model.set_ticks], ids=["add", "animate_path", "set_ticks"])
+def test_every_is_no_argument_of_a_call_that_counts(call: Callable[..., object]) -> None:
+    assert "every" not in inspect.signature(call).parameters and {"ticks", "stride"} & inspect.signature(call).parameters.keys()
+
+
+@pytest.mark.parametrize("name", deodar.__all__)
+def test_every_is_a_time_in_every_public_call(name: str) -> None:
+    """A time may be a fraction and defaults to the step; a count is an `int` that defaults to 1."""
+    found = getattr(deodar, name)
+    calls = [found, *(vars(found).values() if isinstance(found, type) else ())]
+    for call in [each for each in calls if inspect.isfunction(each) or isinstance(each, type)]:
+        every = inspect.signature(call).parameters.get("every") if call is not deodar.errors else None
+        assert every is None or (every.default is None and "float" in str(every.annotation)), call
 
 
 def test_an_unknown_attribute_of_a_model_raises_an_error_of_python() -> None:

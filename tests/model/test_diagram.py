@@ -116,7 +116,7 @@ def test_interactions_of_a_field_with_itself_are_loops():
 def test_a_picture_names_axes_groups_templates_ports_sensors_and_motors():
     model = dd.Model("all")
     ring = dd.Axis("phi", -180, 180, 36, periodic=True, unit="deg")
-    u = model.add(dd.Field("u", [ring]), group="arm.reach", every=3)
+    u = model.add(dd.Field("u", [ring]), group="arm.reach", ticks=3)
     model.add(Sensor("eye", [ring])) >> u
     u["activation"] >> dd.Project([]) >> model.add(Motor("wheel"))
     part = dd.Model("part")

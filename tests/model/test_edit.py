@@ -30,7 +30,7 @@ def make() -> dd.Model:
 
 OPERATIONS: dict[str, Callable[[dd.Model], object]] = {
     "add": lambda m: m.add(dd.Field("new", [X])),
-    "add into a group": lambda m: m.add(dd.Field("new", [X]), group="a.b", every=2),
+    "add into a group": lambda m: m.add(dd.Field("new", [X]), group="a.b", ticks=2),
     "connect": lambda m: m.connect("left", "g.inner.v", reads="delayed"),
     "disconnect": lambda m: m.disconnect("left", "g.u"),
     "remove": lambda m: m.remove("g.u"),
@@ -47,7 +47,7 @@ OPERATIONS: dict[str, Callable[[dd.Model], object]] = {
     "set": lambda m: m.set("g.inner.v.tau", 5),
     "set a part": lambda m: m.set("g.u.kernel.0.sigma", 2),
     "set a knob": lambda m: m.set("gain", 7),
-    "every": lambda m: m.every("left", 3),
+    "ticks": lambda m: m.set_ticks("left", 3),
     "parameter": lambda m: m.parameter("other", 1.0),
     "link": lambda m: m.link("g.inner.v.tau", "gain"),
     "unlink": lambda m: m.unlink("g.u.tau"),
@@ -125,9 +125,9 @@ REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {
     "the name": (ParameterError, lambda m: m.set("g.u.name", "w")),
     "a driven parameter": (ParameterError, lambda m: m.set("g.u.tau", 5)),
     "a knob beyond what it drives": (ParameterError, lambda m: m.set("gain", -1)),
-    "every 0": (ParameterError, lambda m: m.every("left", 0)),
-    "every half": (ParameterError, lambda m: m.every("left", 0.5)),  # type: ignore[arg-type]
-    "every for ever": (ParameterError, lambda m: m.every("left", 10**400)),
+    "ticks 0": (ParameterError, lambda m: m.set_ticks("left", 0)),
+    "ticks half": (ParameterError, lambda m: m.set_ticks("left", 0.5)),  # type: ignore[arg-type]
+    "ticks for ever": (ParameterError, lambda m: m.set_ticks("left", 10**400)),
     "a time unit": (ParameterError, lambda m: m.describe(time_unit="hours")),
     "a name of numbers": (ParameterError, lambda m: m.describe(name=5)),
     "a property": (UnknownName, lambda m: m.describe(note="x")),

@@ -81,7 +81,7 @@ def test_copies_have_ids_of_their_own_and_the_originals_keep_theirs() -> None:
 
 def test_copying_keeps_the_steps_of_parts() -> None:
     model = dd.Model("m")
-    model.add(dd.Field("u", [X]), group="a", every=4)
+    model.add(dd.Field("u", [X]), group="a", ticks=4)
     model.copy("a", "b")
     assert model.document.by_names()["b", "u"].every == 4
 

@@ -54,7 +54,7 @@ def test_normals_in_a_running_model(every, trial):
     """The deviates of an element follow from its stored id and its own tick alone."""
     axes = [dd.Axis("x", 0, 4, 3), dd.Axis("y", 0, 1, 2)]
     model = dd.Model("noisy")
-    source = model.add(Noise("n", axes, 1.0), group="deep", every=every)
+    source = model.add(Noise("n", axes, 1.0), group="deep", ticks=every)
     ident = int(model.entry(source.id).id, 16)
     data = dd.simulate(model, 12, seed=5, trials=[trial], record="deep.n.output", precision="float64")["deep.n.output"].values[0]
     for tick in range(13):

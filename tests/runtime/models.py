@@ -26,7 +26,7 @@ def mixed(order: int = 1, prefix: str = "", extra: int = 0) -> dd.Model:
     model = dd.Model("mixed")
     handles = {}
     for key in list(elements)[::order]:
-        handles[key] = model.add(elements[key], every=rates.get(key, 1))
+        handles[key] = model.add(elements[key], ticks=rates.get(key, 1))
     for k in range(extra):
         model.add(dd.Field(f"neighbour{k}", [x], tau=10, kernel=[dd.Gaussian(1.0, 4), dd.Gaussian(-0.3, 9)], noise=0.3))
     couplings = [

@@ -22,7 +22,7 @@ X = dd.Axis("x", 0, 100, samples=51)
 def session(every: int = 1, dt: float = 1.0, unit: str = "ms") -> dd.Session:
     model = dd.Model("m", time_unit=unit)
     u = model.add(dd.Field("u", [X], tau=20, kernel=[dd.Gaussian(1, 5)], noise=0.2))
-    model.add(dd.Field("slow", [X], tau=100, noise=0.1), every=every)
+    model.add(dd.Field("slow", [X], tau=100, noise=0.1), ticks=every)
     model.add(dd.GaussianStimulus("s", [X], center=50, amplitude=8)) >> u
     return dd.Session(model, dt=dt, seed=3)
 

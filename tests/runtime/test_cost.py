@@ -83,7 +83,7 @@ def test_a_part_that_runs_seldom_costs_less_on_the_mean(monkeypatch: pytest.Monk
     """The clock counts how often a part is computed."""
     model = dd.Model("m")
     for name, every in (("often", 1), ("seldom", 10)):
-        model.add(Function(name, function=f"{__name__}:counted"), every=every)
+        model.add(Function(name, function=f"{__name__}:counted"), ticks=every)
     session = dd.Session(model)
     COUNTED.clear()
     monkeypatch.setattr(cost, "time", SimpleNamespace(perf_counter=lambda: 1e-4 * len(COUNTED)))

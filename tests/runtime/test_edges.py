@@ -128,7 +128,7 @@ def test_a_refused_edit_changes_nothing() -> None:
 
 def test_a_duration_counts_time_also_while_a_new_dt_waits() -> None:
     model = two()
-    model.every("v", 10)
+    model.set_ticks("v", 10)
     s = dd.Session(model, dt=0.5)
     s.step(5)
     s.dt = 1.0

@@ -55,7 +55,7 @@ def closed(outside: bool, **options: Any) -> dd.Model:
         u >> dd.Gain(2.0) >> model.add(Motor("pump", [x], "flow"))
         level = model.add(Sensor("level", [x], "level"))
     else:
-        flow = model.add(Function("tank", [x], function="deodar.elements.function:leaky", values={"rate": 0.02}), every=4)
+        flow = model.add(Function("tank", [x], function="deodar.elements.function:leaky", values={"rate": 0.02}), ticks=4)
         u >> dd.Gain(2.0) >> flow
         level = flow
     level >> dd.Gain(-3.0) >> u

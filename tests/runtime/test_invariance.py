@@ -163,7 +163,7 @@ def test_noise_drawn_in_pairs_is_the_same_in_any_chunks(every: int) -> None:
     axes = [dd.Axis("x", 0, 60, samples=60), dd.Axis("y", 0, 50, samples=50)]
     model = dd.Model("large")
     u = model.add(dd.Field("u", axes, kernel=[dd.Gaussian(5, 3, normalized=True)], noise=1.0))
-    v = model.add(dd.Field("v", axes, noise=0.5), every=every)
+    v = model.add(dd.Field("v", axes, noise=0.5), ticks=every)
     u >> dd.Gain(0.5) >> v
     sessions = [dd.Session(model, seed=5) for _ in range(3)]
     for session, pieces in zip(sessions, ([31], [1] * 31, [3, 1, 20, 7]), strict=True):

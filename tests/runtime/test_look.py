@@ -71,7 +71,7 @@ def test_a_push_is_an_input(noise: float) -> None:
 def test_what_takes_no_input_cannot_be_pushed() -> None:
     model = dd.Model("m")
     model.add(dd.GaussianStimulus("s", [X]))
-    model.add(dd.Field("slow", [X]), every=2)
+    model.add(dd.Field("slow", [X]), ticks=2)
     session = dd.Session(model)
     for path in ("s", "slow"):
         with pytest.raises(dd.errors.ParameterError, match="takes no input"):

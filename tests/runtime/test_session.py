@@ -20,7 +20,7 @@ x = dd.Axis("x", 0, 20, samples=21)
 
 def relaxing(every: int = 1, **parameters: float) -> dd.Model:
     model = dd.Model("relaxing")
-    model.add(dd.Field("u", [x], **({"tau": 10.0, "resting_level": 1.0, "noise": 0.0} | parameters)), every=every)
+    model.add(dd.Field("u", [x], **({"tau": 10.0, "resting_level": 1.0, "noise": 0.0} | parameters)), ticks=every)
     model.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=0)) >> model["u"]
     return model
 

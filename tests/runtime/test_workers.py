@@ -27,7 +27,7 @@ def small() -> dd.Model:
     model = dd.Model("small")
     u = model.add(dd.Field("u", [dd.Axis("x", 0, 60, samples=31)], tau=10, kernel=[dd.Gaussian(1.0, 4)], global_inhibition=0.1, noise=0.3))
     model.add(dd.GaussianStimulus("s", u.element.axes, center=30, sigma=4, amplitude=8)) >> u
-    model.add(Noise("xi", u.element.axes, amplitude=0.2), every=2) >> u
+    model.add(Noise("xi", u.element.axes, amplitude=0.2), ticks=2) >> u
     return model
 
 

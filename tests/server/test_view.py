@@ -22,7 +22,7 @@ def model() -> dd.Model:
     made = dd.Model("m")
     u = made.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5), Custom(np.ones(3))]), group="g")
     made.add(dd.GaussianStimulus("s", [X], center=30)) >> dd.Gain(2.0) >> u
-    made.add(dd.Field("v", [Y]), every=2)
+    made.add(dd.Field("v", [Y]), ticks=2)
     made.add(Boost("b", []))
     made.parameter("gain", 3.0)
     made.link("g.u.tau", "gain")

@@ -92,7 +92,7 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
         if world is None:
             raise RecordError("the record was made without a world, so there is no arena to draw the path in", where="--gif", fix="Leave out --gif")
         times = variable.sizes.get("time", 0)
-        path.animate_path(variable, args.gif, world, every=max(1, -(-times // path.MOST_FRAMES)), force=args.force, trial=trial, where=where)
+        path.animate_path(variable, args.gif, world, stride=max(1, -(-times // path.MOST_FRAMES)), force=args.force, trial=trial, where=where)
     return path.path_figure(variable, world, trial=trial, where=where)
 
 

@@ -60,12 +60,13 @@ def fill(place: FigureBase, view: View) -> None:
     _paint(place.subplots(), view, None)
 
 
+@renamed.arguments("dd.animate_path")
 def animate_path(
     variable: xarray.DataArray,
     file: str | Path,
     arena: World,
     width: int = 480,
-    every: int = 1,
+    stride: int = 1,
     speed: float = 1.0,
     force: bool = False,
     **view: Any,
@@ -77,7 +78,7 @@ def animate_path(
         file: where to; it ends in .gif.
         arena: the arena it was recorded in.
         width: in pixels.
-        every: records between two frames.
+        stride: number of records from one frame to the next.
         speed: time of the record over time of the film.
         force: whether a file of that name is replaced.
         view: see `dd.figures.View`: trial, where.
@@ -89,9 +90,9 @@ def animate_path(
         raise RecordError(f"the name ends in {path.suffix!r}; a film of a path is a GIF", where=str(path), fix="End it in .gif")
     here = _arena(arena)
     output.claim(path, force)
-    lines, times = _lines(looked), looked.times[::every]
+    lines, times = _lines(looked), looked.times[::stride]
     if not 2 <= len(times) <= MOST_FRAMES:
-        raise RecordError(f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}", where=looked.name, fix="Choose another every=")
+        raise RecordError(f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}", where=looked.name, fix="Choose another stride=")
     left, low, right, high = _borders(here)
     scale = width * FINER / (right - left)
     height = round((high - low) * scale / FINER)
@@ -106,7 +107,7 @@ def animate_path(
         pen.rectangle([*at(x0, y1), *at(x1, y0)], fill=_rgb(thing.color))
     radius = here.vehicle.radius / here.scale
     frames: list[Image.Image] = []
-    for k in range(0, len(looked.times), every):
+    for k in range(0, len(looked.times), stride):
         frame = ground.copy()
         pen = ImageDraw.Draw(frame)
         for n, line in enumerate(lines):

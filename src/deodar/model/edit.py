@@ -409,7 +409,7 @@ def _unambiguous(doc: Document, names: Names, element: Element) -> None:
 def require_ticks(every: Any, where: str) -> None:
     """Refuse what is no number of ticks that a part could run at."""
     if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= MOST_TICKS:
-        raise ParameterError(f"every is {show(every)}; it is a whole number of ticks, 1 to {MOST_TICKS}", where=where)
+        raise ParameterError(f"the step is {show(every)} ticks; it is a whole number, 1 to {MOST_TICKS}", where=where)
 
 
 def _uses_at(doc: Document, group: Names, to: Names) -> tuple[Use, ...]:

@@ -70,14 +70,15 @@ class Model:
 
     # -------------------------------------------------------------------------------- building
 
-    def add(self, element: Element, group: str = "", every: int = 1, after: Handle | None = None) -> Handle:
+    @renamed.arguments("dd.Model.add")
+    def add(self, element: Element, group: str = "", ticks: int = 1, after: Handle | None = None) -> Handle:
         """Add an element and return its handle.
 
-        `every` is the number of ticks of its own step. Elements without a state (couplings, stimuli) have no step: they follow their inputs
-        at every tick; noise is drawn anew every so many ticks.
+        `ticks` is the length of its own step: with `ticks=10` it takes a step of 10 dt at every tenth tick. Elements without a state (couplings,
+        stimuli) have no step: they follow their inputs at every tick; noise is drawn anew once in this number of ticks.
         """
         near = self.entry(after.id) if after is not None else None
-        doc, entry = edit.add(self.document, element, split(group) if group else (), every, near)
+        doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, near)
         self.commit(doc)
         self.declared[entry.id] = _caller()
         return Handle(self, entry.id)
@@ -178,8 +179,8 @@ class Model:
             return next(k.value for k in self.document.knobs if k.name == found.knob)
         return get(found.entry.element, found.parameter)
 
-    def every(self, what: Handle | str, ticks: int) -> None:
-        """Let an element run at a step of so many ticks."""
+    def set_ticks(self, what: Handle | str, ticks: int) -> None:
+        """Set the length of an element's own step, in ticks of the model."""
         self.commit(edit.every(self.document, self._entry(what).id, ticks))
 
     def parameter(self, name: str, value: float) -> None:
