@@ -29,8 +29,13 @@ def test_the_default_of_axes_is_none_at_all_or_a_node(kind: str, name: str) -> N
     assert isinstance(default, Needed) or default in ((), None), f"{kind} invents the axis {default}: declare it as needed(...)"
 
 
-def test_the_needed_axes_are_those_that_once_had_a_default() -> None:
-    assert set(NEEDED) == {(kind, name) for kind, old in DEFAULTS_OF_1.items() for name in old}
+INFERRED = {("PeakPosition", "axis")}
+"""Axes that are taken from the source where they are not stated."""
+
+
+def test_the_axes_that_once_had_a_default_are_needed_or_inferred() -> None:
+    assert {*NEEDED, *INFERRED} == {(kind, name) for kind, old in DEFAULTS_OF_1.items() for name in old}
+    assert all(AXES[place].optional and AXES[place].default is None for place in INFERRED)
 
 
 @pytest.mark.parametrize(("kind", "name"), NEEDED)
@@ -62,7 +67,7 @@ def test_a_document_without_the_axes_has_a_problem_that_names_an_axis_of_it(kind
         files.from_data({**data, "axes": {}}, {})
 
 
-@pytest.mark.parametrize(("kind", "name"), NEEDED)
+@pytest.mark.parametrize(("kind", "name"), [*NEEDED, *INFERRED])
 def test_a_document_of_version_1_without_the_axes_keeps_its_meaning(kind: str, name: str) -> None:
     body = {"kind": kind, **({"axes": []} if kind in ("History", "SampledHistory") else {})}
     taken = {"x": {"lower": 0, "upper": 100, "samples": 101}}

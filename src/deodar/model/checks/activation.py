@@ -88,7 +88,7 @@ def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
     if isinstance(e, Threshold) and most <= e.level:
         yield warning(n, f"its input never exceeds its level {e.level:g}: it is at most {most:g}", f"Take a level below {most:g}")
     if isinstance(e, (PeakPosition, RateCode)):
-        axes = (e.axis,) if isinstance(e, PeakPosition) else tuple(e.axes)
+        axes = n.ins["input"] if isinstance(e, PeakPosition) else tuple(e.axes)
         whole = most * math.prod(a.step * a.samples for a in axes)
         if whole < e.least:
             what = f"never finds a peak: least is {e.least:g}, and the integral of its input is at most {whole:g}"

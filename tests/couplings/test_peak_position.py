@@ -1,0 +1,48 @@
+"""A position is read out over the axis of the source, or over the one that is stated."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+
+X, Y, RING = dd.Axis("x", 0, 20, samples=21), dd.Axis("y", 0, 8, samples=9), dd.Axis("phi", 0, 360, samples=36, periodic=True)
+
+
+def model(axes: list[dd.Axis], **given: dd.Axis) -> dd.Model:
+    made = dd.Model("place")
+    center = [a.lower + 0.5 * a.range for a in axes]
+    made.add(dd.GaussianStimulus("s", axes, center=center, sigma=[a.range / 10 for a in axes], amplitude=3.0)) >> made.add(
+        dd.PeakPosition(name="p", **given)
+    )
+    return made
+
+
+@pytest.mark.parametrize("axis", [X, RING], ids=["line", "ring"])
+def test_the_axis_of_the_source_is_the_one_that_is_read_out(axis: dd.Axis) -> None:
+    inferred, stated = (dd.simulate(model([axis], **given), 1, record=["p.output", "p.strength"]) for given in ({}, {"axis": axis}))
+    assert inferred["p.output"].values[-1] == pytest.approx(axis.lower + axis.range / 2, abs=1e-3)
+    for port in ("p.output", "p.strength"):
+        assert np.array_equal(inferred[port].values, stated[port].values)
+
+
+def test_of_two_axes_one_has_to_be_stated() -> None:
+    [problem] = model([X, Y]).check()
+    assert problem.what == "the source has 2 axes, so the one that is read out has to be stated" and problem.fix == "Set its axis: x or y"
+    assert not [p for p in model([X, Y], axis=Y).check() if p.severity == "problem"]
+
+
+def test_a_source_without_an_axis_has_no_position() -> None:
+    made = dd.Model("place")
+    made.add(dd.Boost("b", [], 1.0)) >> made.add(dd.PeakPosition(name="p"))
+    [problem] = [p for p in made.check() if p.severity == "problem"]
+    assert problem.what == "the source has no axis, so there is no position to read out"
+
+
+def test_a_document_keeps_that_the_axis_is_inferred() -> None:
+    made = model([X])
+    made["p"].axis = X
+    assert made.undo() and made["p"].axis is None
+    again = dd.Model(document=made.document)
+    assert '"axis": null' in again.to_json() and not again.check()
