@@ -180,7 +180,7 @@ def test_the_symmetric_model_of_reaction_times_chooses_either_side_equally_often
     data = example.experiment(400).run()
     alone = data.isel(trial=(data["preshape"] == 0.0).values)
     left, n = example.left_of_middle(alone["place"].values)
-    low, high = example.wilson(left, n)
+    low, high = dd.wilson(left, n)
     assert n == 800 and low < 0.5 < high, f"{left:g} of {n}"
     assert len(set(alone["place"].values.tolist())) > 790, "places are interpolated: hardly two are the same"
     assert example.left_of_middle(np.array([40.0, 50.0, 50.0, 60.0, np.nan])) == (2.0, 4)
