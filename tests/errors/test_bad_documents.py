@@ -54,6 +54,7 @@ def rich() -> dd.Model:
 
 
 DATA, ARRAYS = files.to_data(rich().document)
+DATA["packages"] = {"Gain": "deodar-gain 1.0"}
 TEXT = json.dumps(DATA)
 
 
@@ -128,7 +129,7 @@ def test_any_key_left_out() -> None:
 
 def test_any_key_misspelt() -> None:
     """No key is silently passed over, except names that a person chooses."""
-    free = {"axes", "elements", "parameters", "layout", "values"}
+    free = {"axes", "elements", "parameters", "layout", "values", "packages"}
     tried = 0
     for at in _places(DATA):
         if not at or not isinstance(at[-1], str) or (len(at) > 1 and at[-2] in free) or at[0] == "layout":
