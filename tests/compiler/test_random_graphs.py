@@ -1,7 +1,7 @@
 """Random graphs of fields and couplings against plain loops over time: whatever is planned, it stays near what the equations say.
 
 A failure shrinks to a small graph, whose document is printed. `pytest tests/compiler/test_random_graphs.py --hypothesis-profile=thorough` draws
-200 graphs for each test in place of 8.
+200 graphs for each test in place of 5.
 """
 
 from __future__ import annotations

@@ -31,12 +31,15 @@ def localised(dimensions: int, finer: int, former: float) -> dd.Model:
 
 
 def lowest_with_a_peak(model: dd.Model, low: float, high: float) -> float:
-    """The smallest tested amplitude, on a grid of 0.3 %, at which a peak stands at the end."""
-    amplitudes = np.linspace(low, high, 121)
-    data = dd.simulate(model, 900, record=["top.output"], every=900, sweep={"tested.amplitude": amplitudes})
-    peak = data["top.output"].values[:, -1] > 0
-    assert peak[-1] and not peak[0], "the threshold lies outside the range that is searched"
-    return float(amplitudes[np.argmax(peak)])
+    """The smallest tested amplitude, to 1/121 of the range, at which the field has a peak at the end: by two sweeps, of which the second is finer."""
+    for _ in range(2):
+        amplitudes = np.linspace(low, high, 12)
+        data = dd.simulate(model, 900, record=["top.output"], every=900, sweep={"tested.amplitude": amplitudes})
+        peak = data["top.output"].values[:, -1] > 0
+        assert peak[-1] and not peak[0], "the threshold lies outside the range that is searched"
+        first = int(np.argmax(peak))
+        low, high = float(amplitudes[first - 1]), float(amplitudes[first])
+    return high
 
 
 def place(model: dd.Model, dimensions: int) -> np.ndarray:
