@@ -60,7 +60,7 @@ def cores() -> None:
 
 def sizes() -> None:
     from deodar.model.resolve import resolve
-    from deodar.runtime.memory import copy_bytes
+    from deodar.session.memory import copy_bytes
 
     for name, us in BATCHED.items():
         model = workloads.WORKLOADS[name].model()

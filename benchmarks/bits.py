@@ -22,7 +22,7 @@ import numpy as np
 
 import deodar as dd
 from deodar.model.model import Model
-from deodar.runtime.run import Run
+from deodar.session.run import Run
 
 STEPS = 24
 WIDTHS = (1, 2, 3, 4, 7, 16)

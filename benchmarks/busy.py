@@ -1,7 +1,7 @@
 """The tests beside busy processes: none of them may depend on how fast the machine is.
 
 python benchmarks/busy.py                          the whole suite, five times, beside four busy processes
-python benchmarks/busy.py --times 1 tests/runtime/test_workers.py
+python benchmarks/busy.py --times 1 tests/batch/test_workers.py
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ import os
 import time
 
 import deodar as dd
-from deodar.runtime.meter import Meter
+from deodar.session.meter import Meter
 
 OVERLOAD = 3
 LONGEST = 5

@@ -34,7 +34,7 @@ sys.path[:0] = [str(path) for path in (ROOT, ROOT / "examples") if str(path) not
 from tests.contracts import build, embodied  # noqa: E402
 from tests.experiments.robots import decider, room, straight  # noqa: E402
 from tests.importers.cosivina.files import SAMPLES  # noqa: E402
-from tests.runtime.models import mixed  # noqa: E402
+from tests.session.models import mixed  # noqa: E402
 
 
 @dc.dataclass(frozen=True)

@@ -63,7 +63,7 @@ MEASURES = [
     *("dd.Crosses", "dd.Appears", "dd.Vanishes", "dd.Reached", "dd.Within", "dd.Leaves", "dd.All", "dd.AnyOf"),
     *("dd.Set", "dd.Ramp", "dd.Push", "dd.Place", "dd.Move", "dd.Remove", "dd.Record", "dd.Snapshot", "dd.Reset", "dd.End"),
     *("dd.carry_out", "dd.Job", "dd.Rows"),
-    *("deodar.runtime.live.run_live", "deodar.runtime.meter.Meter", "deodar.runtime.cost.Costs", "deodar.runtime.cost.Cost"),
+    *("deodar.session.run_live.run_live", "deodar.session.meter.Meter", "deodar.session.cost.Costs", "deodar.session.cost.Cost"),
     *("deodar.model.diagram.Diagram", "dd.read", "dd.apply_preset", "deodar.importers.report.Report", "deodar.importers.report.Line"),
 ]
 """A public name stands with `dd`; a class that scripts get but do not make, or a method's function, with the module it is in."""

@@ -30,6 +30,8 @@ from deodar.analysis.statistics import median_interval as median_interval
 from deodar.analysis.statistics import wilson as wilson
 from deodar.analysis.thresholds import descend as descend
 from deodar.analysis.thresholds import thresholds as thresholds
+from deodar.batch.cores import use_cores as use_cores
+from deodar.batch.simulate import simulate as simulate
 from deodar.couplings.adaptive_weights import AdaptiveWeights as AdaptiveWeights
 from deodar.couplings.color_histogram import ColorHistogram as ColorHistogram
 from deodar.couplings.color_space import ColorSpace as ColorSpace
@@ -153,9 +155,7 @@ from deodar.numerics.windows import Window as Window
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import save_record as save_record
 from deodar.registry import register as register
-from deodar.runtime.cores import use_cores as use_cores
-from deodar.runtime.session import Session as Session
-from deodar.runtime.simulate import simulate as simulate
+from deodar.session.session import Session as Session
 from deodar.worlds._base import Signal as Signal
 from deodar.worlds._base import World as World
 from deodar.worlds._pure import PureWorld as PureWorld

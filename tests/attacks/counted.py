@@ -13,8 +13,8 @@ from pathlib import Path
 from types import FrameType
 
 from deodar import cli
-from deodar.runtime.session import Session
 from deodar.server.connection import Connection
+from deodar.session.session import Session
 
 
 def count(number: int, frame: FrameType | None) -> None:

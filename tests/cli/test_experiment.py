@@ -11,12 +11,12 @@ import sys
 import pytest
 
 from deodar import cli
+from deodar.batch import simulate
 from deodar.cli import _long
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.results import load_results
-from deodar.runtime import simulate
 from tests.experiments.robots import decider
 
 

@@ -15,12 +15,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.batch import simulate
 from deodar.cli import _long, main
 from deodar.recording import files
 from deodar.recording.record import about
-from deodar.runtime import simulate
-from deodar.runtime.pace import Pace
-from deodar.runtime.run import Run
+from deodar.session.pace import Pace
+from deodar.session.run import Run
 from tests.recording.models import model
 
 

@@ -20,7 +20,7 @@ from deodar.errors import TimeError
 from deodar.leaves import replace, step_limits
 from deodar.model.check import check
 from deodar.parameters import Live, Part, parameters
-from deodar.runtime.run import require_step
+from deodar.session.run import require_step
 from tests.contracts.build import KINDS, PARTS, around, example
 from tests.house.test_docstrings import entries, sections
 

@@ -26,7 +26,7 @@ from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
 from deodar.experiments.run import run_trial
 from deodar.recording import files
-from deodar.runtime.run import Run
+from deodar.session.run import Run
 
 LATE = Crosses("late", "v.activation", 1.0)
 RISEN = Crosses("risen", "u.activation", 1.02, ends=False)

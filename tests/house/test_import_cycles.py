@@ -40,5 +40,5 @@ def test_the_rule_sees_a_cycle() -> None:
 
 
 def test_the_graph_sees_an_import_inside_a_function_or_for_types() -> None:
-    assert "runtime.workers" in graph()["runtime.simulate"]
-    assert "recording.record" in graph()["runtime.compute"]
+    assert "batch.workers" in graph()["batch.simulate"]
+    assert "recording.record" in graph()["batch.compute"]

@@ -10,7 +10,7 @@ import pytest
 from tests.house.source import MODULES, SRC, imported, module, tree
 
 # The floors of the house, from the ground up. Rooms of one floor do not see each other; a file sees its own folder. `registry`
-# stands below `parameters`, which looks kinds up in it; `recording` below `runtime`, whose runs it labels; the root package
+# stands below `parameters`, which looks kinds up in it; `recording` below `session`, whose runs it labels; the root package
 # resolves its names lazily and stands above all, like `__main__`.
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
@@ -26,7 +26,8 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "model",
         "compiler",
         "recording",
-        "runtime",
+        "session",
+        "batch live",
         "analysis",
         "experiments",
         "figures importers architectures",
@@ -96,7 +97,7 @@ def test_the_rule_sees_what_it_forbids(tmp_path: Path) -> None:
     """The reader finds imports at the top, inside functions and those for types only."""
     bad = tmp_path / "bad.py"
     bad.write_text(
-        "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from deodar.runtime.run import Run\n"
+        "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from deodar.session.run import Run\n"
         "def f():\n    import deodar.cli.check\n    from deodar.errors import DeodarError\n"
     )
-    assert sorted(imported(bad)) == [(2, "model.edit"), (4, "runtime.run"), (6, "cli.check"), (7, "errors")]
+    assert sorted(imported(bad)) == [(2, "model.edit"), (4, "session.run"), (6, "cli.check"), (7, "errors")]

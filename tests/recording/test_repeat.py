@@ -11,12 +11,12 @@ from PIL import Image
 
 import deodar as dd
 from deodar.architectures.saliency import saliency
+from deodar.batch.simulate import simulate
 from deodar.elements.function import Function
 from deodar.recording import files
 from deodar.recording.provenance import KEY, document
 from deodar.recording.record import about
 from deodar.recording.repeat import repeat
-from deodar.runtime.simulate import simulate
 from deodar.worlds.picture import Picture
 from tests.recording.models import record, x
 

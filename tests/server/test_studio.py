@@ -16,8 +16,8 @@ import pytest
 import websockets
 
 import deodar as dd
+from deodar.live import engine
 from deodar.numerics.sigmoids.linear import Linear
-from deodar.runtime import engine
 from deodar.server import hub
 from deodar.server.keeper import Keeper
 from tests.server.models import weighted

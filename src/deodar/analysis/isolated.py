@@ -26,7 +26,7 @@ from deodar.model.model import Handle, Model
 from deodar.model.paths import display
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
-from deodar.runtime.session import Session, Snapshot
+from deodar.session.session import Session, Snapshot
 
 Knob = Literal["input", "boost"]
 """What is turned: the strength of the localised input, or a homogeneous boost (on a node the two are the same)."""

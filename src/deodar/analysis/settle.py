@@ -9,7 +9,7 @@ import numpy as np
 
 from deodar.elements.field import Field
 from deodar.errors import AnalysisError
-from deodar.runtime.session import Session
+from deodar.session.session import Session
 
 LIMIT = 2000.0
 """Time constants after which settling gives up. Near an instability the slowest rate of change is the distance d from it and the

@@ -10,7 +10,7 @@ import numpy as np
 
 from deodar.analysis.isolated import Isolated, Knob
 from deodar.analysis.settle import LIMIT
-from deodar.runtime.session import Snapshot
+from deodar.session.session import Snapshot
 
 MOST_DOUBLINGS = 8
 JUMP = 20.0

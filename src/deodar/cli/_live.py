@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from deodar.cli import _options
 
 if TYPE_CHECKING:
-    from deodar.runtime.session import Session
+    from deodar.session.session import Session
 
 OF_A_RECORD = ("record", "every", "trials", "workers", "sweep", "out", "force")
 """What a run that writes no record cannot do."""
@@ -49,8 +49,8 @@ def run(args: argparse.Namespace) -> int:
     answer: dict[str, object] = {}
     stopped = ""
     if args.live:
-        from deodar.runtime.live import run_live
-        from deodar.runtime.pace import Pace
+        from deodar.session.pace import Pace
+        from deodar.session.run_live import run_live
 
         pace = Pace()
         try:
@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _session(args: argparse.Namespace) -> Session:
     from deodar.model.model import load
-    from deodar.runtime.session import Session
+    from deodar.session.session import Session
 
     model = load(args.file, trust=args.trust)
     for path, value in args.set or ():

@@ -34,7 +34,7 @@ def confirm(args: argparse.Namespace, command: str, steps: int, what: str, secon
     Raises:
         TimeError: the answer is no, or nobody can be asked.
     """
-    from deodar.runtime.simulate import LONG_STEPS
+    from deodar.batch.simulate import LONG_STEPS
 
     if steps < LONG_STEPS:
         return

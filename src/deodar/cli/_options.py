@@ -35,7 +35,7 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
 
 def use_cores(cores: int | None, wanted: int = 1) -> None:
     """As many as `--cores` says; without it as many as wanted, unless the environment (NPROC) says otherwise or JAX has started."""
-    from deodar.runtime import cores as setting
+    from deodar.batch import cores as setting
 
     if cores is not None:
         setting.use_cores(cores)

@@ -49,7 +49,7 @@ def _plans(as_json: bool) -> int:
     from rich.progress import track
     from rich.table import Table
 
-    from deodar.runtime.cores import use_cores
+    from deodar.batch.cores import use_cores
 
     use_cores(1)
     from deodar.compiler.plans import CASES, measure

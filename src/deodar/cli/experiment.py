@@ -77,8 +77,8 @@ def run(args: argparse.Namespace) -> int:
 
 def _confirm(args: argparse.Namespace, bench: Any, out: Path) -> None:
     """Ask before very many steps; trials whose rows are in the folder are not counted."""
+    from deodar.batch.simulate import LONG_STEPS
     from deodar.experiments.results import ROWS, load_results
-    from deodar.runtime.simulate import LONG_STEPS
 
     if bench.trials * bench.steps < LONG_STEPS:
         return

@@ -85,9 +85,9 @@ def _is_record(path: Path) -> bool:
 
 
 def _simulate(args: argparse.Namespace) -> int:
+    from deodar.batch.simulate import simulate
     from deodar.errors import Interrupted
     from deodar.importers.opening import load
-    from deodar.runtime.simulate import simulate
 
     if args.duration is None and args.file.is_file():
         args.wrong("a document needs --duration, for example --duration 500")
@@ -119,7 +119,7 @@ def _simulate(args: argparse.Namespace) -> int:
 
 def _confirm(args: argparse.Namespace, duration: float | None, dt: float, run: Callable[[float], object]) -> None:
     """Ask before a very long run; `run` runs a document time of it."""
-    from deodar.runtime.simulate import expected_steps
+    from deodar.batch.simulate import expected_steps
 
     steps = expected_steps(duration or 0.0, dt)
     _long.confirm(args, "run", steps, f"{steps:.3g} steps of dt = {dt:g}", lambda: steps * _long.seconds_a_step(lambda n: run(n * dt)))
@@ -135,11 +135,11 @@ def _show_warnings(model: Model, file: Path) -> None:
 
 
 def _repeat(args: argparse.Namespace) -> int:
+    from deodar.batch.simulate import simulate
     from deodar.errors import Interrupted
     from deodar.recording import files, provenance
     from deodar.recording.record import about
     from deodar.recording.repeat import compare, repeat
-    from deodar.runtime.simulate import simulate
 
     given = [f"--{name}" for name in OF_A_RECORD if getattr(args, name) is not None]
     if given:

@@ -16,11 +16,11 @@ import numpy as np
 from deodar.analysis.claims import Claim
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
+from deodar.batch.simulate import simulate
 from deodar.elements.sensor import Sensor
 from deodar.errors import DocumentError
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes
-from deodar.runtime.simulate import simulate
 from deodar.worlds._base import World
 from deodar.worlds.camera import Camera
 from deodar.worlds.picture import Picture

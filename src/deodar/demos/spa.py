@@ -13,8 +13,8 @@ import numpy as np
 from deodar.analysis.claims import Claim
 from deodar.analysis.paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
+from deodar.batch.simulate import simulate
 from deodar.errors import WorldError
-from deodar.runtime.simulate import simulate
 from deodar.worlds.arena import Arena
 
 if TYPE_CHECKING:

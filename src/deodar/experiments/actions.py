@@ -10,7 +10,7 @@ from deodar.errors import WorldError
 from deodar.experiments.stage import Stage
 from deodar.model import find
 from deodar.parameters import Part, PerAxis, Recompile
-from deodar.runtime.run import whole
+from deodar.session.run import whole
 from deodar.worlds._base import World
 
 AT = Recompile("time", role="moment", lower=0.0, meaning="document time at which it is done; with `when` the time after that event")

@@ -10,6 +10,7 @@ from typing import Any
 import jax
 import numpy as np
 
+from deodar.batch.driven import driven
 from deodar.compiler.executable import RARELY, Batch, Executable, executable
 from deodar.compiler.plan import Leaf
 from deodar.errors import NotFinite, ParameterError, RunWarning, TimeError, WorldError
@@ -23,11 +24,10 @@ from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
-from deodar.runtime import memory
-from deodar.runtime.driven import driven
-from deodar.runtime.exchange import embodied
-from deodar.runtime.run import Run, whole
-from deodar.runtime.session import require_model, require_seed
+from deodar.session import memory
+from deodar.session.exchange import embodied
+from deodar.session.run import Run, whole
+from deodar.session.session import require_model, require_seed
 from deodar.worlds._base import World
 
 LOOKS = 24

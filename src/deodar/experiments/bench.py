@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from deodar.batch.pieces import BATCH_BYTES
 from deodar.experiments.actions import Push
 from deodar.experiments.batch import run_batch
 from deodar.experiments.checking import check
@@ -27,9 +28,8 @@ from deodar.model.model import Model, load
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 from deodar.recording.opened import named
-from deodar.runtime import memory
-from deodar.runtime.exchange import embodied
-from deodar.runtime.pieces import BATCH_BYTES
+from deodar.session import memory
+from deodar.session.exchange import embodied
 from deodar.worlds._base import World
 
 MOST_COPIES = 250

@@ -17,8 +17,8 @@ from deodar.model import edit, find
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
 from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.runtime.exchange import used
-from deodar.runtime.run import require_step, whole
+from deodar.session.exchange import used
+from deodar.session.run import require_step, whole
 from deodar.worlds._base import World
 
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from deodar.batch.simulate import LONG_STEPS
 from deodar.errors import DeodarError, Problem, RunWarning
 from deodar.experiments.bench import Bench
 from deodar.experiments.design import Design
 from deodar.experiments.jobs import Standing
 from deodar.experiments.results import carry
 from deodar.experiments.tally import DIVERGED
-from deodar.runtime.simulate import LONG_STEPS
 
 if TYPE_CHECKING:
     import xarray

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from deodar.batch.pool import Pool
 from deodar.experiments.rows import Row, Rows
-from deodar.runtime.interrupt import stoppable
-from deodar.runtime.pool import Pool
+from deodar.session.interrupt import stoppable
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from deodar.batch.driven import driven
 from deodar.compiler.plan import cost
 from deodar.errors import ParameterError
 from deodar.leaves import leaves
 from deodar.model.document import Document
 from deodar.parameters import real
-from deodar.runtime.driven import driven
 
 
 def swept(doc: Document, path: str, values: Iterable[object]) -> bool:

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from deodar.batch import parcel
 from deodar.experiments.bench import Bench
 from deodar.experiments.design import Design
 from deodar.experiments.rows import Row
-from deodar.runtime import parcel
 
 
 @dataclass(frozen=True)

@@ -24,12 +24,12 @@ from deodar.experiments.view import View
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, Axis
-from deodar.runtime.clock import Clock
-from deodar.runtime.failure import not_finite
-from deodar.runtime.look import Look, look
-from deodar.runtime.run import whole
-from deodar.runtime.session import Session, require_model
-from deodar.runtime.unit import unit_seconds
+from deodar.session.clock import Clock
+from deodar.session.failure import not_finite
+from deodar.session.look import Look, look
+from deodar.session.run import whole
+from deodar.session.session import Session, require_model
+from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
 

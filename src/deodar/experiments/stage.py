@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.runtime.session import Session
-from deodar.runtime.snapshot import Snapshot
+from deodar.session.session import Session
+from deodar.session.snapshot import Snapshot
 
 Kept = tuple[float, Mapping[str, np.ndarray]]
 """Document time, and for each port what it then held."""

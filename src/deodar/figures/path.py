@@ -18,7 +18,7 @@ from deodar.errors import RecordError
 from deodar.figures import _style
 from deodar.figures._view import View
 from deodar.model import output
-from deodar.runtime.unit import unit_seconds
+from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 from deodar.worlds._view import FLOOR
 from deodar.worlds.arena import Arena

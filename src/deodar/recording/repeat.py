@@ -19,7 +19,7 @@ from deodar.recording.record import about
 from deodar.worlds._base import World
 
 Simulate = Callable[..., xarray.Dataset]
-"""What runs a model: `deodar.runtime.simulate.simulate`."""
+"""What runs a model: `deodar.batch.simulate.simulate`."""
 
 
 @dc.dataclass(frozen=True)

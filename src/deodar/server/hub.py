@@ -7,9 +7,8 @@ import contextlib
 from pathlib import Path
 
 from deodar import __version__
-from deodar.runtime.bill import Bill
-from deodar.runtime.engine import Engine
-from deodar.runtime.meter import Meter
+from deodar.live.bill import Bill
+from deodar.live.engine import Engine
 from deodar.server import gallery, kinds, view
 from deodar.server.aside import attempt
 from deodar.server.embodiment import Embodiment
@@ -18,6 +17,7 @@ from deodar.server.page import Page
 from deodar.server.project import Project
 from deodar.server.to_page import Clock, Costs, CostView, Gallery, Welcome
 from deodar.server.workspace import Workspace
+from deodar.session.meter import Meter
 from deodar.worlds._base import World
 
 KEEP_SECONDS = 3.0

@@ -13,12 +13,11 @@ from typing import Any, Literal
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
 from deodar.importers import examples, opening
+from deodar.live.engine import Engine
 from deodar.model import edit, find
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.runtime.engine import Engine
-from deodar.runtime.session import Session
 from deodar.server import content, view
 from deodar.server.aside import aside, attempt
 from deodar.server.checker import Checker
@@ -28,6 +27,7 @@ from deodar.server.recent_changes import RecentChanges
 from deodar.server.to_page import Changed, DocumentView, Problem
 from deodar.server.turns import Turns
 from deodar.server.workspace import Workspace
+from deodar.session.session import Session
 from deodar.worlds._base import World
 
 Ask = Literal["unsaved", "replace"]

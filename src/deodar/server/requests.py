@@ -14,11 +14,10 @@ import numpy as np
 from deodar.errors import DocumentError, ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
+from deodar.live.engine import Hand
+from deodar.live.trace import Wish
 from deodar.model import edit, files, find
 from deodar.numerics.axes import Axes
-from deodar.runtime.engine import Hand
-from deodar.runtime.session import Session
-from deodar.runtime.trace import Wish
 from deodar.server import content, gallery, to_server
 from deodar.server.aside import aside
 from deodar.server.hub import Hub
@@ -26,6 +25,7 @@ from deodar.server.page import Page
 from deodar.server.scene import Follower
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
+from deodar.session.session import Session
 from deodar.worlds._base import World
 
 MOST_STREAMS = 2000

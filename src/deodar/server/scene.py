@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from deodar.runtime.track import Track, Way
+from deodar.live.track import Track, Way
 from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, Scene, SceneView
 from deodar.worlds import _scene
 

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.errors import DeodarError, Problem
+from deodar.live.engine import Engine
+from deodar.live.trace import Trace, Wish
 from deodar.model import find
 from deodar.numerics.axes import Axes, Axis
-from deodar.runtime.engine import Engine
-from deodar.runtime.look import Place
-from deodar.runtime.session import Session
-from deodar.runtime.trace import Trace, Wish
 from deodar.server import frames, view
 from deodar.server.to_page import Announced, Lost
+from deodar.session.look import Place
+from deodar.session.session import Session
 
 CHANNELS = ("channel", 3)
 """Name and samples of a last axis that makes an array a picture."""

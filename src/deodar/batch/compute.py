@@ -1,0 +1,258 @@
+"""Compute a run: its trials and sweep points in one batch, or piece by piece."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.batch import pieces
+from deodar.batch.points import Points
+from deodar.batch.progress import Shown, bar
+from deodar.compiler import device as devices
+from deodar.compiler.executable import Batch, Executable, executable
+from deodar.compiler.program import Port
+from deodar.elements.field import Field
+from deodar.errors import Interrupted, NotFinite, ParameterError, TimeError, WorkerError
+from deodar.model import find
+from deodar.model.document import Document
+from deodar.model.model import Handle, Model, path_of
+from deodar.model.resolve import resolve
+from deodar.numerics.axes import shape
+from deodar.parameters import show
+from deodar.recording.provenance import provenance
+from deodar.session import memory
+from deodar.session.exchange import embodied
+from deodar.session.interrupt import stoppable
+from deodar.session.run import Run, require_step, whole
+from deodar.session.session import LARGEST_SEED, require_model, require_seed
+from deodar.worlds._base import World
+
+Spread = Callable[[Model, World | None, Sequence[Mapping[str, Any]], int, Callable[[int], None]], list[pieces.Part | None]]
+"""A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
+
+
+def compute(
+    model: Model,
+    duration: float,
+    dt: float | None = None,
+    seed: int = 0,
+    record: Sequence[str] | str | None = None,
+    every: float | None = None,
+    trials: int | Sequence[int] | None = None,
+    sweep: Mapping[str, Sequence[float]] | None = None,
+    precision: str = "float32",
+    world: World | None = None,
+    progress: Shown = None,
+    workers: int | None = None,
+    batch: int | None = None,
+    device: str | None = None,
+    accuracy: str = "default",
+    width: tuple[str, int] | None = None,
+    spread: Spread | None = None,
+) -> pieces.Part:
+    """Compute a whole run of `simulate`, or one piece of it; if all its copies diverge, the error is returned beside the record.
+
+    `spread`: runs pieces in worker processes.
+    `width`: a dimension and its length in the other pieces. The piece is filled up to it with copies of its last one, whose results are not kept:
+    the last digits in single precision depend on how many copies are computed together.
+    """
+    doc = require_model(model).document
+    model.require()
+    if sweep is not None and not isinstance(sweep, Mapping):
+        raise ParameterError(f"sweep gives for each parameter path its values, not {show(sweep)}", fix="For example sweep={'u.tau': [10, 20]}")
+    step = doc.step if dt is None else dt
+    require_step(doc, step)
+    seed = require_seed(seed)
+    steps = whole(duration, step, "the duration")
+    gap = 1 if every is None else whole(every, step, "every")
+    if every is not None and gap == 0:
+        raise TimeError("every is 0; it is at least one step")
+    names, numbers = _trials(trials)
+    points = Points(doc, sweep or {})
+    for document in points.documents():
+        require_step(document, step)
+    ports = _ports(doc, record)
+    start, gap = (steps, steps + 1) if record is None else (0, gap)
+    count = 0 if start > steps else 1 + (steps - start) // gap
+    copies = Batch(points.size if sweep else None, len(numbers) if names else None)
+    nodes, _ = resolve(doc)
+    cut = _cut(memory.copy_bytes(nodes, precision), names, points, workers, batch, device)
+    recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * count * copies.size
+    beside = min(workers or 0, cut.count) if cut.count > 1 else 0
+    memory.require(
+        nodes, precision, cut.batch, recorded * (2 if cut.count > 1 else 1), points.rebuilt(), min(points.size, cut.batch), beside
+    )  # fmt: skip
+    paths = None if record is None else [find.written(doc, path) for path in _list(record)]
+    settings = {"duration": float(duration), "seed": seed, "every": every, "accuracy": accuracy, "record": paths}
+    labels, grid = list(numbers) if names else None, points.by_path
+    asked = {"trials": labels, "sweep": grid, "workers": workers, "device": device}
+    if cut.count > 1:
+        settings |= {"dt": float(step), "precision": precision, "device": device}
+        jobs = [settings | own for own in cut.settings(labels, grid)]
+        parts = _in_pieces(model, jobs, workers, world, steps, progress, spread)
+        data, complete = pieces.joined(cut, parts, asked), sum(part is not None and part.complete for part in parts)
+        if complete < len(parts):
+            raise Interrupted(f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data)
+        errors = [part.lost for part in parts if part is not None]
+        return pieces.Part(data, True, errors[0] if all(error is not None for error in errors) else None)
+    stopped, nothing = False, None
+    with stoppable() as check:
+        more_points, more_trials = _missing(width, points, len(numbers))
+        filled = Batch(points.size + more_points if sweep else None, len(numbers) + more_trials if names else None)
+        program = executable(model, doc, precision, filled, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
+        swept = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values] if sweep else None
+        run = Run(program, doc, float(step), seed, [*numbers, *[numbers[-1]] * more_trials], world, swept)
+        run.tolerated = filled.size - 1
+        found = [program.port(i, port) for i, port in ports]
+        store = _Store(program, found, filled, count)
+        about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)
+        try:
+            with bar(steps, progress) as shown:
+
+                def between(done: int) -> None:
+                    check()
+                    shown(done)
+
+                run.record(steps, found, start, gap, store.collect, between)
+        except KeyboardInterrupt:
+            stopped = True
+        except NotFinite as error:
+            if len(run.lost) < filled.size or not filled.shape:
+                raise
+            store.fill()
+            nothing = error
+    from deodar.recording.diverged import marked  # these import xarray, which takes 0.3 s: sessions do without
+    from deodar.recording.record import dataset
+
+    times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)
+    data = dataset(
+        doc,
+        [
+            (doc.by_id()[i], port, program.axes(p), a[*map(slice, copies.shape), : store.taken])
+            for (i, port), p, a in zip(ports, found, store.arrays, strict=True)
+        ],
+        times,
+        names,
+        points.by_path,
+        about | {"complete": not stopped},
+    )
+    kept = {copy: error for copy, error in run.lost.items() if all(k < n for k, n in zip(copy, copies.shape, strict=True))}
+    reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in kept.items()}
+    data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
+    if stopped:
+        raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
+    return pieces.Part(data, True, nothing)
+
+
+def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tuple[int, int]:
+    """Points and trials that a piece lacks to be as wide as the others."""
+    if width is None:
+        return 0, 0
+    dimension, length = width
+    if dimension in points.by_path:
+        own = len(points.by_path[dimension])
+        return points.size // own * (length - own), 0
+    return 0, length - trials
+
+
+def _in_pieces(
+    model: Model, jobs: Sequence[Mapping[str, Any]], count: int | None, world: World | None, steps: int, progress: Shown, spread: Spread | None
+) -> list[pieces.Part | None]:
+    """Compute the pieces one after another, or in `count` worker processes."""
+    parts: list[pieces.Part | None] = [None] * len(jobs)
+    with stoppable() as check, bar(steps * len(jobs), progress) as shown:
+
+        def between(done: int) -> None:
+            check()
+            shown(done)
+
+        if count is not None and spread is not None:
+            return spread(model, world, jobs, count, between)
+        for k, job in enumerate(jobs):
+            try:
+                parts[k] = compute(model, world=world, progress=lambda done, k=k: between(k * steps + done), **job)
+            except Interrupted as error:
+                parts[k] = pieces.Part(error.data, False)
+                break
+    return parts
+
+
+def _cut(
+    bytes_a_copy: int, trials: Sequence[int] | None, points: Points, workers: int | None, batch: int | None, device: str | None
+) -> pieces.Pieces:
+    lengths = ({} if trials is None else {"trial": len(trials)}) | {path: len(values) for path, values in points.by_path.items()}
+    on_cpu = device is None or devices.find(device).platform == devices.DEFAULT
+    if workers is not None and not on_cpu:
+        raise WorkerError(f"worker processes run on the cores of the CPU, not on {device!r}", fix="Leave out workers, or device")
+    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, 1 if workers is None else require_workers(workers), batch)
+
+
+def require_workers(workers: Any) -> int:
+    """The number of workers, refused if it is none."""
+    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
+        raise ParameterError(f"workers is {show(workers)}; it is a number of processes, at least 1", fix="One for each core is best")
+    return int(workers)
+
+
+class _Store:
+    """Arrays for everything that is recorded, filled during the run."""
+
+    def __init__(self, program: Executable, ports: Sequence[Port], batch: Batch, count: int) -> None:
+        self.lead = len(batch.shape)
+        self.count = count
+        self.taken = 0
+        self.arrays = [np.empty((*batch.shape, count, *shape(program.axes(p))), program.program.dtype) for p in ports]
+
+    def collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
+        n = seen[0].shape[self.lead] if seen else 0
+        for array, part in zip(self.arrays, seen, strict=True):
+            array[(slice(None),) * self.lead + (slice(k, k + n),)] = part
+        self.taken = k + n
+
+    def fill(self) -> None:
+        """Put NaN everywhere: no copy is left."""
+        for array in self.arrays:
+            array[...] = np.nan
+        self.taken = self.count
+
+
+def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str, str]]:
+    if record is None:
+        fields = [(e.id, "activation") for e in doc.entries if isinstance(e.element, Field)]
+        if not fields:
+            raise ParameterError("the model has no field, so it must be said what to record", fix="For example record=['left.output']")
+        return fields
+    found = [find.shown(doc, path) for path in _list(record)]
+    if not found:
+        raise ParameterError("record is empty", fix="Name at least one port, or leave it out")
+    return list(dict.fromkeys((entry.id, port) for entry, port in found))
+
+
+def _list(record: Sequence[str] | str) -> list[str]:
+    paths: list[Any] = [record] if isinstance(record, (str, Handle)) or not np.iterable(record) else list(record)
+    paths = [path_of(p) if isinstance(p, Handle) else p for p in paths]
+    if not all(isinstance(path, str) for path in paths):
+        raise ParameterError(f"record names ports by their paths, not {show(record)}", fix="For example record=['u.activation']")
+    return paths
+
+
+def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
+    node = next(n for n in nodes if n.id == ident)
+    return math.prod(shape(node.axes(port)))
+
+
+def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, Sequence[int]]:
+    """Labels of the dimension (None where there is none), and trial numbers."""
+    if trials is None:
+        return None, [0]
+    if isinstance(trials, (int, np.integer)) and not isinstance(trials, bool) and 1 <= trials <= LARGEST_SEED:
+        return range(int(trials)), range(int(trials))  # not a list: memory is checked later
+    if isinstance(trials, (str, bool, int, np.integer)) or not np.iterable(trials):
+        raise ParameterError(f"trials is {show(trials)}; it is a number of trials, at least 1, or a list of trial numbers")
+    numbers = [require_seed(t) for t in trials]
+    if not numbers or len(set(numbers)) < len(numbers):
+        raise ParameterError(f"trials is {show(trials)}; each trial is named once, and there is at least one")
+    return numbers, numbers

@@ -1,0 +1,398 @@
+"""A session driven by the wall clock, in a thread of its own.
+
+The thread alone touches the session. Others hand it functions (`call`), which it runs between two exchanges, at most `EXCHANGE` apart; they
+read what it published last (`shot`), which never changes afterwards. Whatever compiles does so in a second thread, while the
+session runs on; the new program is taken over between two exchanges, with the states of all elements that stay.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import queue
+import threading
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, TypeVar
+
+import numpy as np
+
+from deodar.errors import ModelError, NotFinite, Problem
+from deodar.live.bill import Bill, said
+from deodar.live.trace import Trace, Wish
+from deodar.live.track import Track
+from deodar.model.document import Document
+from deodar.model.model import Model
+from deodar.session.cost import Costs, costs
+from deodar.session.look import Look, Place, look
+from deodar.session.pace import Pace, require_longest
+from deodar.session.run import require_step
+from deodar.session.session import Session
+from deodar.worlds._base import World
+
+T = TypeVar("T")
+FRAME = 0.022
+"""Shortest wall time between two shots, in seconds: faster than screens are worth."""
+
+SAMPLES = 4
+"""Samples of a time course in one exchange; more would cost a fast run more than they show."""
+
+MOST_LOOKS = 8
+
+
+@dc.dataclass(frozen=True)
+class Shot:
+    """One moment of the run, for others to look at."""
+
+    number: int
+    time: float
+    tick: int
+    arrays: Mapping[Place, np.ndarray]
+
+
+@dc.dataclass
+class Hand:
+    """A hand that reaches in: an input to an element, for as long as it is held."""
+
+    element: str
+    amount: np.ndarray
+
+
+class Engine:
+    """Runs a session and shows it.
+
+    Attributes:
+        shot: what was published last.
+        running: whether the clock advances the session.
+        failure: why it stopped, and the paths of the elements concerned.
+        busy: what is being compiled, in words.
+        pace: how fast it is to go, and how fast it goes.
+        bill: what elements cost, as far as somebody asked.
+        traces: time courses by wish; the engine alone adds samples.
+        track: the world from above, and where its bodies went.
+    """
+
+    def __init__(self, changed: Callable[[], None]) -> None:
+        self._changed = changed
+        self._calls: queue.SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = queue.SimpleQueue()
+        self._wake = threading.Event()
+        self._closed = False
+        self._wanted = True
+        self._stale = True
+        self._shown = 0.0
+        self._places: frozenset[Place] = frozenset()
+        self._looks: list[Look] = []
+        self._look: Look | None = None
+        self._sample: Look | None = None
+        self._target: tuple[Model, Document] | None = None
+        self._making: Future[Any] | None = None
+        self._steps = 0
+        self._compiler = ThreadPoolExecutor(2, "deodar-compiler")  # one to compile, one to measure
+        self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
+        self.session: Session | None = None
+        self.hand: Hand | None = None
+        self.traces: dict[Wish, Trace] = {}
+        self.shot = Shot(0, 0.0, 0, {})
+        self.running = False
+        self.failure: tuple[tuple[Problem, ...], tuple[str, ...]] = ((), ())
+        self.busy = ""
+        self.pace = Pace()
+        self.bill = Bill()
+        self.track = Track()
+        self._thread.start()
+
+    # -------------------------------------------------------------------------------- from other threads
+
+    def call(self, function: Callable[[], T]) -> Future[T]:
+        """Let the engine's thread run a function between two exchanges."""
+        future: Future[T] = Future()
+        self._calls.put((function, future))
+        self._wake.set()
+        return future
+
+    def want(self) -> None:
+        """Somebody is ready for another shot; without this none is made."""
+        self._wanted = True
+        self._wake.set()
+
+    def close(self) -> None:
+        """End both threads."""
+        self._closed = True
+        self._wake.set()
+        self._thread.join()
+        self._compiler.shutdown(cancel_futures=True)
+
+    # -------------------------------------------------------------------------------- in the engine's thread, through `call`
+
+    def load(self, session: Session | None) -> None:
+        """Take another session. It is paused, unless `play` or `step` was called while there was none."""
+        waited = self.session is None and session is not None
+        self.running, self._steps = self.running and waited, self._steps if waited else 0
+        self.session, self.hand, self._target = session, None, None
+        self.failure, self._look, self._sample = ((), ()), None, None
+        self._looks.clear()
+        speed, self.pace, self.bill = self.pace.speed, Pace(), Bill()
+        self.pace.speed = speed
+        self.restart()
+        self._make()
+
+    def play(self, running: bool) -> None:
+        """Let time go on, or stand still."""
+        self.running = running
+        self._steps, self.failure = 0, ((), ()) if running else self.failure
+        self._keep_step()
+        self.pace.restart()
+        self._stale = True
+
+    def step(self, n: int) -> None:
+        """Advance by `n` steps, then pause."""
+        self.play(False)
+        self._steps = n
+        self.failure = ((), ())
+
+    def reset(self, seed: int | None = None) -> None:
+        """State, time and noise back to the start."""
+        if self.session is not None:
+            self.session.reset(seed)
+        self.failure = ((), ())
+        self.restart()
+
+    def restart(self) -> None:
+        """Time courses begin anew."""
+        for wish in self.traces:
+            self.traces[wish] = Trace()
+        self.pace.restart()
+        self._stale = True
+
+    def adopt(self, model: Model, document: Document) -> str:
+        """Go on with another document: at once where nothing compiles, else as soon as it is compiled. Returns the cost."""
+        session = self.session
+        if session is None:
+            return "recompile"
+        self._keep_step()
+        session.require(document)
+        require_step(document, document.step)
+        cost = session.cost(document)
+        if cost != "recompile":
+            session.edit(document)
+            self._target = None
+        else:
+            self._target = (model, document)
+            self._make()
+        if session.dt != document.step:
+            session.dt = document.step
+        self._stale = True
+        return cost
+
+    def lengthen(self, longest: float | None) -> None:
+        """Let the step grow up to this where time is short; None: it stays."""
+        session = self._require()
+        self._keep_step()
+        self.pace.longest = require_longest(session, longest)
+
+    def measure(self) -> None:
+        """Measure in the second thread what elements cost at this moment; the run goes on. The `bill` tells."""
+        session = self._require()
+        if self.bill.measuring:
+            return
+        self.bill, at = Bill(True, self.bill.costs), session.moment()
+        found = self._compiler.submit(lambda: costs(at))
+        found.add_done_callback(lambda future: self._closed or self.call(lambda: self._billed(session, future)))
+
+    def see(self, world: World) -> None:
+        """Let the sensors read another world."""
+        if self.session is not None:
+            self.session.world = world
+        self.failure, self._stale = ((), ()), True
+
+    def rearrange(self, how: Callable[[Session], None]) -> None:
+        """Change things in the world: `how` calls `Session.move`, `place` or `remove`."""
+        how(self._require())
+        self._stale = True
+
+    def push(self, hand: Hand | None) -> None:
+        """Reach into the running model; None lets go."""
+        if hand is not None and self.session is not None:
+            self.session.require_push(hand.element)
+        self.hand = hand
+        self._stale = True
+
+    def show(self, places: Iterable[Place], wishes: Iterable[Wish]) -> None:
+        """What shots are to hold from now on, and which time courses are to be kept."""
+        self._places = frozenset(places)
+        self.traces = {wish: self.traces.get(wish, Trace()) for wish in wishes}
+        self._make()
+        self._stale = True
+
+    # -------------------------------------------------------------------------------- the loop
+
+    def _loop(self) -> None:
+        while not self._closed:
+            self._wake.clear()
+            self._run_calls()
+            try:
+                wait = self._exchange()
+                self._publish()
+            except Exception as error:  # what an element raises, it says; the rest stays as it is
+                wait = 0.02
+                self._fail(error)
+            if wait > 0:
+                self._wake.wait(wait)
+
+    def _run_calls(self) -> None:
+        while not self._calls.empty():
+            function, future = self._calls.get()
+            if future.set_running_or_notify_cancel():
+                try:
+                    future.set_result(function())
+                except BaseException as error:
+                    future.set_exception(error)
+                self._changed()
+
+    def _exchange(self) -> float:
+        """Steps that are due; returns how long nothing will be."""
+        session = self.session
+        if session is None or not (self.running or self._steps):
+            return 0.02 if self._stale and self._wanted else 0.5
+        n = min(self._steps, self.pace.most()) if self._steps else self.pace.due(session)
+        if n == 0:
+            return self.pace.rest(session)
+        parts = max(1, min(n, SAMPLES)) if self.traces or self.track.scene is not None else 1
+        before, began = session.time, time.perf_counter()
+        for k in range(parts):
+            self._advance(session, n * (k + 1) // parts - n * k // parts)
+            self._take_samples(session)
+            self.track.follow(session)
+        self.pace.took(session, n, session.time - before, time.perf_counter() - began)
+        if self.running:
+            self.pace.lengthen(session)
+        self._steps = max(0, self._steps - n)
+        self._stale = True
+        return 0.0
+
+    def _advance(self, session: Session, n: int) -> None:
+        hand = self.hand
+        entry = session.document.by_id().get(hand.element) if hand is not None else None
+        if hand is not None and entry is not None:
+            session.push(entry.path, hand.amount, n)
+        else:
+            session.step(n)
+
+    def _require(self) -> Session:
+        if self.session is None:
+            raise ModelError("no model runs yet", fix="Wait until it is compiled")
+        return self.session
+
+    def _keep_step(self) -> None:
+        """A step that was lengthened to keep up is no reason to refuse an edit: the planned one again."""
+        if self.session is not None:
+            self.pace.shorten(self.session)
+
+    def _take_samples(self, session: Session) -> None:
+        sample = self._sample
+        if not self.traces or sample is None or sample.program is not session.program:
+            return
+        arrays = self._with_hand(session.look(sample, {wish.place for wish in self.traces}), session)
+        for wish, trace in self.traces.items():
+            if wish.place in arrays:
+                axes = session.program.axes(session.program.port(*wish.place))
+                trace.add(session.time, wish.value(arrays[wish.place], axes))
+
+    def _take_first(self, session: Session) -> None:
+        """A time course that has just been asked for begins with what is there now, also while time stands still."""
+        if any(trace.count == 0 for trace in self.traces.values()):
+            self._take_samples(session)
+            self._stale = True
+
+    def _with_hand(self, arrays: Mapping[Place, np.ndarray], session: Session) -> Mapping[Place, np.ndarray]:
+        """What a hand brings is part of the input that is shown."""
+        entry = session.document.by_id().get(self.hand.element) if self.hand is not None else None
+        if self.hand is None or entry is None:
+            return arrays
+        place = (entry.id, entry.element.ports()[0])
+        return {**arrays, place: arrays[place] + self.hand.amount} if place in arrays else arrays
+
+    def _publish(self) -> None:
+        """A new shot, if something happened, somebody waits for it, and the last one is long enough ago."""
+        now = time.perf_counter()
+        if not (self._stale and self._wanted) or now - self._shown < FRAME:
+            return
+        self._stale, self._wanted = False, False  # before the shot is there: who has seen it may want the next one at once
+        session, seen = self.session, self._look
+        arrays: Mapping[Place, np.ndarray] = {}
+        if session is not None and seen is not None and seen.program is session.program:
+            arrays = self._with_hand(session.look(seen, self._places), session)
+        self.track.follow(session)
+        moment = (session.time, session.tick) if session is not None else (0.0, 0)
+        self.shot = Shot(self.shot.number + 1, *moment, arrays)
+        self._shown = now
+        self._changed()
+
+    def _fail(self, error: Exception) -> None:
+        self.running, self._steps, self.hand = False, 0, None
+        paths = error.paths if isinstance(error, NotFinite) else ()
+        self.failure, self._stale = (said(error), paths), True
+        self._changed()
+
+    def _billed(self, session: Session, future: Future[Costs]) -> None:
+        if session is self.session:
+            error = future.exception()
+            self.bill = Bill(costs=future.result()) if error is None else Bill(problems=said(error))
+
+    # -------------------------------------------------------------------------------- compiling beside the run
+
+    def _make(self) -> None:
+        """Compile what is wanted and not there: the target's program, and looks at the places and at the time courses."""
+        session = self.session
+        if session is None or self._making is not None:
+            return
+        model, document = self._target or (None, session.document)
+        wanted = (self._places, frozenset(wish.place for wish in self.traces))
+        known, program = list(self._looks), session.program
+
+        def make() -> tuple[Any, list[Look]]:
+            made = program
+            if model is not None:
+                made = session.compiled(document, model)
+                made.chunk(())
+            return made, [_found(known, made, places) or look(made, places) for places in wanted]
+
+        there = [_found(known, program, places) for places in wanted]
+        if model is None and there[0] is not None and there[1] is not None:
+            self._look, self._sample = there[0], there[1]
+            self._take_first(session)
+            return
+        self.busy = "compiling" if model is not None else self.busy
+        self._making = self._compiler.submit(make)
+        self._making.add_done_callback(lambda future: self._closed or self.call(lambda: self._made(session, document, wanted, future)))
+
+    def _made(self, session: Session, document: Document, wanted: tuple[frozenset[Place], ...], future: Future[Any]) -> None:
+        self._making, self.busy, self._stale = None, "", True
+        if session is not self.session:
+            return self._make()
+        self._keep_step()
+        try:
+            program, (at_shown, at_sampled) = future.result()
+            self._looks = [*(known for known in self._looks if known not in (at_shown, at_sampled)), at_shown, at_sampled][-MOST_LOOKS:]
+            if document is not session.document and self._target is not None and self._target[1] is document:
+                session.edit(document)
+                self._target = None
+            elif self._target is not None and session.cost(self._target[1]) != "recompile":
+                session.edit(self._target[1])
+                self._target = None
+        except Exception as error:
+            self._target = None
+            self._fail(error)
+            return None
+        if session.program is program:
+            self._look, self._sample = at_shown, at_sampled
+            self._take_first(session)
+        now = (self._places, frozenset(wish.place for wish in self.traces))
+        if self._target is not None or now != wanted or session.program is not program:
+            self._make()
+        return None
+
+
+def _found(known: Sequence[Look], program: Any, places: Iterable[Place]) -> Look | None:
+    """A look at these places of a program, and at not much else, if there is one: elements of one structure are seen together anyway."""
+    return next((one for one in known if one.program is program and one.fits(places)), None)

@@ -1,1 +1,0 @@
-"""Runs, sessions and simulate: the only owners of live state."""

@@ -1,0 +1,244 @@
+"""What each element of a running model costs, in microseconds a step.
+
+Each group of equal elements is compiled alone, fed with what its inputs hold now, and timed; the whole step is timed in the same way beside it. The
+run is not touched: everything works on what the state was at one moment.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+import time
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from deodar.compiler.executable import Executable
+from deodar.compiler.moment import packed, unpacked
+from deodar.compiler.plan import Plan
+from deodar.compiler.program import Port, Program, array_key
+from deodar.errors import TimeError
+from deodar.model.document import Document
+from deodar.parameters import real, show
+
+if TYPE_CHECKING:
+    from deodar.session.run import Run
+
+Tree = Any
+SECONDS = 1.0
+"""Wall time for which all parts together are timed, beside compiling them."""
+
+SHORTEST = 1e-3
+"""Wall time of the steps of one call that is timed, in seconds: well above what the call itself takes and what the clock resolves."""
+
+REPEATS = 3
+"""Least number of times that each part is timed; the fastest counts, because whatever disturbs makes it slower."""
+
+
+@dc.dataclass(frozen=True)
+class Cost:
+    """What one element costs.
+
+    Attributes:
+        id: of the element.
+        path: where it stands; a connection that resamples or delays has a path of its own.
+        kind: its kind.
+        us: microseconds of a step; for a part that runs at every k-th tick the mean over all ticks.
+        alike: how many elements of equal structure are computed together; they share the time equally.
+        once: whether it stands still and is computed once a chunk, which costs nothing in a step.
+    """
+
+    id: str
+    path: str
+    kind: str
+    us: float
+    alike: int
+    once: bool
+
+
+@dc.dataclass(frozen=True)
+class Costs:
+    """What a step costs, element by element.
+
+    Attributes:
+        elements: the dearest first.
+        step: microseconds of the whole step, measured as a whole.
+    """
+
+    elements: tuple[Cost, ...]
+    step: float
+
+    @property
+    def sum(self) -> float:
+        """Microseconds of all elements, each measured alone.
+
+        It differs from `step`: what is computed together may be fused or run in parallel, what is computed alone begins with a warm cache.
+        """
+        return math.fsum(c.us for c in self.elements)
+
+    def share(self, cost: Cost) -> float:
+        """Part of the sum that an element takes, 0 to 1."""
+        return cost.us / self.sum if self.sum else 0.0
+
+    def data(self) -> dict[str, Any]:
+        """The same as plain numbers, for JSON."""
+        rows = [dc.asdict(c) | {"share": self.share(c)} for c in self.elements]
+        return {"step_us": self.step, "sum_us": self.sum, "elements": rows}
+
+    def __str__(self) -> str:
+        rows = [(c.path, c.kind, *(("once a chunk", "") if c.once else (f"{c.us:.3f}", f"{100 * self.share(c):.1f} %"))) for c in self.elements]
+        head = ("element", "kind", "us a step", "share")
+        widths = [max(len(r[k]) for r in [head, *rows]) for k in range(4)]
+        lines = [f"{p:{widths[0]}}  {k:{widths[1]}}  {u:>{widths[2]}}  {s:>{widths[3]}}".rstrip() for p, k, u, s in [head, *rows]]
+        return "\n".join([*lines, "", f"Sum {self.sum:.3f} us, each measured alone; the whole step takes {self.step:.3f} us."])
+
+
+@dc.dataclass(frozen=True)
+class Moment:
+    """All that a step depends on, at one moment of a run; it does not change when the run goes on."""
+
+    program: Executable
+    document: Document
+    values: Tree
+    constants: Tree
+    state: Tree
+    keys: Tree
+    sensed: Tree
+    clock: Tree
+
+
+def moment(run: Run) -> Moment:
+    """The present moment of a run."""
+    clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
+    return Moment(run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock)
+
+
+def costs(at: Moment, seconds: float = SECONDS) -> Costs:
+    """Measure what a step costs, as a whole and element by element.
+
+    Args:
+        at: the moment whose state and inputs are taken.
+        seconds: wall time for which all parts together are timed. Compiling them the first time takes about as long as compiling the model.
+
+    Raises:
+        TimeError: a time that is not above 0.
+    """
+    given = real(seconds)
+    if given is None or not 0 < given < math.inf:
+        raise TimeError(f"the time for measuring is {show(seconds)}; it is a number of seconds above 0")
+    plan, used = at.program.plan, _read_ports(at)
+    buffers = _buffers(at, used)
+    groups = [g for g, group in enumerate(plan.groups) if not group.still and (group.like.element.stateful or used[g])]
+    each = given / (len(groups) + 1)
+    us = {g: _timed(_alone(at, g, used[g], buffers), plan.groups[g].like.every, each) for g in groups}
+    step = _timed(_together(at), plan.ticks, each)
+    by = at.document.by_id()
+    found = [
+        Cost(
+            n.id, by[n.id].path if n.id in by else n.path, type(n.element).__name__, us.get(g, 0.0) / group.rows, group.rows, group.still
+        )
+        for g, group in enumerate(plan.groups)
+        for n in group.nodes
+    ]  # fmt: skip
+    return Costs(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
+
+
+# ------------------------------------------------------------------------------------------------ what is timed
+
+
+def _read_ports(at: Moment) -> list[list[Port]]:
+    """For each group the output ports that something reads: others are not computed in a step."""
+    plan = at.program.plan
+    read = {r.source[:2] for reads in plan.reads.values() for r in reads}
+    return [[Port(g, None, name) for name in group.like.outs if (g, name) in read] for g, group in enumerate(plan.groups)]
+
+
+def _buffers(at: Moment, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Any]:
+    """What those ports hold at this moment."""
+    ports = [p for some in used for p in some]
+    if not ports:
+        return {}
+    reader = at.program.new_reader(ports)
+    seen = at.program.call(reader, at.values, at.constants, at.state, at.keys, at.sensed, *packed(at.clock, at.program.program.dtype))
+    return {(p.group, p.name): rows for p, rows in zip(ports, seen, strict=True)}
+
+
+def _together(at: Moment) -> Callable[[int], object]:
+    """The step of the whole model."""
+    chunk, _ = at.program.chunk(())
+
+    def call(n: int) -> object:
+        now = packed({**at.clock, "head": n}, at.program.program.dtype)
+        return at.program.call(chunk, at.values, at.constants, at.state, at.keys, at.sensed, *now)
+
+    return call
+
+
+def _alone(at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]) -> Callable[[int], object]:
+    """The step of one group: its inputs stay what they are, its state goes on."""
+    plan, precision = at.program.plan, at.program.precision
+    group, count = plan.groups[g], len(plan.groups)
+    program = Program(dc.replace(plan, calls=[c for c in plan.calls if c.group == g]), precision)
+    pairs = g in program.paired and at.program.draws_pairs()
+    program.paired = [g] if pairs else []
+    alone = Program(Plan([group], [], {}, {}, {}, plan.size, 1), precision)
+    arrays = {array_key(0, path): at.values["arrays"][array_key(g, path)] for path in group.arrays}
+    sources = sorted({r.source[:2] for port in group.like.reads for r in plan.reads[g, port]})
+
+    def only(one: Any) -> list[Any]:
+        return [one if k == g else None for k in range(count)]
+
+    def run(
+        values: Tree, arrays: Tree, constants: Tree, state: Tree, keys: Tree, inputs: Tree, shown: Tree, sensed: Tree, clock: Tree, n: Any
+    ) -> Any:
+        settled = only(alone.settle(values | {"arrays": arrays}, [constants])[0])
+
+        def step(tick: Any, state: Tree, drawn: Tree) -> tuple[Tree, Any]:
+            # without the barrier what depends on the inputs alone would be computed once, before the loop
+            now, tick = lax.optimization_barrier((inputs, tick))
+            buffers = {(*source, instant): rows for source, rows in zip(sources, now, strict=True) for instant in (0, 1)}
+            shown = program.observe(ports, values, settled, state, keys, sensed, buffers, clock, tick)
+            return program.step(values, settled, state, keys, drawn, sensed, buffers, clock, tick), shown
+
+        def body(_: Any, carry: Any) -> Any:
+            tick, state, shown = carry
+            for drawn in program.draw(keys, tick) if pairs else ({},):
+                state, shown = step(tick, state, drawn)
+                tick = tick + jnp.uint32(1)
+            return tick, state, shown
+
+        return lax.fori_loop(0, n // 2 if pairs else n, body, (clock["tick"], state, shown))
+
+    state = {"groups": only(at.state["groups"][g]), "held": {k: v for k, v in at.state["held"].items() if k == str(g)}}
+    keys = {k: v for k, v in at.keys.items() if k == str(g)}
+    inputs, shown = [held_by[source] for source in sources], tuple(held_by[g, p.name] for p in ports)
+    args = (at.values, arrays, at.constants[g], state, keys, inputs, shown, at.sensed, unpacked(*packed(at.clock, at.program.program.dtype)))
+    executable, _ = at.program.compile(run, *args, np.int32(0))
+    return lambda n: at.program.call(executable, *args, np.int32(n))
+
+
+# ------------------------------------------------------------------------------------------------ timing
+
+
+def _timed(call: Callable[[int], object], multiple: int, seconds: float) -> float:
+    """Microseconds of a step, beyond what a call without steps takes. `multiple`: ticks after which all repeats itself."""
+
+    def taken(n: int) -> float:
+        began = time.perf_counter()
+        jax.block_until_ready(call(n))
+        return time.perf_counter() - began
+
+    end = time.perf_counter() + seconds
+    n = 2 * multiple  # noise comes in pairs
+    taken(n)
+    none = min(taken(0) for _ in range(REPEATS))
+    while taken(n) < none + SHORTEST and n < 2**28:
+        n *= 2
+    best, repeats = math.inf, 0
+    while repeats < REPEATS or time.perf_counter() < end:
+        none, best, repeats = min(none, taken(0)), min(best, taken(n)), repeats + 1
+    return max(0.0, 1e6 * (best - none) / n)

@@ -1,0 +1,37 @@
+"""What a session has learned, taken into the model it was made from."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from deodar.errors import ParameterError
+from deodar.model.model import Model
+from deodar.session.snapshot import Snapshot
+
+
+def learned(snapshot: Snapshot) -> dict[str, np.ndarray]:
+    """Values that elements have learned (weights, traces, gains), by the id of the element and the parameter that takes each as its initial value."""
+    found: dict[str, np.ndarray] = {}
+    for entry in snapshot.document.entries:
+        if entry.element.stateful:
+            for name, value in entry.element.lasting(snapshot.states[entry.id][0]).items():
+                found[f"{entry.id}.{name}"] = np.array(value)
+    return found
+
+
+def keep(snapshot: Snapshot, model: Model) -> list[str]:
+    """Write learned values to a model as initial values, in one change, which `undo` takes back; return the paths of the parameters.
+
+    Raises:
+        ParameterError: the model no longer has one of the elements.
+    """
+    by = model.document.by_id()
+    here = snapshot.document.by_id()
+    values: dict[str, np.ndarray] = {}
+    for place, value in learned(snapshot).items():
+        ident, name = place.split(".", 1)
+        if ident not in by:
+            raise ParameterError("was learned, and is no longer in the model", where=here[ident].path, fix="Undo its removal: model.undo()")
+        values[f"{by[ident].path}.{name}"] = value
+    model.set(values)
+    return list(values)

@@ -1,0 +1,258 @@
+"""The pace of a run: the steps that are due by the wall clock.
+
+After Lomp, Richter, Zibner and Schoener (2016), section 3.2: a step waits until its time has come. The moments are counted from one beginning and
+not from step to step, so that lateness does not add up.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+from deodar.compiler.executable import Executable
+from deodar.errors import DeodarError, TimeError
+from deodar.model.document import Document
+from deodar.parameters import real, show
+from deodar.session.meter import Meter
+from deodar.session.run import require_step, whole
+from deodar.session.unit import unit_seconds
+from deodar.worlds._base import World
+
+EXCHANGE = 0.01
+"""Wall time of the steps between two exchanges, in seconds; with what else is done there, changes act within 20 ms."""
+
+MEASURED = 0.5
+"""Wall time over which the achieved speed is averaged, and for which a lengthened step is kept at least, in seconds."""
+
+MOST_LAG = 0.25
+"""Wall time that is caught up, in seconds: a guess between a hiccup of the machine, which must not set the run back for good, and a pause (a laptop
+that slept), after which a burst of old steps would help nobody. What is beyond is given up."""
+
+RESERVE = 1.1
+"""Wall time that a lengthened step has, over what it takes: a tenth more, a guess, so that the lag shrinks."""
+
+
+class Paced(Protocol):
+    """What a pace asks of a session."""
+
+    @property
+    def world(self) -> World | None:
+        """The world that provides its sensors."""
+        ...
+
+    @property
+    def document(self) -> Document:
+        """The document that runs."""
+        ...
+
+    @property
+    def program(self) -> Executable:
+        """Its compiled functions."""
+        ...
+
+    @property
+    def time(self) -> float:
+        """Document time."""
+        ...
+
+    @property
+    def dt(self) -> float:
+        """Euler step."""
+        ...
+
+    @dt.setter
+    def dt(self, value: float) -> None: ...
+
+    @property
+    def next_dt(self) -> float:
+        """Euler step from the next common tick on."""
+        ...
+
+    def step(self, n: int = 1) -> None:
+        """Advance by `n` Euler steps."""
+        ...
+
+
+class Pace:
+    """Steps that are due.
+
+    Where the machine is too slow, a run falls behind and says so; its steps stay what they are, so that the result is the one of any other run. With
+    `longest` the step grows instead, in whole multiples of the planned one, as cedar does it; each change is entered in the session's journal.
+
+    Args:
+        now: the wall clock, in seconds.
+
+    Attributes:
+        speed: document time over wall time that is asked for; None: as fast as possible.
+        longest: the longest step that may be taken to keep up, in document time; None: the step stays.
+        factor: document time over wall time, as achieved in the last half second.
+        steps: steps in one second of wall time, as achieved.
+    """
+
+    def __init__(self, now: Callable[[], float] = time.perf_counter) -> None:
+        self._now = now
+        self.speed: float | None = 1.0
+        self.longest: float | None = None
+        self.factor = 0.0
+        self.steps = 0.0
+        self._cost = 0.0
+        self._planned = self._asked = 0.0
+        self._of: Paced | None = None
+        self.restart()
+
+    def go(self, speed: float | None) -> None:
+        """Another speed from now on."""
+        self.speed = speed
+        self.restart()
+
+    def restart(self) -> None:
+        """Count from now: nothing is owed for the time in which it stood still."""
+        self._began = self._now()
+        self._unit = 1e-3
+        self._passed = self._given_up = 0.0
+        self._since = (self._began, 0.0, 0)
+        self._late_since: float | None = None
+        self._changed = -math.inf
+        self._lag = self._worst = self._longest = self._step = 0.0
+        self._taken = self._overruns = self._lengthened = 0
+        self.factor = self.steps = 0.0
+
+    def most(self) -> int:
+        """Steps that fit between two exchanges."""
+        return max(1, int(EXCHANGE / self._cost)) if self._cost else 1
+
+    def due(self, session: Paced) -> int:
+        """Steps to take now."""
+        if self.speed is None:
+            return self.most()
+        owed = self._owed(session)
+        most = max(MOST_LAG, 2 * self._wall(session))
+        if owed > most:  # not caught up: it is as if it had stood still for so long
+            self._given_up += owed - most
+            owed = most
+        self._late(owed - self._wall(session), session)
+        return min(int(owed / self._wall(session) + 1e-6), self.most())
+
+    def rest(self, session: Paced) -> float:
+        """Wall time until the next step is due, in seconds."""
+        return min(0.02, max(0.0, self._wall(session) - self._owed(session)))
+
+    def took(self, session: Paced, n: int, passed: float, seconds: float) -> None:
+        """Learn from steps that were taken: how many, how much document time passed, and in what wall time."""
+        each = seconds / n
+        self._cost = each if not self._cost else 0.7 * self._cost + 0.3 * each
+        self._passed += passed
+        self._taken += n
+        step = passed / n
+        self._step = max(self._step, step)
+        self._lengthened += n if self._planned and step > self._planned * 1.001 else 0
+        if self.speed is not None:
+            self._late(self._owed(session), session)
+        began, time_passed, steps = self._since
+        time_passed, steps = time_passed + passed, steps + n
+        now = self._now()
+        if now - began >= MEASURED:
+            self.factor = time_passed * self._unit / (now - began)
+            self.steps = steps / (now - began)
+            began, time_passed, steps = now, 0.0, 0
+        self._since = (began, time_passed, steps)
+
+    def lengthen(self, session: Paced) -> None:
+        """Take a longer step where there is not enough time for the planned one, and the planned one again where there is.
+
+        A step grows at once and shrinks after half a second at the earliest. It fits into the world's period and into every time constant.
+        """
+        if session is not self._of or session.next_dt != self._asked:  # somebody else set it: that is planned from now on
+            self._of, self._planned, self._asked = session, session.next_dt, session.next_dt
+        if self.longest is None or self.speed is None or not self._cost:
+            wanted = 1
+        else:
+            wall = self._planned * self._unit / self.speed
+            needed = max(RESERVE * self._cost / wall, self._lag / (self.most() * wall))
+            wanted = max(1, math.ceil(needed - 1e-6))
+        factor = round(self._asked / self._planned)
+        if wanted < factor and self._now() - self._changed < MEASURED:
+            return
+        self._take(session, self._allowed(session, wanted))
+
+    def shorten(self, session: Paced) -> None:
+        """The planned step again."""
+        if session is self._of and session.next_dt == self._asked:
+            self._take(session, self._planned)
+
+    def meter(self, session: Paced) -> Meter:
+        """What was measured since the beginning."""
+        unit, wall = unit_seconds(session.document.time_unit), self._now() - self._began
+        late = 0.0 if self._late_since is None else self._now() - self._late_since
+        return Meter(
+            speed=self.speed, factor=self._passed * unit / wall if wall > 0 else 0.0, time=self._passed, wall=wall, steps=self._taken,
+            lag=1e3 * self._lag, worst=1e3 * self._worst, lost=1e3 * self._given_up, overruns=self._overruns,
+            longest=1e3 * max(self._longest, late), lengthened=self._lengthened, step=self._step,
+        )  # fmt: skip
+
+    # -------------------------------------------------------------------------------- inside
+
+    def _owed(self, session: Paced) -> float:
+        """Wall time for which no step was taken yet."""
+        self._unit = unit_seconds(session.document.time_unit)
+        return self._now() - self._began - self._given_up - self._passed * self._unit / (self.speed or 1.0)
+
+    def _wall(self, session: Paced) -> float:
+        """Wall time of one step."""
+        return unit_seconds(session.document.time_unit) * session.dt / (self.speed or 1.0)
+
+    def _late(self, lag: float, session: Paced) -> None:
+        """Note a lag: how late the oldest step that is due is, or the newest that was taken."""
+        self._lag = max(0.0, lag)
+        self._worst = max(self._worst, self._lag)
+        now = self._now()
+        if self._lag > max(EXCHANGE, self._wall(session)):
+            if self._late_since is None:
+                self._late_since = now - self._lag  # when it should have been
+                self._overruns += 1
+        elif self._late_since is not None:
+            self._longest = max(self._longest, now - self._late_since)
+            self._late_since = None
+
+    def _allowed(self, session: Paced, wanted: int) -> float:
+        """The longest step, at most `n` planned ones, that the bound, the time constants and the world allow."""
+        bound = self._planned if self.longest is None else self.longest
+        for k in range(min(wanted, int(bound / self._planned + 1e-9)), 1, -1):
+            step = k * self._planned
+            try:
+                require_step(session.document, step)
+                if session.world is not None and session.world.period is not None:
+                    whole(1e-3 * session.world.period / self._unit, step, "the world's period")
+            except DeodarError:
+                continue
+            return step
+        return self._planned
+
+    def _take(self, session: Paced, step: float) -> None:
+        if step != self._asked:
+            self._asked, self._changed = step, self._now()
+            session.dt = step
+
+
+def require_speed(speed: object) -> float | None:
+    """A speed as a number above 0, or None: as fast as possible."""
+    given = None if speed is None else real(speed)
+    if speed is not None and (given is None or not 0 < given < math.inf):
+        raise TimeError(f"a speed is a number above 0, or None for as fast as possible, not {show(speed)}", fix="1.0 is real time, 0.1 slow motion")
+    return given
+
+
+def require_longest(session: Paced, longest: object) -> float | None:
+    """The bound of a step that may grow: at least the present step, at most what the time constants allow."""
+    if longest is None:
+        return None
+    given = real(longest)
+    if given is None or given < session.next_dt:
+        raise TimeError(
+            f"the longest step is {show(longest)}; it is a number, and not below the planned step of {session.next_dt:g}",
+            fix="Leave it out to keep the step",
+        )
+    require_step(session.document, given)
+    return given

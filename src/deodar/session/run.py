@@ -1,0 +1,389 @@
+"""A run: state, clock and world of one model (or of a batch of copies), and how they advance."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import jax
+import numpy as np
+
+from deodar.compiler.body import unbatched
+from deodar.compiler.executable import Executable
+from deodar.compiler.moment import packed
+from deodar.compiler.program import Port
+from deodar.errors import NotFinite, TimeError
+from deodar.model.document import Document
+from deodar.model.limits import too_long
+from deodar.parameters import real, show
+from deodar.session.clock import Clock
+from deodar.session.exchange import Exchange, Moment
+from deodar.session.failure import first_steps, not_finite
+from deodar.session.unit import unit_seconds
+from deodar.worlds._base import World
+
+Tree = Any
+CHUNK_SECONDS = 0.2
+"""Wall time of a chunk in seconds; between chunks: progress, Ctrl-C, the check for values that are not finite."""
+
+MOST_STEPS = 2**44
+"""Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at a step of 1 ms."""
+
+
+class Run:
+    """One model, or a batch of copies of it, in the middle of running."""
+
+    def __init__(
+        self, program: Executable, doc: Document, dt: float, seed: int, trials: Sequence[int], world: World | None, swept: Sequence[Any] | None = None
+    ) -> None:
+        self.seed = seed
+        self.trials = tuple(trials)
+        self.swept = swept
+        self.clock = Clock(0, doc.t0, 0, dt)
+        self.exchange = Exchange(doc, world)
+        self.load(program, doc)
+        self.pace = 0.0
+        self.tolerated = 0
+        """Copies of a batch that may diverge: they go into `lost`. One more raises the first error; of a single run none is tolerated."""
+        self.lost: dict[tuple[int, ...], NotFinite] = {}
+        self.reset()
+
+    # -------------------------------------------------------------------------------- what runs
+
+    def load(self, program: Executable, doc: Document) -> None:
+        """Take a program and the parameters of a document; the state stays what it is. What is refused changes nothing."""
+        require_step(doc, self.clock.dt)
+        self.exchange.take(doc)
+        self.exchange.body = program.body
+        self.program, self.doc = program, doc
+        self.values = program.values(doc, self.swept)
+        self.constants = program.prepare(self.values)
+
+    def reset(self) -> None:
+        """State, time, noise and world back to the start; parameters stay."""
+        self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
+        self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
+        self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
+        self.shared: Tree = None
+        if self.exchange.inside:
+            self.shared, self.state, self.keys = self.program.embodied(self.exchange.world, self.state, self.keys)
+        self.forget()
+
+    def forget(self) -> None:
+        """Read all sensors anew before the next step: another program, or another moment."""
+        self.sensed = self.program.blind()
+        self.exchange.unread = True
+
+    @property
+    def world(self) -> World | None:
+        """What the sensors read and the motors move."""
+        return self.exchange.world
+
+    # -------------------------------------------------------------------------------- running
+
+    def advance(self, steps: int, progress: Callable[[int], None] | None = None) -> None:
+        """Advance by `steps` Euler steps, in chunks."""
+        chunk, _ = self.program.chunk(())
+        self._steps(chunk, steps, 0, progress)
+
+    def record(
+        self,
+        steps: int,
+        ports: Sequence[Port],
+        start: int,
+        every: int,
+        collect: Callable[[int, tuple[np.ndarray, ...]], None],
+        progress: Callable[[int], None] | None = None,
+    ) -> None:
+        """Advance by `steps` Euler steps; record after the first `start` of them, then after each `every`.
+
+        `collect(k, arrays)` gets the records from number k on; each array has the batch axes first, then the records.
+        """
+        chunk, capacity = self.program.chunk(ports)
+        done, taken, due = 0, 0, start
+        while due <= steps:
+            gap, steady = due - done, self._until_sensing()
+            most = min(self._chunk_steps(), steady)
+            # a record at the tick of a new reading belongs to the next chunk, which sees that reading
+            if gap and (gap > most or gap == steady):  # its chunk is not this one: step, and throw the record away
+                head = min(gap, most)
+                self._chunk(chunk, {"head": head, "every": 0, "records": 1}, head)
+                done += head
+            else:
+                room = min(most, steady - 1) - gap
+                records = 1 + min((steps - due) // every, capacity - 1, max(0, room) // every)
+                used = gap + (records - 1) * every
+                seen = self._chunk(chunk, {"head": gap, "every": every, "records": records}, used)
+                kept = tuple(np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)] for a in seen)
+                self._require_finite(ports, kept, every)
+                collect(taken, kept)
+                taken, done, due = taken + records, done + used, due + records * every
+            if progress is not None:
+                progress(done)
+        self._steps(chunk, steps - done, 1, progress, done)
+        if self.exchange.inside:
+            self.exchange.put_now(unbatched(self.state["world"]["now"], self.program.batch.shape))
+
+    def _steps(self, chunk: Any, steps: int, records: int, progress: Callable[[int], None] | None, before: int = 0) -> None:
+        done = 0
+        while done < steps:
+            n = min(steps - done, self._chunk_steps(), self._until_sensing())
+            self._chunk(chunk, {"head": n, "every": 0, "records": records}, n)
+            done += n
+            if progress is not None:
+                progress(before + done)
+
+    def _chunk(self, chunk: Any, counts: dict[str, int], used: int) -> tuple[Any, ...]:
+        self.sense()
+        if used:
+            self.exchange.tell(self.clock.tick, self._period(), self._commands)
+        began = time.perf_counter()
+        before = self.state
+        state, seen, finite = self._call(chunk, before, counts)
+        good = np.asarray(finite[0])
+        if not good.all():
+            if self._keeps_others():
+                self._lose(self._diverged(before, used, self._new(~good)))
+            else:
+                self._report(before, used)
+        self._require_finite_world(before, state, used)
+        self.state = state
+        self.clock = self.clock.after(used)
+        seconds = time.perf_counter() - began
+        if used:
+            self.pace = used / max(seconds, 1e-9) if not self.pace else 0.5 * self.pace + 0.5 * used / max(seconds, 1e-9)
+        return seen
+
+    def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
+        return self.program.call(chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts))
+
+    def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
+        """Ports at the present state."""
+        self.sense()
+        reader = self.program.reader(ports)
+        seen = self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
+        return [np.asarray(a) for a in seen]
+
+    def look(self, reader: Any) -> Sequence[Any]:
+        """What a reader that the caller keeps sees in the present state."""
+        self.sense()
+        return self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
+
+    def row(self, group: int, row: int) -> dict[str, np.ndarray]:
+        """The state of one element of a single run."""
+        return {name: np.asarray(values[row]) for name, values in self.state["groups"][group].items()}
+
+    def put_row(self, group: int, row: int, state: Mapping[str, Any]) -> None:
+        """Another state for one element of a single run."""
+        new = host(self.state)
+        for name, values in state.items():
+            new["groups"][group][name][row] = values
+        self.state = new
+
+    def see(self, world: World | None) -> None:
+        """Another world from now on. What is refused changes nothing."""
+        self.exchange = Exchange(self.doc, world)
+        self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
+        self.forget()
+
+    def _now(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
+        period = self._period() if self.exchange.inside else 1
+        about = {**self.clock.origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
+        return packed(about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype)
+
+    def _values(self) -> Tree:
+        return self.values if self.shared is None else {**self.values, "world": self.shared}
+
+    def _chunk_steps(self) -> int:
+        """Steps that take about CHUNK_SECONDS; the first chunk is a probe."""
+        return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else 20
+
+    # -------------------------------------------------------------------------------- worlds
+
+    def _period(self) -> int:
+        """Ticks between two exchanges with the world; 0 where it never changes."""
+        if self.world is None or self.world.period is None:
+            return 0
+        return whole(self.world.period / self._unit(), self.clock.dt, "the world's period")
+
+    def _unit(self) -> float:
+        """Milliseconds in a unit of document time."""
+        return unit_seconds(self.doc.time_unit) * 1e3
+
+    def _until_sensing(self) -> int:
+        """Steps until the world is to be read again."""
+        return self.exchange.steps(self.clock.tick, self._period() if self.exchange.live else 0)
+
+    def sense(self) -> None:
+        """Bring the world to the present, and what is sensed with it; a second time it changes nothing."""
+        if self.exchange.live:
+            now = Moment(self.clock.tick, self.clock.time, self._unit())
+            self.exchange.read(now, self._period(), self.clock.dt, self.program.program.dtype, self.sensed)
+
+    def _commands(self, motors: Sequence[str]) -> list[np.ndarray]:
+        return self.read([self.program.port(ident, "output") for ident in motors]) if motors else []
+
+    # -------------------------------------------------------------------------------- values that are not finite
+
+    def _keeps_others(self) -> bool:
+        return self.tolerated > 0 and bool(self.program.batch.shape)
+
+    def _new(self, bad: np.ndarray, after: float = math.inf) -> list[tuple[int, ...]]:
+        """Places of the copies that are bad and not lost yet, or lost in a step later than `after`."""
+        return [place for place in map(tuple, np.argwhere(bad).tolist()) if place not in self.lost or self.lost[place].step > after]
+
+    def _lose(self, found: Mapping[tuple[int, ...], NotFinite]) -> None:
+        """Continue without some copies; raise the error of the first if these are more than are tolerated."""
+        for place, error in found.items():  # the earlier one, so that chunks make no difference
+            if place not in self.lost or error.step < self.lost[place].step:
+                self.lost[place] = error
+        if len(self.lost) > self.tolerated:
+            raise next(iter(self.lost.values()))
+
+    def _report(self, before: Tree, used: int) -> None:
+        """Find the first step at which a value was not finite, and raise."""
+        step, names = self._search(before, used, [...])[...]
+        self._go(before, step - 1)
+        raise not_finite(self._without_state(...) or names, self.clock.after(1), self.doc.time_unit)
+
+    def _go(self, before: Tree, steps: int) -> None:
+        """Take the state and the clock from the start of a chunk to some step in it."""
+        chunk, _ = self.program.chunk(())
+        self.state, _, _ = self._call(chunk, before, {"head": steps, "every": 0, "records": 0})
+        self.clock = self.clock.after(steps)
+
+    def _diverged(self, before: Tree, used: int, copies: Sequence[tuple[int, ...]]) -> dict[tuple[int, ...], NotFinite]:
+        """For each of these copies the first step at which a value was not finite, as an error."""
+        found = self._search(before, used, copies)
+        out: dict[tuple[int, ...], NotFinite] = {}
+        state, clock = self.state, self.clock
+        for step in sorted({step for step, _ in found.values()}):
+            self._go(before, step - 1)
+            for copy, (first, names) in found.items():
+                if first == step:
+                    out[copy] = not_finite(self._without_state(copy) or names, self.clock.after(1), self.doc.time_unit)
+            self.state, self.clock = state, clock
+        return {copy: out[copy] for copy in copies}
+
+    def _search(self, before: Tree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
+        """For each copy (`...`: all as one) the first step of a chunk after which a value was not finite, and the elements where."""
+        chunk, _ = self.program.chunk(())
+
+        def bad(n: int) -> list[np.ndarray]:
+            _, _, finite = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
+            return [~np.asarray(f) for f in finite[1]]
+
+        groups = self.program.plan.groups
+        found = first_steps(bad, 0, max(used, 1), copies)
+        return {copy: (n, [self._path(node) for g, r in rows for node in [groups[g].nodes[r]]]) for copy, (n, rows) in found.items()}
+
+    def _without_state(self, copy: Any) -> list[str]:
+        """The first elements without a state whose output is not finite now in a copy (`...`: in any): they spoil the states that read them."""
+        plan = self.program.plan
+        groups = list(dict.fromkeys(c.group for c in plan.calls if c.role == "output" and not plan.groups[c.group].like.element.stateful))
+        ports = [Port(g, r, next(iter(plan.groups[g].like.outs))) for g in groups for r in range(plan.groups[g].rows)]
+        bad = {(p.group, p.row): not np.isfinite(value[copy]).all() for p, value in zip(ports, self.read(ports), strict=True)} if ports else {}
+        for g in groups:
+            names = [self._path(n) for r, n in enumerate(plan.groups[g].nodes) if bad[g, r]]
+            if names:
+                return names
+        return []
+
+    def _require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
+        """Refuse records that are not finite although all states are: a coupling's output may be."""
+        lead = len(self.program.batch.shape)
+        for port, values in zip(ports, kept, strict=True):
+            good = np.isfinite(values)
+            if good.all():
+                continue
+            node = self.program.plan.groups[port.group].nodes[port.row or 0]
+            if port.name in node.element.undefined():
+                good |= np.isnan(values)
+            if not good.all():
+                spoilt = np.asarray(~good.reshape(*values.shape[: lead + 1], -1).all(-1))
+                end = self.clock.tick - (values.shape[lead] - 1) * every
+                name = f"{self._path(node)}.{port.name}"
+
+                def error(when: np.ndarray, name: str = name, end: int = end) -> NotFinite:
+                    return not_finite([name], dc.replace(self.clock, tick=end + int(np.argmax(when)) * every), self.doc.time_unit)
+
+                if not self._keeps_others():
+                    raise error(np.asarray(spoilt.reshape(-1, values.shape[lead]).any(0)))
+                self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)), end)})
+
+    def _require_finite_world(self, before: Tree, state: Tree, used: int) -> None:
+        """Refuse a world inside the step whose sensors show values that are not finite: they would spoil the model later, and elsewhere."""
+        if not self.exchange.inside or all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
+            return
+        chunk, _ = self.program.chunk(())
+        sensors, shape = list(state["world"]["now"]), self.program.batch.shape
+
+        def bad(n: int) -> list[np.ndarray]:
+            now = self._call(chunk, before, {"head": n, "every": 0, "records": 0})[0]["world"]["now"]
+            return [~np.isfinite(now[name]).reshape(*shape, -1).all(-1, keepdims=True) for name in sensors]
+
+        def error(step: int, names: Sequence[str]) -> NotFinite:
+            clock = self.clock.after(step)
+            return NotFinite(
+                f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined in step {clock.tick}"
+                f" (time {clock.time:g} {self.doc.time_unit})",
+                names,
+                fix="Look for what drives its motors",
+                step=clock.tick,
+            )
+
+        spoilt = np.any([~np.isfinite(value).reshape(*shape, -1).all(-1) for value in state["world"]["now"].values()], axis=0)
+        copies = self._new(spoilt, self.clock.tick) if self._keeps_others() else [...]
+        found = first_steps(bad, 0, max(used, 1), copies)
+        errors = {copy: error(step, [sensors[k] for k, _ in rows]) for copy, (step, rows) in found.items()}
+        if not self._keeps_others():
+            raise errors[...]
+        self._lose(errors)
+
+    def _path(self, node: Any) -> str:
+        """Path of a node in the present document; the program may have been made before it was renamed."""
+        entry = self.doc.by_id().get(node.id)
+        return entry.path if entry is not None else node.path
+
+
+def require_step(doc: Document, dt: float) -> None:
+    """Refuse a step longer than an element allows: the Euler method would not follow, or diverge."""
+    if not 0 < (real(dt) or 0) < math.inf:
+        raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
+    if abs(doc.t0) / dt > MOST_STEPS:
+        raise TimeError(
+            f"time {doc.t0:g} {doc.time_unit} is {abs(doc.t0) / dt:.3g} steps of dt = {dt:g} from time 0; times are exact up to {MOST_STEPS:.3g}",
+            where="t0",
+            fix="Start at a time nearer to 0, or take a larger dt",
+        )
+    for e in doc.entries:
+        for problem in too_long(e.path, e.element, dt, e.every, doc.time_unit):
+            raise TimeError([problem])
+
+
+def require_duration(duration: Any, what: str) -> float:
+    """A span of time as a number, 0 or above."""
+    given = real(duration)
+    if given is None or not 0 <= given < math.inf:
+        raise TimeError(f"{what} is {show(duration)}; it is a number, 0 or above")
+    return given
+
+
+def whole(duration: Any, dt: float, what: str) -> int:
+    """How many steps of dt a duration is; refused unless it is a whole number of them."""
+    duration = require_duration(duration, what)
+    n = duration / dt
+    if n > MOST_STEPS:
+        raise TimeError(f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS:.3g} can be counted")
+    if abs(n - round(n)) > 1e-6 + 1e-14 * n:
+        near = [k * dt for k in (int(n), int(n) + 1)]
+        raise TimeError(f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}")
+    return round(n)
+
+
+def host(tree: Tree) -> Tree:
+    """A copy of a tree of arrays on the host."""
+    return jax.tree.map(lambda a: np.array(a), tree)

@@ -1,0 +1,71 @@
+"""The state of a session at one moment: element by element, so that it fits into another program."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from deodar.compiler.executable import Executable
+from deodar.model.document import Document
+from deodar.session.clock import Clock
+from deodar.session.exchange import Kept
+from deodar.session.run import Run, host
+
+Tree = Any
+Row = Mapping[str, np.ndarray]
+"""The state of one element: its arrays by name."""
+
+
+@dc.dataclass(frozen=True)
+class Snapshot:
+    """The whole state of a session at one moment.
+
+    Attributes:
+        document: the document with its parameters.
+        states: for each element by id its state, and the one that is not yet visible (of parts with a step of their own).
+        clock: tick, time and dt.
+        seed: seed of the noise; with the tick it says all about it.
+        precision: float32 or float64.
+        world: where the world then stood; None: there was none.
+    """
+
+    document: Document
+    states: Mapping[str, tuple[Row, Row]]
+    clock: Clock
+    seed: int
+    precision: str
+    world: Kept | None = None
+
+
+def rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
+    """The state of every element by id: what is shown, and what is held until it is due (the same where nothing is held)."""
+    here = host(state)
+    out: dict[str, tuple[Row, Row]] = {}
+    for ident, (g, r) in program.plan.row.items():
+        shown = {name: values[r] for name, values in here["groups"][g].items()}
+        held = {name: values[r] for name, values in here["held"].get(str(g), here["groups"][g]).items()}
+        out[ident] = (shown, held)
+    return out
+
+
+def fill(run: Run, states: Mapping[str, tuple[Row, Row]]) -> None:
+    """States by id into the present program, where their shapes are the same; others start anew. Noise follows from seed and tick."""
+    fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
+    state = host(fresh)
+    for ident, (g, r) in run.program.plan.row.items():
+        if ident in states:
+            shown, held = states[ident]
+            _copy_row(shown, state["groups"][g], r)
+            if str(g) in state["held"]:
+                _copy_row(held, state["held"][str(g)], r)
+    run.state = state
+    run.forget()
+
+
+def _copy_row(source: Row, target: Tree, row: int) -> None:
+    for name, values in source.items():
+        if name in target and target[name].shape[1:] == values.shape:
+            target[name][row] = values

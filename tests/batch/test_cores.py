@@ -1,0 +1,80 @@
+"""How many cores: said before JAX starts, by nobody on import, by the command line for itself."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+import deodar as dd
+from deodar.batch import cores
+
+MODEL = "m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=11)])); "
+
+
+def told(code: str, nproc: str | None = None) -> dict[str, object]:
+    """What a fresh process prints as JSON after `code`."""
+    environment = {k: v for k, v in os.environ.items() if k != "NPROC"} | ({"NPROC": nproc} if nproc else {})
+    code = "import json, os, sys, deodar as dd; from deodar.compiler.device import cores; found = {}\n" + code
+    code += "\nprint('FOUND', json.dumps({'nproc': os.environ.get('NPROC'), 'cores': cores()} | found))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    return json.loads(next(line for line in done.stdout.splitlines() if line.startswith("FOUND")).removeprefix("FOUND "))
+
+
+def test_it_is_said_before_the_first_run_and_not_after() -> None:
+    code = f"""
+dd.use_cores(1)
+{MODEL}
+dd.simulate(m, 5)
+dd.use_cores(1)
+try:
+    dd.use_cores(3)
+except dd.errors.CoresError as error:
+    found['says'] = str(error)
+"""
+    found = told(code)
+    assert found["nproc"] == "1" and found["cores"] == 1
+    assert "already started with 1 cores" in str(found["says"]) and "NPROC=3" in str(found["says"])
+
+
+def test_the_number_reaches_the_pool_of_threads() -> None:
+    """XLA names its threads after their pool; with one core it has fewer of them."""
+    if not os.path.isdir("/proc/self/task"):  # told by Linux only; elsewhere the number is at least kept
+        assert told("dd.use_cores(2)")["nproc"] == "2"
+        return
+    code = "import jax; dd.use_cores({}); before = len(os.listdir('/proc/self/task')); jax.devices(); x = jax.numpy.ones(3) + 1\n"
+    code += "found['threads'] = len(os.listdir('/proc/self/task')) - before"
+    few, many = (int(str(told(code.format(n))["threads"])) for n in (1, 8))
+    assert many - few >= 7
+
+
+def test_importing_sets_nothing() -> None:
+    assert told("import deodar.batch.simulate, deodar.batch.workers")["nproc"] is None
+
+
+def test_the_command_line_takes_one_unless_told_otherwise() -> None:
+    run = "from deodar.cli import main; main(['elements', '--json']); from deodar.cli import _options; _options.use_cores({})"
+    assert told(run.format("None"))["nproc"] == "1"
+    assert told(run.format("None"), nproc="2")["nproc"] == "2"
+    assert told(run.format("3"))["cores"] == 3
+    assert told("import jax; jax.devices(); from deodar.cli import _options; _options.use_cores(None)")["nproc"] is None
+
+
+@pytest.mark.parametrize("wrong", [0, -1, True, 1.5, "2", None])
+def test_a_wrong_number_is_refused(wrong: object) -> None:
+    with pytest.raises(dd.errors.ParameterError, match="at least 1"):
+        dd.use_cores(wrong)  # type: ignore[arg-type]
+
+
+def test_the_record_says_how_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    from deodar.recording.provenance import cores_of
+    from deodar.recording.record import about
+
+    model = dd.Model("m")
+    model.add(dd.Field("u", []))
+    made = about(dd.simulate(model, 5))
+    assert made["made_by"]["cores"] == str(cores.cores()) and cores_of(made) == cores.cores()
+    assert cores_of({}) == 1 and cores_of({"made_by": {"cores": "many"}}) == 1

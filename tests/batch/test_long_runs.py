@@ -1,0 +1,59 @@
+"""A run of 10^9 steps and more is announced and shows its progress; shorter ones begin as they always do."""
+
+from __future__ import annotations
+
+import warnings
+
+import pytest
+
+import deodar as dd
+from deodar.batch import progress
+from deodar.batch import simulate as module
+from deodar.errors import Interrupted, RunWarning
+
+
+def small() -> dd.Model:
+    model = dd.Model("small")
+    model.add(dd.Field("u", []))
+    return model
+
+
+def stop(done: int) -> None:
+    raise KeyboardInterrupt
+
+
+def test_a_step_that_is_much_too_small_is_announced() -> None:
+    with (
+        pytest.warns(RunWarning, match=r"1e\+10 steps of dt = 1e-09: a smaller number may be meant; the noise .* after 4.29e\+09 steps") as told,
+        pytest.raises(Interrupted),
+    ):
+        dd.simulate(small(), 10, dt=1e-9, progress=stop)
+    assert [t.filename for t in told] == [__file__]
+
+
+def test_a_night_of_steps_begins_without_a_word() -> None:
+    with warnings.catch_warnings(), pytest.raises(Interrupted):
+        warnings.simplefilter("error")
+        dd.simulate(small(), 10**9 - 1, progress=stop)
+
+
+def test_away_from_a_terminal_progress_is_lines(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(module, "LONG_STEPS", 500)
+    monkeypatch.setattr(progress, "LINE_AFTER", 0.0)
+    with pytest.warns(RunWarning, match="500 steps"):
+        dd.simulate(small(), 500)
+    assert "simulating: " in (told := capsys.readouterr().err) and "of 500 steps after" in told
+    with pytest.warns(RunWarning, match="500 steps"):
+        dd.simulate(small(), 500, progress=False)
+    assert capsys.readouterr().err == ""
+
+
+def test_lines_come_after_twice_as_long_each_time(capsys: pytest.CaptureFixture[str]) -> None:
+    clock = [0.0]
+    shown = progress.lines(1000, lambda: clock[0])
+    for second in range(1, 101):
+        clock[0] = float(second)
+        shown(10 * second)
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "simulating: 100 of 1000 steps after 10 s, about 90 s left"
+    assert [line.split(" after ")[1].split(" s,")[0] for line in lines] == ["10", "20", "40", "80"]

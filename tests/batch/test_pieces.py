@@ -1,0 +1,73 @@
+"""How a batch is cut, and what is made of the pieces."""
+
+from __future__ import annotations
+
+import itertools
+import json
+
+import numpy as np
+import pytest
+import xarray
+
+from deodar.batch.pieces import BATCH_BYTES, Part, Pieces, cut, joined
+from deodar.errors import ParameterError
+from deodar.recording.provenance import KEY
+
+SIZES = [1, 2, 7, 100]
+
+
+@pytest.mark.parametrize(("trials", "points", "workers", "batch"), list(itertools.product(SIZES, SIZES, [1, 2, 3, 16], [None, 1, 5, 10_000])))
+def test_every_copy_is_in_one_piece(trials: int, points: int, workers: int, batch: int | None) -> None:
+    pieces = cut({"trial": trials, "a": points}, 2**20, workers, batch)
+    jobs = pieces.settings(range(trials), {"a": [float(k) for k in range(points)]})
+    found = [(t, a) for job in jobs for t in job["trials"] for a in job["sweep"]["a"]]
+    assert len(jobs) == pieces.count and len(found) == len(set(found)) == trials * points
+    sizes = [len(job["trials"]) * len(job["sweep"]["a"]) for job in jobs]
+    assert max(sizes) == sizes[0] == pieces.batch and sizes[:-1] == [pieces.batch] * (len(jobs) - 1)
+    rest = min(trials, points)
+    assert pieces.batch <= max(rest, batch if batch is not None else BATCH_BYTES // 2**20)
+
+
+def test_workers_have_the_same_to_do() -> None:
+    assert cut({"trial": 100}, 1000, 4) == Pieces("trial", 100, 25, 1)
+    assert cut({"trial": 100}, 1000) == Pieces("trial", 100, 100, 1)
+    assert cut({"trial": 100}, 2**20).count == 13  # 8 MiB at once
+    assert cut({"trial": 100}, 2**20, 4).count == 15 and cut({"trial": 100}, 2**20, 4).length == 7
+    assert cut({"trial": 3, "a": 5, "b": 4}, 0, 5) == Pieces("a", 5, 1, 12)
+    assert cut({}, 2**30, 4) == Pieces("", 1, 1, 1)
+
+
+@pytest.mark.parametrize("wrong", [0, True, 2.0, "3"])
+def test_a_wrong_batch_is_refused(wrong: object) -> None:
+    with pytest.raises(ParameterError, match="batch is"):
+        cut({"trial": 3}, 1, 1, wrong)  # type: ignore[arg-type]
+
+
+def part(trials: list[int], times: int, whole: bool) -> Part:
+    values = np.multiply.outer(np.array(trials, float), np.ones(times))
+    data = xarray.Dataset({"u": (("trial", "time"), values)}, {"trial": trials, "time": np.arange(times)})
+    data.attrs[KEY] = json.dumps({"trials": trials, "dt": 1.0})
+    return Part(data, whole)
+
+
+def test_pieces_that_are_complete_become_one_record() -> None:
+    pieces = Pieces("trial", 6, 2, 1)
+    data = joined(pieces, [part([0, 1], 3, True), part([2, 3], 3, True), part([4, 5], 3, True)], {"trials": [*range(6)]})
+    assert data["trial"].values.tolist() == [*range(6)] and np.array_equal(data["u"].values[:, 2], range(6))
+    assert json.loads(data.attrs[KEY]) == {"trials": [*range(6)], "dt": 1.0, "batch": 2, "complete": True}
+
+
+def test_of_a_run_that_was_stopped_the_complete_pieces_stay() -> None:
+    some = joined(Pieces("trial", 6, 2, 1), [part([0, 1], 3, True), part([2, 3], 2, False), None], {"trials": [*range(6)]})
+    assert some["trial"].values.tolist() == [0, 1] and json.loads(some.attrs[KEY])["complete"] is False
+
+
+@pytest.mark.parametrize(("times", "trials", "kept"), [((5, 4, 0), [0, 1, 2, 3], 4), ((9, 2, 1), [0, 1], 9), ((4, 3, 3), [0, 1, 2, 3, 4, 5], 3)])
+def test_where_none_is_complete_most_is_kept(times: tuple[int, ...], trials: list[int], kept: int) -> None:
+    parts = [part([2 * k, 2 * k + 1], n, False) for k, n in enumerate(times)]
+    data = joined(Pieces("trial", 6, 2, 1), parts, {})
+    assert data["trial"].values.tolist() == trials and data.sizes["time"] == kept and json.loads(data.attrs[KEY])["complete"] is False
+
+
+def test_where_nothing_was_begun_the_record_is_empty() -> None:
+    assert not joined(Pieces("trial", 6, 2, 1), [None, None, None], {}).sizes

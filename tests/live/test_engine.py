@@ -1,0 +1,236 @@
+"""The engine: a session in a thread of its own, at a pace, looked at from outside."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import ModelError, ParameterError, TimeError
+from deodar.live.engine import Engine, Hand
+from deodar.live.trace import CAPACITY, Trace, Wish
+from deodar.model import edit
+from deodar.session.pace import Pace
+from deodar.session.unit import unit_seconds
+
+X = dd.Axis("x", 0, 100, samples=101)
+WAIT = 600.0
+
+
+def model() -> dd.Model:
+    made = dd.Model("m")
+    u = made.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5)]))
+    made.add(dd.GaussianStimulus("s", [X], center=50, amplitude=2)) >> u
+    return made
+
+
+class Driven:
+    """An engine with a model, and ways to wait for it."""
+
+    def __init__(self) -> None:
+        self.news = threading.Event()
+        self.engine = Engine(self.news.set)
+        self.model = model()
+        self.u = self.model["u"].id
+        self.do(lambda: self.engine.load(dd.Session(self.model)))
+
+    def do(self, function: Callable[[], Any]) -> Any:
+        return self.engine.call(function).result(WAIT)
+
+    def until(self, condition: Callable[[], Any]) -> None:
+        end = time.monotonic() + WAIT
+        while not condition():
+            assert time.monotonic() < end, "it never came"
+            self.engine.want()
+            self.news.wait(0.05)
+            self.news.clear()
+
+    def idle(self, condition: Callable[[], Any]) -> None:
+        """Wait without wanting a shot."""
+        end = time.monotonic() + WAIT
+        while not condition():
+            assert time.monotonic() < end, "it never came"
+            time.sleep(0.01)
+
+
+@pytest.fixture
+def driven() -> Iterator[Driven]:
+    one = Driven()
+    yield one
+    one.engine.close()
+
+
+def test_steps_and_a_shot_of_them(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "activation")
+    driven.do(lambda: engine.show([place], []))
+    driven.do(lambda: engine.step(123))
+    driven.until(lambda: engine.shot.tick == 123 and place in engine.shot.arrays)
+    script = dd.Session(driven.model)
+    script.step(123)
+    np.testing.assert_array_equal(engine.shot.arrays[place], script.read("u.activation"))
+    assert not engine.running
+
+
+def test_what_was_asked_for_before_there_was_a_session_is_shown(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "activation")
+    driven.do(lambda: engine.load(None))
+    driven.do(lambda: engine.show([place], [Wish(place)]))
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    driven.until(lambda: place in engine.shot.arrays)
+
+
+def test_a_hand_is_seen_in_the_input(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "input")
+    driven.do(lambda: engine.show([place], []))
+    driven.until(lambda: place in engine.shot.arrays)
+    before = engine.shot.arrays[place]
+    driven.do(lambda: engine.push(Hand(driven.u, np.full(101, 2.5))))
+    driven.until(lambda: np.allclose(engine.shot.arrays[place], before + 2.5))
+    driven.do(lambda: engine.push(None))
+    driven.until(lambda: np.allclose(engine.shot.arrays[place], before))
+
+
+def test_steps_wait_for_a_session_too(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.load(None))
+    driven.do(lambda: engine.step(7))
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    driven.until(lambda: engine.shot.tick == 7)
+
+
+def test_play_waits_for_a_session(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.load(None))
+    driven.do(lambda: engine.play(True))
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    driven.until(lambda: engine.shot.tick > 5)
+    driven.do(lambda: engine.load(dd.Session(driven.model)))
+    assert not engine.running, "another document stands still at first"
+
+
+def test_real_time_is_kept_and_slow_motion_too(driven: Driven) -> None:
+    """At real time a second takes a second; the machine may be slow, so that only the upper side is sharp."""
+    engine = driven.engine
+    for speed in (1.0, 0.1):
+        driven.do(lambda speed=speed: engine.pace.go(speed))
+        driven.do(lambda: engine.play(True))
+        began, first = time.perf_counter(), driven.do(lambda: engine.session.time)  # type: ignore[union-attr]
+        driven.until(lambda first=first: engine.session is not None and engine.session.time >= first + 50)
+        last, passed = driven.do(lambda: engine.session.time), time.perf_counter() - began  # type: ignore[union-attr]
+        assert 0 < last - first <= 1000 * speed * passed + 25
+        driven.do(lambda: engine.play(False))
+
+
+def test_as_fast_as_possible_is_faster(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.pace.go(None))
+    driven.do(lambda: engine.play(True))
+    driven.until(lambda: engine.shot.tick > 5000)
+    assert engine.pace.speed is None
+
+
+def test_what_needs_a_session_says_that_there_is_none(driven: Driven) -> None:
+    engine = driven.engine
+    driven.do(lambda: engine.load(None))
+    for function in (engine.measure, lambda: engine.lengthen(2.0)):
+        with pytest.raises(ModelError, match="no model runs yet"):
+            driven.do(function)
+
+
+def test_nobody_looking_means_no_shots(driven: Driven) -> None:
+    engine = driven.engine
+    driven.until(lambda: engine.shot.number > 0)
+    driven.do(lambda: engine.play(True))
+    driven.idle(lambda: engine.session is not None and engine.session.tick > 10)
+    number, tick = engine.shot.number, driven.do(lambda: engine.session.tick)  # type: ignore[union-attr]
+    driven.idle(lambda: engine.session is not None and engine.session.tick > tick + 100)
+    assert engine.shot.number <= number + 1
+    engine.want()
+    driven.until(lambda: engine.shot.number > number + 1)
+
+
+def test_traces_hold_time_and_value_and_begin_anew_with_a_reset(driven: Driven) -> None:
+    engine = driven.engine
+    wishes = [Wish((driven.u, "activation"), reduce) for reduce in ("max", "mean")] + [Wish((driven.u, "activation"), "at", (50.0,))]
+    driven.do(lambda: engine.show([], wishes))
+    driven.until(lambda: engine._sample is not None)  # pyright: ignore[reportPrivateUsage]
+    driven.do(lambda: engine.step(200))
+    driven.until(lambda: engine.shot.tick == 200)
+    samples = {w: engine.traces[w].since(0) for w in wishes}
+    top, mean, at = (samples[w] for w in wishes)
+    assert top[-1, 0] == 200 and (np.diff(top[:, 0]) > 0).all() and len(top) > 4
+    assert (top[:, 1] >= mean[:, 1]).all() and np.allclose(top[:, 1], at[:, 1])
+    driven.do(engine.reset)
+    assert all(engine.traces[w].count == 0 for w in wishes)
+
+
+def test_a_live_change_acts_at_once_and_a_structural_one_when_it_is_compiled(driven: Driven) -> None:
+    engine, m = driven.engine, driven.model
+    m.set("u.resting_level", -3)
+    assert driven.do(lambda: engine.adopt(m, m.document)) == "live"
+    assert driven.do(lambda: engine.session.get("u.resting_level")) == -3  # type: ignore[union-attr]
+    driven.do(lambda: engine.play(True))
+    driven.until(lambda: engine.shot.tick > 20)
+    m.set("u.kernel", [dd.Gaussian(1, 5), dd.Gaussian(-0.5, 9)])
+    assert driven.do(lambda: engine.adopt(m, m.document)) == "recompile"
+    m.set("u.tau", 30)
+    driven.do(lambda: engine.adopt(m, m.document))
+    driven.until(lambda: engine.session is not None and engine.session.document is m.document)
+    tick = engine.shot.tick
+    driven.until(lambda: engine.shot.tick > tick + 20)
+    assert engine.running and not engine.failure[0]
+
+
+def test_what_cannot_go_on_is_refused_and_nothing_changes(driven: Driven) -> None:
+    engine, m = driven.engine, driven.model
+    session = engine.session
+    assert session is not None
+    before = session.document
+    for bad in (edit.change(m.document, "u.tau", 0.5), edit.describe(m.document, dt=50.0)):
+        with pytest.raises(TimeError, match="longer than the time constant"):
+            driven.do(lambda bad=bad: engine.adopt(m, bad))
+    assert session.document is before
+    with pytest.raises(ParameterError, match="takes no input"):
+        driven.do(lambda: engine.push(Hand(m["s"].id, np.zeros(101))))
+
+
+def test_a_failure_stops_the_run_and_a_reset_ends_it(driven: Driven) -> None:
+    engine, m = driven.engine, driven.model
+    model_of_trouble = dd.Model("trouble")
+    u = model_of_trouble.add(dd.Field("u", [], tau=1, resting_level=1, noise=1))
+    model_of_trouble.add(dd.GaussianStimulus("s", [], amplitude=1e38)) >> dd.Gain(1e38) >> u
+    driven.do(lambda: engine.load(dd.Session(model_of_trouble)))
+    driven.do(lambda: engine.play(True))
+    driven.until(lambda: engine.failure[0])
+    assert not engine.running and "infinite" in engine.failure[0][0].what and engine.failure[1]
+    driven.do(engine.reset)
+    assert engine.failure == ((), ())
+    assert m is driven.model
+
+
+def test_a_trace_keeps_the_newest_samples() -> None:
+    trace = Trace()
+    for k in range(CAPACITY + 10):
+        trace.add(k, 2 * k)
+    kept = trace.since(0)
+    assert len(kept) == CAPACITY and kept[0, 0] == 10 and kept[-1].tolist() == [CAPACITY + 9, 2 * (CAPACITY + 9)]
+    assert trace.since(CAPACITY + 8)[:, 0].tolist() == [CAPACITY + 8, CAPACITY + 9]
+
+
+@pytest.mark.parametrize(("unit", "seconds"), [("ms", 1e-3), ("s", 1), ("1 = 64 ms", 0.064), ("1 = 2 min", 120), ("abstract", 1e-3)])
+def test_units_of_time_in_seconds(unit: str, seconds: float) -> None:
+    assert unit_seconds(unit) == pytest.approx(seconds)
+
+
+def test_a_machine_that_is_too_slow_does_not_pile_up_steps() -> None:
+    session = dd.Session(model())
+    pace = Pace()
+    pace.go(1.0)
+    pace.took(session, 1, 1.0, 0.004)  # 4 ms a step, where 1 ms is asked for
+    time.sleep(0.05)
+    assert pace.due(session) <= pace.most() <= 3

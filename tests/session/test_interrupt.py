@@ -1,0 +1,50 @@
+"""Ctrl-C: kept until the end of the chunk, never lost, and the handler is put back."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+
+import pytest
+
+import deodar as dd
+from deodar.session.interrupt import stoppable
+from deodar.session.run import Run
+
+
+def test_it_is_met_between_chunks_and_the_handler_comes_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", []))
+    before, chunk, calls = signal.getsignal(signal.SIGINT), Run._chunk, []
+
+    def pressed(self: Run, *args: object) -> object:
+        calls.append(1)
+        if len(calls) == 3:
+            os.kill(os.getpid(), signal.SIGINT)  # in the middle of a chunk
+        return chunk(self, *args)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Run, "_chunk", pressed)
+    with pytest.raises(dd.errors.Interrupted) as caught:
+        dd.simulate(model, 10_000_000, record=["u.activation"], every=1000)
+    assert len(calls) == 3 and caught.value.data.sizes["time"] >= 1
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_one_stops_at_once() -> None:
+    before = signal.getsignal(signal.SIGINT)  # a shell that starts the tests behind it ignores the signal
+    with pytest.raises(KeyboardInterrupt), stoppable():
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        pytest.fail("it went on")
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_other_threads_leave_signals_alone() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", []))
+    done: list[int] = []
+    thread = threading.Thread(target=lambda: done.append(dd.simulate(model, 10).sizes["time"]))
+    thread.start()
+    thread.join(600)
+    assert done == [1]

@@ -1,0 +1,90 @@
+"""Looks at many ports, and hands that reach into a running model."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.session.look import look
+
+X = dd.Axis("x", 0, 100, samples=101)
+
+
+def ring(n: int) -> dd.Model:
+    """Fields in a ring, alike but for their resting level, and a node of another structure."""
+    model = dd.Model("ring")
+    fields = [model.add(dd.Field(f"u{k}", [X], resting_level=-k)) for k in range(n)]
+    for a, b in itertools.pairwise(fields):
+        a >> dd.Gain(0.5) >> b
+    fields[-1] >> model.add(dd.Field("node", []))
+    return model
+
+
+def test_a_look_sees_what_single_readings_see() -> None:
+    model = ring(4)
+    session = dd.Session(model, precision="float64")
+    session.step(20)
+    places = [(h.id, port) for h in model for port in ("activation", "output", "input") if hasattr(h.element, "tau")]
+    seen = session.look(look(session.program, places), places)
+    assert set(seen) == set(places)
+    for h in model:
+        for port in ("activation", "output", "input"):
+            if (h.id, port) in seen:
+                np.testing.assert_array_equal(seen[h.id, port], session.read(h[port]))
+
+
+def test_elements_of_one_structure_are_one_array_of_the_reader() -> None:
+    model = ring(6)
+    session = dd.Session(model)
+    few = look(session.program, [(model["u1"].id, "activation")])
+    assert len(few.ports) <= 2, "a field of the ring stands with its kind in one array"
+    assert few.fits([(model["u1"].id, "activation")]) and not few.fits([(model["u2"].id, "output")])
+
+
+def test_what_is_not_there_is_left_out() -> None:
+    model = ring(2)
+    session = dd.Session(model)
+    places = [("feedbeef", "activation"), (model["u0"].id, "nonsense")]
+    seen = look(session.program, places)
+    assert seen.ports == () and session.look(seen, places) == {}
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.5])
+def test_a_push_is_an_input(noise: float) -> None:
+    """Pushing gives the trajectory of the same input through a connection, noise included."""
+    model = dd.Model("pushed")
+    u = model.add(dd.Field("u", [X], noise=noise, kernel=[dd.Gaussian(1, 5)]))
+    model.add(dd.GaussianStimulus("s", [X], center=50, sigma=5, amplitude=3)) >> u
+    free = dd.Session(model, seed=3, precision="float64")
+    free.set("s.amplitude", 0.0)
+    bound = dd.Session(model, seed=3, precision="float64")
+    amount = 3 * np.exp(-0.5 * ((X.points - 50) / 5) ** 2)
+    bound.step(50)
+    free.push("u", amount, 50)
+    np.testing.assert_allclose(free.read("u.activation"), bound.read("u.activation"), atol=1e-9)
+    assert free.journal[-1].what == "push u"
+
+
+def test_what_takes_no_input_cannot_be_pushed() -> None:
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("s", [X]))
+    model.add(dd.Field("slow", [X]), ticks=2)
+    session = dd.Session(model)
+    for path in ("s", "slow"):
+        with pytest.raises(dd.errors.ParameterError, match="takes no input"):
+            session.push(path, 1.0)
+
+
+def test_another_seed_comes_with_a_reset() -> None:
+    model = ring(1)
+    model.set("u0.noise", 1.0)
+    session, other = dd.Session(model, seed=1), dd.Session(model, seed=2)
+    session.step(5)
+    session.reset(seed=2)
+    session.step(5)
+    other.step(5)
+    np.testing.assert_array_equal(session.read("u0.activation"), other.read("u0.activation"))
+    assert session.seed == 2

@@ -1,0 +1,124 @@
+"""A hand in the world of a session."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
+from deodar.elements.sensor import Sensor
+from deodar.errors import UnknownName, WorldError
+from deodar.live.track import FINE, MOST, Track
+from deodar.worlds.arena import Arena
+
+OPEN = {
+    "arena": {"x": [0, 3], "y": [0, 2]},
+    "boxes": [{"name": "crate", "center": [0.5, 1.5], "size": [0.2, 0.2]}],
+    "start": [0.2, 1.0],
+    "goal": [2.5, 0.5],
+}
+
+
+def driving(turn: float = 0.0) -> dd.Model:
+    """Straight on, or on a circle."""
+    model = dd.Model("driving", dt=64)
+    model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], "pose"))
+    for name, speed in (("left", 800 - turn), ("right", 800 + turn)):
+        model.add(Boost(f"go {name}", [], speed)) >> model.add(Motor(name, [], name))
+    return model
+
+
+def test_things_move_come_and_go_and_the_journal_tells() -> None:
+    session = dd.Session(driving(), world=Arena(OPEN))
+    session.move("crate", (0.6, 1.5))
+    session.move("crate", (0.7, 1.5))
+    session.step(2)
+    session.place("block", (1.0, 1.5), (0.1, 0.1))
+    session.move("goal", (2.5, 0.6))
+    scene = session.scene()
+    assert scene is not None
+    assert [b.name for b in scene.boxes] == ["crate", "block"] and np.allclose([b.center for b in scene.boxes], [(0.7, 1.5), (1.0, 1.5)])
+    assert scene.marks[0].center == pytest.approx((2.5, 0.6))
+    session.remove("block")
+    assert [(c.tick, c.what, c.value) for c in session.journal] == [
+        (0, "world.move crate", (0.7, 1.5)),
+        (2, "world.place block", ((1.0, 1.5), (0.1, 0.1))),
+        (2, "world.move goal", (2.5, 0.6)),
+        (2, "world.remove block", None),
+    ]
+
+
+def test_the_journal_repeats_the_run() -> None:
+    """What stood in the way of the robot is taken away after it was stopped by it."""
+    first = dd.Session(driving(), world=Arena(OPEN))
+    first.move("crate", (0.8, 1.0))
+    first.step(100)
+    stopped = first.read("pose")[0]
+    first.move("crate", (0.8, 1.5))
+    first.step(30)
+    assert stopped == pytest.approx(0.7 - 0.037, abs=1e-3) and first.read("pose")[0] > 0.8
+    again = dd.Session(driving(), world=Arena(OPEN))
+    for change in first.journal:
+        again.step(change.tick - again.tick)
+        again.move(change.what.removeprefix("world.move "), change.value)
+    again.step(first.tick - again.tick)
+    assert np.array_equal(again.read("pose"), first.read("pose"))
+
+
+def test_what_is_refused_changes_nothing_and_is_not_written_down() -> None:
+    session = dd.Session(driving(), world=Arena(OPEN))
+    before = session.scene()
+    for wrong, said in [
+        (lambda: session.move("crate", (0.2, 1.0)), "crate: .* stand on 'e-puck'"),
+        (lambda: session.move("goal", (0.5, 1.5)), "goal: .* inside 'crate'"),
+        (lambda: session.place("goal", (1.0, 1.0), (0.1, 0.1)), "goal: is the name of a mark"),
+        (lambda: session.place("flat", (1.0, 1.0), (0.1, 0.0)), "flat.*has no area"),
+        (lambda: session.remove("goal"), "goal: is a mark"),
+    ]:
+        with pytest.raises(WorldError, match=said):
+            wrong()
+    with pytest.raises(UnknownName, match="crate"):
+        session.remove("crat")
+    assert session.scene() == before and session.journal == []
+
+
+def test_without_a_world_from_above_there_is_nothing_to_move() -> None:
+    model = dd.Model("blind")
+    model.add(dd.Field("u", []))
+    session = dd.Session(model)
+    assert session.scene() is None
+    with pytest.raises(WorldError, match=r"no world that is seen from above.*--world arena:blocks"):
+        session.move("crate", (1, 1))
+
+
+def test_a_track_follows_the_bodies_and_begins_anew_with_the_run() -> None:
+    session, track = dd.Session(driving(), world=Arena(OPEN)), Track()
+    for _ in range(30):
+        track.follow(session)
+        session.step()
+    places, way = np.asarray(track.way.places), track.way
+    assert track.scene is not None and np.allclose(places[0], (0.2, 1.0))
+    assert (np.hypot(*np.diff(places, axis=0).T) >= FINE * 3).all() and len(places) > 10
+    track.follow(session)
+    track.follow(session)
+    assert track.way is way and len(way.places) - len(places) <= 1, "what stands still is not taken down again"
+    session.reset()
+    track.follow(session)
+    assert track.way is not way and np.allclose(track.way.places, [(0.2, 1.0)])
+    session.world = Arena({**OPEN, "start": [1.5, 1.0]})
+    track.follow(session)
+    assert np.allclose(track.way.places, [(1.5, 1.0)])
+    track.follow(None)
+    assert track.scene is None and track.way.places == []
+
+
+def test_a_long_way_is_thinned() -> None:
+    session, track = dd.Session(driving(100), world=Arena(OPEN)), Track()
+    track.follow(session)
+    track.way.fine, whole = 1e-9, track.way
+    track.way.places.extend([(0.2 + 1e-6 * k, 1.0) for k in range(1, MOST)])
+    session.step(2)
+    track.follow(session)
+    assert track.way is not whole and len(track.way.places) == MOST // 2 + 1 and track.way.fine == 2e-9
