@@ -14,7 +14,7 @@ from deodar.compiler import executable as module
 from deodar.compiler.executable import executable
 from deodar.couplings.weights import Weights
 from deodar.leaves import structure
-from deodar.numerics.sigmoids._base import Sigmoid
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 
 x = dd.Axis("x", 0, 10, samples=11)
@@ -48,7 +48,7 @@ def test_values_are_those_of_the_model_that_asks() -> None:
 def test_a_class_of_the_same_name_written_anew_is_another_structure() -> None:
     """A cell of a notebook that defines a kind may be edited and run again."""
 
-    def ramp() -> Sigmoid:
+    def ramp() -> SigmoidFunction:
         @dataclass(frozen=True)
         class Ramp(Logistic):
             """A sigmoid of one's own."""

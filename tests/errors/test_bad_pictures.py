@@ -117,7 +117,7 @@ def test_a_sensor_without_a_world() -> None:
         lambda: dd.simulate(model, duration=1, record="eye.output"),
         WorldError,
         "eye: reads the sensor 'picture'",
-        "world=Picture('photo.jpg')",
+        "world=dd.Picture('photo.jpg')",
         "--world picture:",
     )
 
