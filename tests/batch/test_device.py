@@ -23,7 +23,7 @@ def model() -> dd.Model:
 
 SECOND = """
 import jax, numpy as np, deodar as dd
-from tests.runtime.test_device import model
+from tests.batch.test_device import model
 from deodar.recording.record import about
 from deodar.compiler import device
 assert device.names() == ["cpu:0", "cpu:1"], device.names()

@@ -14,7 +14,7 @@ import deodar as dd
 from deodar.errors import AxesError, Untrusted
 from deodar.parameters import FrozenArray
 from tests.contracts.build import KINDS, PARTS, any_example, around, record, session
-from tests.runtime.test_exchange import Tank, closed
+from tests.session.test_exchange import Tank, closed
 
 COPIES = {
     "copy": copy.copy,
