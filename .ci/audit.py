@@ -2,8 +2,9 @@
 
 python .ci/audit.py
 
-Status 1 if a vulnerability is known. Where the registry in use answers no such question, it says that nothing was audited, with status 0.
-The Python packages are those of requirements.lock; they need the package pip-audit (`pip install pip-audit`).
+Status 1 if a vulnerability is known. Where the registry in use answers no such question, it says that nothing
+was audited, with status 0. The Python packages are those of requirements.lock; they need the package
+pip-audit (`pip install pip-audit`).
 """
 
 from __future__ import annotations
@@ -52,10 +53,16 @@ class Verdict:
 
     def __str__(self) -> str:
         if self.why or self.audited == 0:
-            return f"nothing was audited: {self.why or f'the registry knows none of the {self.missed} libraries'}"
+            return (
+                "nothing was audited:"
+                f" {self.why or f'the registry knows none of the {self.missed} libraries'}"
+            )
         count = "all libraries were" if self.audited is None else f"{self.audited} libraries were"
         rest = f"; {self.missed} could not be" if self.missed else ""
-        lines = [f"{count} audited{rest}, {len(self.found)} with a known vulnerability", *(f"  {line}" for line in self.found)]
+        lines = [
+            f"{count} audited{rest}, {len(self.found)} with a known vulnerability",
+            *(f"  {line}" for line in self.found),
+        ]
         return "\n".join(lines)
 
 
@@ -69,16 +76,27 @@ def npm(answer: str) -> Verdict:
         said = error.get("summary") if isinstance(error, dict) else ""
         return Verdict(why=_short(data.get("message") or said or answer))
     listed = data["vulnerabilities"]
-    return Verdict(found=tuple(f"{name}: {about.get('severity', 'unknown')}, versions {about.get('range', '?')}" for name, about in listed.items()))
+    return Verdict(
+        found=tuple(
+            f"{name}: {about.get('severity', 'unknown')}, versions {about.get('range', '?')}"
+            for name, about in listed.items()
+        )
+    )
 
 
 def pip(answer: str) -> Verdict:
-    """Read what `pip-audit -f json` printed; it says that nothing is known also where it could ask nothing."""
+    """Read what `pip-audit -f json` printed; it says that nothing is known also where it could ask
+    nothing.
+    """
     data = _json(answer)
     if data is None or "dependencies" not in data:
         return Verdict(why=_short(answer))
     looked = [d for d in data["dependencies"] if "skip_reason" not in d]
-    found = tuple(f"{d['name']} {d['version']}: {', '.join(v['id'] for v in d['vulns'])}" for d in looked if d.get("vulns"))
+    found = tuple(
+        f"{d['name']} {d['version']}: {', '.join(v['id'] for v in d['vulns'])}"
+        for d in looked
+        if d.get("vulns")
+    )
     return Verdict(len(looked), len(data["dependencies"]) - len(looked), found)
 
 

@@ -1,9 +1,11 @@
-"""Attacks the studio and prints what became of it: `python benchmarks/attacks.py [edits|documents|messages|kills|soak ...] [--size N] [--seed N]`.
+"""Attacks the studio and prints what became of it: `python benchmarks/attacks.py
+[edits|documents|messages|kills|soak ...] [--size N] [--seed N]`.
 
-`edits`: 8 pages edit one document at once, 10,000 edits. `documents`: 2,090 mutated documents. `messages`: 3,614 hostile messages. `kills`: 50 kills
-while a page saves. `soak`: pages come and go for 600 seconds, and the studio must hold no more afterwards than before: memory, files and sockets,
-Python objects, tasks, threads, sessions, connections, with the limits in `tests/attacks/soak.py`. `--size` sets another number. The attacks are
-in `tests/attacks`; the tests run them in a quick form. Ends with 1 if an attack found something.
+`edits`: 8 pages edit one document at once, 10,000 edits. `documents`: 2,090 mutated documents. `messages`:
+3,614 hostile messages. `kills`: 50 kills while a page saves. `soak`: pages come and go for 600 seconds, and
+the studio must hold no more afterwards than before: memory, files and sockets, Python objects, tasks,
+threads, sessions, connections, with the limits in `tests/attacks/soak.py`. `--size` sets another number. The
+attacks are in `tests/attacks`; the tests run them in a quick form. Ends with 1 if an attack found something.
 """
 
 from __future__ import annotations
@@ -22,7 +24,10 @@ from tests.attacks import documents, edits, kills, messages, soak
 
 def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     found = edits.run(folder, 8, size, seed)
-    return f"{found.accepted} accepted, {found.refused} refused, {found.versions} versions", [*found.errors, *found.differ]
+    return f"{found.accepted} accepted, {found.refused} refused, {found.versions} versions", [
+        *found.errors,
+        *found.differ,
+    ]
 
 
 def _documents(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
@@ -46,14 +51,20 @@ def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
 
 
 ATTACKS: dict[str, tuple[Callable[[Path, int, int], tuple[str, list[str]]], int]] = {
-    "edits": (_edits, 10_000), "documents": (_documents, 2090), "messages": (_messages, 3614), "kills": (_kills, 50), "soak": (_soak, 600),
-}  # fmt: skip
+    "edits": (_edits, 10_000),
+    "documents": (_documents, 2090),
+    "messages": (_messages, 3614),
+    "kills": (_kills, 50),
+    "soak": (_soak, 600),
+}
 
 
 def main() -> int:
     """Run the attacks that are named, or all."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("attack", nargs="*", choices=[*ATTACKS, []], metavar="ATTACK", help=", ".join(ATTACKS))
+    parser.add_argument(
+        "attack", nargs="*", choices=[*ATTACKS, []], metavar="ATTACK", help=", ".join(ATTACKS)
+    )
     parser.add_argument("--size", type=int, help="how many edits, documents, messages, kills or seconds")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()

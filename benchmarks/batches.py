@@ -1,13 +1,15 @@
 """What cores and batches bring: `python benchmarks/batches.py [cores] [sizes] [workers]`.
 
-`cores`: wall and CPU time of a step of one run on one core and on all, each in a process of its own. `sizes`: CPU time of a step for each copy
-over the number of copies in one batch, on one core. `workers`: wall time of 64 trials in this process, and shared among as many
-workers as there are cores, their start included. Medians of three; nothing is asserted.
+`cores`: wall and CPU time of a step of one run on one core and on all, each in a process of its own. `sizes`:
+CPU time of a step for each copy over the number of copies in one batch, on one core. `workers`: wall time of
+64 trials in this process, and shared among as many workers as there are cores, their start included. Medians
+of three; nothing is asserted.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import os
 import statistics
 import subprocess
@@ -20,7 +22,16 @@ import deodar as dd
 import workloads
 from deodar.compiler.device import available
 
-SINGLE = {"W1_100": 40_000, "W1_200": 40_000, "W2_50": 4_000, "W2_100": 1_000, "W2_200": 250, "W3": 100, "W4a": 2_000, "W4b": 200}
+SINGLE = {
+    "W1_100": 40_000,
+    "W1_200": 40_000,
+    "W2_50": 4_000,
+    "W2_100": 1_000,
+    "W2_200": 250,
+    "W3": 100,
+    "W4a": 2_000,
+    "W4b": 200,
+}
 BATCHED = {"W1_200": 1.0, "W2_50": 9.0, "W2_100": 40.0, "W2_200": 160.0, "W4a": 12.0, "W4b": 210.0}
 """Workloads, and about how many microseconds a step of one copy takes."""
 
@@ -69,7 +80,7 @@ def sizes() -> None:
         for copies in SIZES:
             if size * copies <= 4 * MOST_CELLS:
                 n = max(4, int(150_000 / (us * copies)))
-                run = lambda n, model=model, copies=copies: dd.simulate(model, n, trials=copies, batch=copies, progress=False)  # noqa: E731
+                run = functools.partial(dd.simulate, model, trials=copies, batch=copies, progress=False)
                 shown.append(f"{copies}: {step(run, n)[1] / copies:.2f}")
         print(f"{name:8} {size / 1024:7.1f} KiB a copy; us a step and copy  {'  '.join(shown)}", flush=True)
 
@@ -82,7 +93,11 @@ def workers() -> None:
                 began = time.perf_counter()
                 dd.simulate(model, n, trials=TRIALS, workers=count, progress=False)
                 seconds = time.perf_counter() - began
-            print(f"{name:8} {TRIALS} trials of {n} steps, {f'{count} workers' if count else 'one batch here'}: {seconds:.2f} s", flush=True)
+            print(
+                f"{name:8} {TRIALS} trials of {n} steps, {f'{count} workers' if count else 'one batch here'}:"
+                f" {seconds:.2f} s",
+                flush=True,
+            )
 
 
 PARTS: dict[str, Callable[[], None]] = {"cores": cores, "sizes": sizes, "workers": workers}
@@ -90,7 +105,13 @@ PARTS: dict[str, Callable[[], None]] = {"cores": cores, "sizes": sizes, "workers
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("names", nargs="*", choices=[*PARTS, []], metavar="NAME", help=f"all of them, or some of: {', '.join(PARTS)}")
+    parser.add_argument(
+        "names",
+        nargs="*",
+        choices=[*PARTS, []],
+        metavar="NAME",
+        help=f"all of them, or some of: {', '.join(PARTS)}",
+    )
     parser.add_argument("--one-run", type=int, metavar="CORES", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.one_run:

@@ -32,7 +32,9 @@ def busy(count: int) -> Iterator[None]:
 
 def main() -> None:
     """Run and count."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--times", type=int, default=5, help="how often (default 5)")
     parser.add_argument("--busy", type=int, default=4, help="busy processes beside them (default 4)")
     parser.add_argument("tests", nargs="*", help="of pytest (default: all)")
@@ -41,9 +43,15 @@ def main() -> None:
     for run in range(1, args.times + 1):
         began = time.monotonic()
         with busy(args.busy):
-            status = subprocess.run([sys.executable, "-m", "pytest", "-q", *args.tests], cwd=ROOT, check=False).returncode
+            status = subprocess.run(
+                [sys.executable, "-m", "pytest", "-q", *args.tests], cwd=ROOT, check=False
+            ).returncode
         passed += status == 0
-        print(f"run {run} of {args.times}: status {status} after {(time.monotonic() - began) / 60:.1f} min; {passed} passed", flush=True)
+        print(
+            f"run {run} of {args.times}: status {status} after {(time.monotonic() - began) / 60:.1f} min;"
+            f" {passed} passed",
+            flush=True,
+        )
     raise SystemExit(passed < args.times)
 
 

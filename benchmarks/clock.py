@@ -1,10 +1,11 @@
 """How well a run keeps to the clock on the wall: drift and lag, with time enough and without.
 
-    python benchmarks/clock.py                  60 s with time enough, then 10 s at a speed the machine does not reach
+    python benchmarks/clock.py    60 s with time enough, then 10 s at a speed the machine does not reach
     python benchmarks/clock.py --seconds 5 --json
 
-The model is one field of 101 samples with a stimulus. Overload is asked for by speed: three times what the machine has just shown it can do. A step
-that may grow then has to follow the wall; one that may not falls behind.
+The model is one field of 101 samples with a stimulus. Overload is asked for by speed: three times what the
+machine has just shown it can do. A step that may grow then has to follow the wall; one that may not falls
+behind.
 """
 
 from __future__ import annotations
@@ -37,18 +38,26 @@ def measure(seconds: float) -> dict[str, Meter]:
     part = seconds / 6
     out = {"real time": one.run_live(round(1000 * seconds))}
     out["slow motion, a tenth"] = one.run_live(round(100 * part), speed=0.1)
-    fast = max(one.run_live(20_000, speed=None).factor for _ in range(5))  # the fastest: others were disturbed
+    fast = max(
+        one.run_live(20_000, speed=None).factor for _ in range(5)
+    )  # the fastest: others were disturbed
     speed = OVERLOAD * fast
     duration = round(1000 * part * fast)
     out["overload, the step stays"] = one.run_live(duration, speed=speed)
-    out[f"overload, the step may grow to {LONGEST}"] = one.run_live(duration * OVERLOAD, speed=speed, longest_step=LONGEST)
+    out[f"overload, the step may grow to {LONGEST}"] = one.run_live(
+        duration * OVERLOAD, speed=speed, longest_step=LONGEST
+    )
     return out
 
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=60.0, help="of the run with time enough (default 60)")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--seconds", type=float, default=60.0, help="of the run with time enough (default 60)"
+    )
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     args = parser.parse_args()
     began = time.perf_counter()
@@ -58,10 +67,16 @@ def main() -> None:
         return
     load = f", load {os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else ""
     print(f"{os.cpu_count()} cores{load}; {time.perf_counter() - began:.0f} s in all\n")
-    print(f"| {'run':34} | {'factor':>8} | {'wall s':>7} | {'drift ms':>9} | {'worst lag ms':>12} | {'overruns':>8} | {'lengthened':>10} |")
+    print(
+        f"| {'run':34} | {'factor':>8} | {'wall s':>7} | {'drift ms':>9} | {'worst lag ms':>12} |"
+        f" {'overruns':>8} | {'lengthened':>10} |"
+    )
     print("|---|---|---|---|---|---|---|")
     for name, m in found.items():
-        print(f"| {name:34} | {m.factor:8.4g} | {m.wall:7.2f} | {m.drift:9.3f} | {m.worst:12.2f} | {m.overruns:8} | {m.lengthened:10} |")
+        print(
+            f"| {name:34} | {m.factor:8.4g} | {m.wall:7.2f} | {m.drift:9.3f} | {m.worst:12.2f} |"
+            f" {m.overruns:8} | {m.lengthened:10} |"
+        )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""What files of cosivina cost: `python benchmarks/cosivina.py [FILE ...]`, by default the published files in the tests.
+"""What files of cosivina cost: `python benchmarks/cosivina.py [FILE ...]`, by default the published files in
+the tests.
 
-For each file, in this process: CPU time of importing it, of compiling its first program (nothing kept on disk is used), and steps a second of CPU
-time, in both precisions; the median of three. Pin it to one core for figures on one core (Linux: `taskset -c 0`). For comparison, the Python port of
-cosivina takes 34 steps a second of the scene representation on a server core. Nothing is asserted.
+For each file, in this process: CPU time of importing it, of compiling its first program (nothing kept on disk
+is used), and steps a second of CPU time, in both precisions; the median of three. Pin it to one core for
+figures on one core (Linux: `taskset -c 0`). For comparison, the Python port of cosivina takes 34 steps a
+second of the scene representation on a server core. Nothing is asserted.
 """
 
 from __future__ import annotations
@@ -38,7 +40,10 @@ def measured(path: Path) -> None:
         compiled = time.process_time() - start
         speed = steps(session)
         beside = f", {speed / PORT[path.stem]:5.1f} times the Python port" if path.stem in PORT else ""
-        sys.stdout.write(f"{path.stem:38} {precision}: import {imported:5.2f} s, compile {compiled:5.2f} s, {speed:9.0f} steps/s{beside}\n")
+        sys.stdout.write(
+            f"{path.stem:38} {precision}: import {imported:5.2f} s, compile {compiled:5.2f} s, {speed:9.0f}"
+            f" steps/s{beside}\n"
+        )
         sys.stdout.flush()
 
 
@@ -59,7 +64,9 @@ def steps(session: object) -> float:
 
 def main() -> None:
     """The files that are named, or all samples."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE")
     files = parser.parse_args().files or sorted(SAMPLES.glob("*.json"))
     with tempfile.TemporaryDirectory() as cache:

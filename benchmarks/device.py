@@ -1,7 +1,9 @@
-"""Another device beside the CPU: the same noise, the same fields, and what a step takes: `python benchmarks/device.py [--device gpu]`.
+"""Another device beside the CPU: the same noise, the same fields, and what a step takes: `python
+benchmarks/device.py [--device gpu]`.
 
-Fails (status 1) unless the words of the noise generator are the same integers on both, and unless without noise no activation differs by
-more than 1e-4 after 400 steps. With products in fewer digits (TF32) it would not hold. Status 2: there is no such device.
+Fails (status 1) unless the words of the noise generator are the same integers on both, and unless without
+noise no activation differs by more than 1e-4 after 400 steps. With products in fewer digits (TF32) it would
+not hold. Status 2: there is no such device.
 """
 
 from __future__ import annotations
@@ -23,7 +25,14 @@ from deodar.numerics.noise import bits, element_keys
 
 STEPS, NEAR = 400, 1e-4
 NAMES = ("W1_100", "W1_200", "W2_50", "W2_100", "W2_200", "W3", "W4a", "W4b")
-TIMED = {"W1_200": (None, 64), "W2_50": (None, 64), "W2_200": (None, 16), "W3": (None,), "W4a": (None,), "W4b": (None,)}
+TIMED = {
+    "W1_200": (None, 64),
+    "W2_50": (None, 64),
+    "W2_200": (None, 16),
+    "W3": (None,),
+    "W4a": (None,),
+    "W4b": (None,),
+}
 """Workloads whose steps are timed, one copy and so many at once."""
 
 
@@ -48,7 +57,9 @@ def difference(name: str, where: str, double: bool = False) -> float:
         if isinstance(handle.element, dd.Field):
             model.set(f"{handle.path}.noise", 0.0)
     precision = "float64" if double else "float32"
-    here, there = (dd.simulate(model, STEPS, device=d, precision=precision, progress=False) for d in ("cpu", where))
+    here, there = (
+        dd.simulate(model, STEPS, device=d, precision=precision, progress=False) for d in ("cpu", where)
+    )
     return max(float(np.abs(here[v].values - there[v].values).max()) for v in here.data_vars)
 
 
@@ -83,12 +94,26 @@ def main() -> int:
         largest = difference(name, given.device)
         holds = largest <= NEAR
         good = good and holds
-        print(f"{name:8} after {STEPS} steps without noise: differs by {largest:.2e} {'' if holds else f'MORE THAN {NEAR:g}'}", flush=True)
+        print(
+            f"{name:8} after {STEPS} steps without noise: differs by {largest:.2e}"
+            f" {'' if holds else f'MORE THAN {NEAR:g}'}",
+            flush=True,
+        )
     for name, copies in {} if given.no_times else TIMED.items():
         for trials in copies:
             model = workloads.WORKLOADS[name].model()
-            us = [step(lambda n, m=model, d=d, t=trials: dd.simulate(m, n, trials=t, device=d, progress=False), 0.3) for d in ("cpu", given.device)]
-            print(f"{name:8} {trials or 1:3} copies: {us[0]:10.1f} us a step on one core, {us[1]:10.1f} us on {given.device}", flush=True)
+            us = [
+                step(
+                    lambda n, m=model, d=d, t=trials: dd.simulate(m, n, trials=t, device=d, progress=False),
+                    0.3,
+                )
+                for d in ("cpu", given.device)
+            ]
+            print(
+                f"{name:8} {trials or 1:3} copies: {us[0]:10.1f} us a step on one core, {us[1]:10.1f} us on"
+                f" {given.device}",
+                flush=True,
+            )
     return 0 if good else 1
 
 

@@ -1,8 +1,9 @@
 """What an association map between two planes costs in a step: `python benchmarks/learning.py`.
 
-Two fields of 32 x 32 samples are joined by a map of all their places (a million weights, eq. 12). A step is timed with the map and without
-it, in alternation, and the difference is the map's: while both fields have a peak (read and changed), while only the source has one (read),
-and while neither has. CPU time of one process that keeps to one core (`NPROC=1`), medians over rounds; a busy machine prints larger numbers.
+Two fields of 32 x 32 samples are joined by a map of all their places (a million weights, eq. 12). A step is
+timed with the map and without it, in alternation, and the difference is the map's: while both fields have a
+peak (read and changed), while only the source has one (read), and while neither has. CPU time of one process
+that keeps to one core (`NPROC=1`), medians over rounds; a busy machine prints larger numbers.
 """
 
 from __future__ import annotations
@@ -34,10 +35,19 @@ def model(on: Sequence[bool], joined: bool):  # type: ignore[no-untyped-def]
     for name, axes, there in (("source", "xy", on[0]), ("target", "pq", on[1])):
         plane = [dd.Axis(a, 0, SIDE, SIDE, periodic=True) for a in axes]
         fields.append(m.add(dd.Field(name, plane, kernel=kernel)))
-        m.add(dd.GaussianStimulus(f"to {name}", plane, center=SIDE // 2, sigma=2, amplitude=8.0 if there else 0.0)) >> fields[-1]
+        (
+            m.add(
+                dd.GaussianStimulus(
+                    f"to {name}", plane, center=SIDE // 2, sigma=2, amplitude=8.0 if there else 0.0
+                )
+            )
+            >> fields[-1]
+        )
     if joined:
         plane = list(fields[1].element.axes)
-        w = m.add(Hebbian(plane, "association", rate=0.001, random=True, share=0.1, initial=0.001, name="map"))
+        w = m.add(
+            Hebbian(plane, "association", rate=0.001, random=True, share=0.1, initial=0.001, name="map")
+        )
         m.connect(fields[0], w["input"])
         m.connect(fields[1], w["post"])
         m.connect(w, fields[1])
@@ -68,7 +78,9 @@ def main() -> None:
     for name, (source, target, most) in CASES.items():
         alone, whole = measure((source, target))
         print(
-            f"map {SIDE}x{SIDE} to {SIDE}x{SIDE}, {name:17} {alone:8.4f} ms a step (target <= {most:g}); the whole model {whole:.4f} ms", flush=True
+            f"map {SIDE}x{SIDE} to {SIDE}x{SIDE}, {name:17} {alone:8.4f} ms a step (target <= {most:g}); the"
+            f" whole model {whole:.4f} ms",
+            flush=True,
         )
 
 

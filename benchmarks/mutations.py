@@ -1,9 +1,11 @@
-"""Files with errors in them, by the thousand: `python benchmarks/mutations.py [--count N] [--seed S] [--run R]`, by default 2,000, 0 and 10.
+"""Files with errors in them, by the thousand: `python benchmarks/mutations.py [--count N] [--seed S] [--run
+R]`, by default 2,000, 0 and 10.
 
-Takes documents of deodar (`examples/`) and files of cosivina (in the tests, and one with every class of it), changes their text or their content
-at random places, and opens them. Each must give a model, or one error that lists problems. Any other exception, an error that says nothing, more
-than a minute of CPU time, or a model that is empty although nothing says so, is printed with what makes it again (`--only NAME:NUMBER`); then the
-status is 1.
+Takes documents of deodar (`examples/`) and files of cosivina (in the tests, and one with every class of it),
+changes their text or their content at random places, and opens them. Each must give a model, or one error
+that lists problems. Any other exception, an error that says nothing, more than a minute of CPU time, or a
+model that is empty although nothing says so, is printed with what makes it again (`--only NAME:NUMBER`); then
+the status is 1.
 """
 
 from __future__ import annotations
@@ -40,8 +42,42 @@ SECONDS = 60.0
 """CPU time after which opening a file counts as a hang (a guess: the largest one takes about a second)."""
 
 VALUES: list[Any] = [
-    *(None, True, -1, 0, 3, 0.5, -0.5, 1e-300, 1e308, 10**250, "", "_NaN_", "_Inf_", "\ud800", "\0", "a" * 100_000, "." * 10_000, '"', "u", "output"),
-    *([], {}, [[]], [{}], [0.5], [3, 3], [1, [2]], [[1, 2], [3]], [10**9, 10**9], {"kind": "Field"}, {"class": "NeuralField"}, {"label": "u"}),
+    *(
+        None,
+        True,
+        -1,
+        0,
+        3,
+        0.5,
+        -0.5,
+        1e-300,
+        1e308,
+        10**250,
+        "",
+        "_NaN_",
+        "_Inf_",
+        "\ud800",
+        "\0",
+        "a" * 100_000,
+        "." * 10_000,
+        '"',
+        "u",
+        "output",
+    ),
+    *(
+        [],
+        {},
+        [[]],
+        [{}],
+        [0.5],
+        [3, 3],
+        [1, [2]],
+        [[1, 2], [3]],
+        [10**9, 10**9],
+        {"kind": "Field"},
+        {"class": "NeuralField"},
+        {"label": "u"},
+    ),
     *("../../etc/passwd", "os:system", "__import__", ["x", "x"], {"array": "array"}, {"x": {}}),
     {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None},
     {"_ArrayType_": "double", "_ArraySize_": [9], "_ArrayData_": [1]},
@@ -54,24 +90,52 @@ class Broken(Exception):
 
 def every_class() -> str:
     """A file of cosivina that holds one element of each class, in two sizes, each reading a field."""
-    field = {"label": "u", "class": "NeuralField", "param": {"size": [1, 5], "tau": 10, "h": -5, "beta": 4}, "nInputs": 0, "input": None}
+    field = {
+        "label": "u",
+        "class": "NeuralField",
+        "param": {"size": [1, 5], "tau": 10, "h": -5, "beta": 4},
+        "nInputs": 0,
+        "input": None,
+    }
     elements: list[dict[str, Any]] = [field]
     for kind in sorted({*CLASSES, *MISSING}):
-        param = {"size": [1, 5], "inputSize": [1, 5], "outputSize": [1, 5], "pattern": [1, 2, 3, 4, 5], "weights": [[1] * 5] * 5}
-        param |= {"onTimes": [[1, 3]], "storingTimes": [1, 2], "stimulusPatterns": [[1, 2, 3, 4, 5]] * 2, "startTimes": [1, 4], "initialState": 1}
+        param = {
+            "size": [1, 5],
+            "inputSize": [1, 5],
+            "outputSize": [1, 5],
+            "pattern": [1, 2, 3, 4, 5],
+            "weights": [[1] * 5] * 5,
+        }
+        param |= {
+            "onTimes": [[1, 3]],
+            "storingTimes": [1, 2],
+            "stimulusPatterns": [[1, 2, 3, 4, 5]] * 2,
+            "startTimes": [1, 4],
+            "initialState": 1,
+        }
         reads = [{"label": "u", "component": "output"}] * (2 if kind == "HebbianConnection" else 1)
-        elements.append({"label": f"a {kind}", "class": kind, "param": param, "nInputs": len(reads), "input": reads})
-    body = {"deltaT": 1, "tZero": 0, "nElements": len(elements), "elementLabels": [e["label"] for e in elements], "elements": elements}
+        elements.append(
+            {"label": f"a {kind}", "class": kind, "param": param, "nInputs": len(reads), "input": reads}
+        )
+    body = {
+        "deltaT": 1,
+        "tZero": 0,
+        "nElements": len(elements),
+        "elementLabels": [e["label"] for e in elements],
+        "elements": elements,
+    }
     return json.dumps({"simulator": body})
 
 
 def sources() -> dict[str, str]:
     """Text of all files that are changed, by their names."""
-    found = {path.stem: path.read_text(encoding="utf-8") for path in sorted(SAMPLES.glob("*.json"))} | {"every_class": every_class()}
+    found = {path.stem: path.read_text(encoding="utf-8") for path in sorted(SAMPLES.glob("*.json"))} | {
+        "every_class": every_class()
+    }
     return found | {path.stem: path.read_text(encoding="utf-8") for path in sorted(EXAMPLES.glob("*.json"))}
 
 
-# ------------------------------------------------------------------------------------------------ changes
+# ---------------------------------------------------------------------------------------------------- changes
 
 
 def changed(text: str, rng: random.Random) -> bytes:
@@ -81,7 +145,9 @@ def changed(text: str, rng: random.Random) -> bytes:
         return _bytes(text.encode(), rng)
     if way < 0.3:
         return _lines(text, rng).encode("utf-8", "surrogatepass")
-    return json.dumps(mutated(json.loads(text), rng, rng.choice((1, 1, 2, 3, 8)))).encode("utf-8", "surrogatepass")
+    return json.dumps(mutated(json.loads(text), rng, rng.choice((1, 1, 2, 3, 8)))).encode(
+        "utf-8", "surrogatepass"
+    )
 
 
 def _bytes(content: bytes, rng: random.Random) -> bytes:
@@ -92,7 +158,9 @@ def _bytes(content: bytes, rng: random.Random) -> bytes:
 
 
 def _lines(text: str, rng: random.Random) -> str:
-    """Members of objects written twice, taken away or exchanged, as an editor or a merge of versions leaves them."""
+    """Members of objects written twice, taken away or exchanged, as an editor or a merge of versions leaves
+    them.
+    """
     parts = text.split(", ") if "\n" not in text else text.split("\n")
     for _ in range(rng.randint(1, 4)):
         at = rng.randrange(len(parts))
@@ -114,7 +182,11 @@ def mutated(data: Any, rng: random.Random, times: int) -> Any:
     for _ in range(times):
         holder: Any = data
         for _ in range(rng.randint(1, 7)):
-            inner = [v for v in (holder.values() if isinstance(holder, dict) else holder) if isinstance(v, (dict, list)) and v]
+            inner = [
+                v
+                for v in (holder.values() if isinstance(holder, dict) else holder)
+                if isinstance(v, (dict, list)) and v
+            ]
             if not inner:
                 break
             holder = rng.choice(inner)
@@ -123,7 +195,16 @@ def mutated(data: Any, rng: random.Random, times: int) -> Any:
             if way == 0:
                 del holder[key]
             elif way == 1:
-                names = ["label", "class", "size", "input", "kind", "axes", "id", "".join(rng.choices(string.printable, k=5))]
+                names = [
+                    "label",
+                    "class",
+                    "size",
+                    "input",
+                    "kind",
+                    "axes",
+                    "id",
+                    "".join(rng.choices(string.printable, k=5)),
+                ]
                 holder[rng.choice(names)] = holder.pop(key)
             elif way == 2:
                 holder[key] = copy.deepcopy(holder[rng.choice(list(holder))])
@@ -142,7 +223,7 @@ def mutated(data: Any, rng: random.Random, times: int) -> Any:
     return data
 
 
-# ------------------------------------------------------------------------------------------------ what becomes of them
+# --------------------------------------------------------------------------------------- what becomes of them
 
 
 def opened(content: bytes, folder: Path) -> Model | None:
@@ -171,7 +252,11 @@ def _foreign(path: Path) -> Model:
     json.dumps(done.report.data())
     done.report.text()
     doc = done.model.document
-    if not doc.entries and done.report.faithful and json.loads(path.read_bytes())["simulator"].get("nElements") != 0:
+    if (
+        not doc.entries
+        and done.report.faithful
+        and json.loads(path.read_bytes())["simulator"].get("nElements") != 0
+    ):
         raise Broken("an empty model, and the report says that everything was carried")
     _checked(done.model)
     return done.model
@@ -233,7 +318,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=2000, help="files with errors, of all sources together")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--run", type=int, default=10, help="how many of the models that open without problems are run as well")
+    parser.add_argument(
+        "--run",
+        type=int,
+        default=10,
+        help="how many of the models that open without problems are run as well",
+    )
     parser.add_argument("--only", metavar="NAME:NUMBER", help="one of them, with its content")
     args = parser.parse_args()
     texts = sources()
@@ -252,7 +342,12 @@ def main() -> int:
             try:
                 model = opened(case(name, args.seed, k // len(texts), texts), Path(folder))
                 found["refused" if model is None else "opened"] += 1
-                if model is not None and found["run"] < args.run and len(model.document.entries) < 40 and not model.check():
+                if (
+                    model is not None
+                    and found["run"] < args.run
+                    and len(model.document.entries) < 40
+                    and not model.check()
+                ):
                     found["run" if ran(model) else "not run"] += 1
             except Broken as error:
                 broken += 1

@@ -1,8 +1,10 @@
-"""Prints what published architectures do with sums over points and over cells: `python benchmarks/quadratures.py [serial-order] [saliency] [spa]`.
+"""Prints what published architectures do with sums over points and over cells: `python
+benchmarks/quadratures.py [serial-order] [saliency] [spa]`.
 
-Serial order: learned sequences of ten actions, how many trials produce all ten in their order at their places. Saliency: the untuned photographs of
-`deodar demo saliency` and what is required of them together. Planning (spa): the first pairs of start and goal in the Z-maze at low noise,
-how many goals are reached, and how long the paths are. All fields over axes take the quadrature. Nothing is asserted.
+Serial order: learned sequences of ten actions, how many trials produce all ten in their order at their
+places. Saliency: the untuned photographs of `deodar demo saliency` and what is required of them together.
+Planning (spa): the first pairs of start and goal in the Z-maze at low noise, how many goals are reached, and
+how long the paths are. All fields over axes take the quadrature. Nothing is asserted.
 """
 
 from __future__ import annotations
@@ -50,7 +52,9 @@ def with_quadrature(model: dd.Model, quadrature: str) -> dd.Model:
 def serial_order(quadrature: str) -> None:
     n = len(SEQUENCE)
     model = with_quadrature(lesson(SEQUENCE, PLACES), quadrature)
-    runs = dd.simulate(model, lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=TRIALS, progress=False)
+    runs = dd.simulate(
+        model, lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=TRIALS, progress=False
+    )
     right, lasting = 0, []
     for trial in range(TRIALS):
         found = cascade(runs.isel(trial=trial), production_start(n) + RELEASED)
@@ -75,14 +79,19 @@ def planning(quadrature: str) -> None:
     model = with_quadrature(spa(arena, c.noise, c.factor), quadrature)
     reached, ratios, steps = 0, [], []
     for trial in list(c.trials)[:PAIRS]:
-        [course] = run_batch(model, LIMIT, [trial], [POSE], [Within("done", RADIUS, POSE, "goal.output", STAY)], world=arena)
+        [course] = run_batch(
+            model, LIMIT, [trial], [POSE], [Within("done", RADIUS, POSE, "goal.output", STAY)], world=arena
+        )
         start, goal = pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial]
         line, best = course.values[POSE][:, :2], shortest_path(reference(c.maze), start, goal)
         reached += (there := bool(np.linalg.norm(line[-1] - goal) <= RADIUS))
         steps.append(len(line) - 1)
         if there and best is not None:
             ratios.append(path_length(line) / path_length(best))
-    said = f"{reached} of {len(steps)} goals reached; paths {np.mean(ratios):.3f} times the shortest; {np.mean(steps):.0f} steps"
+    said = (
+        f"{reached} of {len(steps)} goals reached; paths {np.mean(ratios):.3f} times the shortest;"
+        f" {np.mean(steps):.0f} steps"
+    )
     print(f"{'planning':14}{quadrature:8}{said}", flush=True)
 
 

@@ -1,7 +1,8 @@
-"""What recording costs: a step while the activation is kept every ten steps, against a step while nothing is: `python benchmarks/recording.py`.
+"""What recording costs: a step while the activation is kept every ten steps, against a step while nothing is:
+`python benchmarks/recording.py`.
 
-Both are asked in turn, in one process on one core. A step is the CPU time of a run of n steps, all that the call does included, over n. The
-smallest of all rounds counts, because what disturbs a run only adds to it.
+Both are asked in turn, in one process on one core. A step is the CPU time of a run of n steps, all that the
+call does included, over n. The smallest of all rounds counts, because what disturbs a run only adds to it.
 """
 
 from __future__ import annotations

@@ -1,11 +1,14 @@
-"""Prints what a field's behaviour owes to its grid, with `quadrature="point"` and `"cell"`: `python benchmarks/resolution.py [--quick]`.
+"""Prints what a field's behaviour owes to its grid, with `quadrature="point"` and `"cell"`: `python
+benchmarks/resolution.py [--quick]`.
 
-`python benchmarks/resolution.py cost` prints how much longer a step takes with `cell`. `python benchmarks/resolution.py edges` prints the error of
-the boost that erases a memory over the steepness of the peak's edge, which is what `deodar check` estimates.
+`python benchmarks/resolution.py cost` prints how much longer a step takes with `cell`. `python
+benchmarks/resolution.py edges` prints the error of the boost that erases a memory over the steepness of the
+peak's edge, which is what `deodar check` estimates.
 
-A field with a memory over 100 degrees (kernel of width 5, integral 18) and one over a torus of 60 x 60 (integral 22), on grids of 2.5
-samples a kernel width and more. Three things are measured: the boost at which a memory is forgotten, how far memories drift under white noise,
-and how far from their inputs they come to lie without any. For the step function on a line the boost is known (Amari 1977). Nothing is asserted.
+A field with a memory over 100 degrees (kernel of width 5, integral 18) and one over a torus of 60 x 60
+(integral 22), on grids of 2.5 samples a kernel width and more. Three things are measured: the boost at which
+a memory is forgotten, how far memories drift under white noise, and how far from their inputs they come to
+lie without any. For the step function on a line the boost is known (Amari 1977). Nothing is asserted.
 """
 
 from __future__ import annotations
@@ -37,22 +40,56 @@ GRIDS = {1: (51, 101, 201, 501), 2: (31, 61, 121)}
 
 
 def memory(
-    dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, noise: float = 0.0, dt: float = 1.0, center: float | None = None
+    dimensions: int,
+    samples: int,
+    g: SigmoidFunction,
+    quadrature: str,
+    noise: float = 0.0,
+    dt: float = 1.0,
+    center: float | None = None,
 ) -> dd.Model:
     """A field with an input that makes a memory, and a boost that follows."""
     periodic = dimensions == 2
-    axes = [dd.Axis(n, 0, LENGTH[dimensions], samples=samples - periodic, periodic=periodic, unit="deg") for n in "xy"[:dimensions]]
-    kernel, inhibition = [dd.Gaussian(18 if dimensions == 1 else 22, 5, normalized=True)], 0.3 if dimensions == 1 else 0.01
+    axes = [
+        dd.Axis(n, 0, LENGTH[dimensions], samples=samples - periodic, periodic=periodic, unit="deg")
+        for n in "xy"[:dimensions]
+    ]
+    kernel, inhibition = (
+        [dd.Gaussian(18 if dimensions == 1 else 22, 5, normalized=True)],
+        0.3 if dimensions == 1 else 0.01,
+    )
     model = dd.Model("memory", dt=dt)
-    u = model.add(dd.Field("u", axes, tau=20, sigmoid=g, kernel=kernel, global_inhibition=inhibition, noise=noise, quadrature=quadrature))
+    u = model.add(
+        dd.Field(
+            "u",
+            axes,
+            tau=20,
+            sigmoid=g,
+            kernel=kernel,
+            global_inhibition=inhibition,
+            noise=noise,
+            quadrature=quadrature,
+        )
+    )
     middle = [LENGTH[dimensions] / 2 if center is None else center] * dimensions
-    model.add(dd.GaussianStimulus("input", axes, center=middle, sigma=5, amplitude=8, windows=[(0, MADE)])) >> u
+    (
+        model.add(
+            dd.GaussianStimulus("input", axes, center=middle, sigma=5, amplitude=8, windows=[(0, MADE)])
+        )
+        >> u
+    )
     model.add(Boost("boost", axes, amplitude=0.0, windows=[(2 * MADE, 1e6)])) >> u
     return model
 
 
 def forgetting(
-    dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, precise: float = 1e-3, lasting: float = 6000.0, center: float | None = None
+    dimensions: int,
+    samples: int,
+    g: SigmoidFunction,
+    quadrature: str,
+    precise: float = 1e-3,
+    lasting: float = 6000.0,
+    center: float | None = None,
 ) -> float:
     """The boost below which a memory is lost, to `precise`; Euler steps of a fifth of the time constant."""
     model = memory(dimensions, samples, g, quadrature, dt=4.0, center=center)
@@ -61,7 +98,12 @@ def forgetting(
     while high - low > precise:
         tried = np.linspace(low, high, 9)
         data = dd.simulate(
-            model, 2 * MADE + lasting, record=["top.output"], every=2 * MADE + lasting, sweep={"boost.amplitude": tried[1:-1]}, progress=False
+            model,
+            2 * MADE + lasting,
+            record=["top.output"],
+            every=2 * MADE + lasting,
+            sweep={"boost.amplitude": tried[1:-1]},
+            progress=False,
         )
         held = [False, *(data["top.output"].values[:, -1] > 0), True]
         k = int(np.argmax(held))
@@ -70,16 +112,22 @@ def forgetting(
 
 
 def amari() -> float:
-    """The same for the step function on a long line: the boost at which the stable and the unstable width of a peak meet."""
+    """The same for the step function on a long line: the boost at which the stable and the unstable width of
+    a peak meet.
+    """
     widths = np.linspace(0.01, 60, 600_000)
-    excitation = 9.0 * np.array([math.erf(w / (5 * math.sqrt(2))) for w in widths[::10]])  # the kernel's integral over 0..w
+    excitation = 9.0 * np.array(
+        [math.erf(w / (5 * math.sqrt(2))) for w in widths[::10]]
+    )  # the kernel's integral over 0..w
     return float(5 - np.max(excitation - 0.3 * widths[::10]))
 
 
 def edges() -> None:
-    """The error of the boost that erases a memory, with sums over points, over beta times the change of activation over a sample at its edge.
+    """The error of the boost that erases a memory, with sums over points, over beta times the change of
+    activation over a sample at its edge.
 
-    The memory lies on a sample, and between two of them: the larger error of both counts. A grid of 20 samples a kernel width is the reference.
+    The memory lies on a sample, and between two of them: the larger error of both counts. A grid of 20
+    samples a kernel width is the reference.
     """
     print(f"{'beta':>6}{'samples a width':>17}{'steepness':>11}{'boost':>10}{'error':>9}")
     for beta in (2.0, 4.0, 8.0):
@@ -89,13 +137,21 @@ def edges() -> None:
             assert isinstance(u, dd.Field)
             (steep,), step = steepness(u), LENGTH[1] / (samples - 1)
             if 2.5 < steep < 15:
-                found = [forgetting(1, samples, dd.Logistic(beta), "point", center=50 + away * step) for away in (0.0, 0.5)]
+                found = [
+                    forgetting(1, samples, dd.Logistic(beta), "point", center=50 + away * step)
+                    for away in (0.0, 0.5)
+                ]
                 worst = max(found, key=lambda boost: abs(boost - exact))
-                print(f"{beta:6g}{5 / step:17.4g}{steep:11.2f}{worst:10.4f}{abs(worst / exact - 1):9.1%}", flush=True)
+                print(
+                    f"{beta:6g}{5 / step:17.4g}{steep:11.2f}{worst:10.4f}{abs(worst / exact - 1):9.1%}",
+                    flush=True,
+                )
 
 
 def cost(rounds: int, seconds: float) -> None:
-    """How much longer a step takes with `cell`: pairs of runs in turn, CPU time on one core, the median of their ratios and its quartiles."""
+    """How much longer a step takes with `cell`: pairs of runs in turn, CPU time on one core, the median of
+    their ratios and its quartiles.
+    """
     sys.path.insert(0, str(Path(__file__).parent))
     import workloads
 
@@ -118,27 +174,38 @@ def cost(rounds: int, seconds: float) -> None:
         pairs = [[timed(model, 2 * n) - timed(model, n) for model in models] for _ in range(rounds)]
         ratios = [b / a - 1 for a, b in pairs]
         low, middle, high = np.quantile(ratios, [0.25, 0.5, 0.75])
-        print(f"{name:10}{1e6 * float(np.median([a for a, _ in pairs])) / n:18.2f}{middle:12.0%}{f'{low:.0%} to {high:.0%}':>20}", flush=True)
+        step = 1e6 * float(np.median([a for a, _ in pairs])) / n
+        spread = f"{low:.0%} to {high:.0%}"
+        print(f"{name:10}{step:18.2f}{middle:12.0%}{spread:>20}", flush=True)
 
 
 def places(model: dd.Model, dimensions: int, until: float, **how: object) -> np.ndarray:
     """Where the memory is at 800 ms and at the end: shape (runs, 2, dimensions)."""
-    data = dd.simulate(model, 2 * MADE + until, record=["u.output"], every=400.0, progress=False, **how)["u.output"]  # type: ignore[arg-type]
+    data = dd.simulate(model, 2 * MADE + until, record=["u.output"], every=400.0, progress=False, **how)[
+        "u.output"
+    ]  # type: ignore[arg-type]
     g = data.isel(time=[2, -1]).values.astype(float)
     g = np.moveaxis(g, data.dims.index("time"), -dimensions - 1).reshape(-1, 2, *g.shape[-dimensions:])
     x = data["x"].values
     total = g.sum(tuple(range(2, g.ndim)))
-    return np.stack([np.moveaxis(g, 2 + d, -1).sum(tuple(range(2, g.ndim - 1))) @ x / total for d in range(dimensions)], -1)
+    return np.stack(
+        [np.moveaxis(g, 2 + d, -1).sum(tuple(range(2, g.ndim - 1))) @ x / total for d in range(dimensions)],
+        -1,
+    )
 
 
 def drift(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, trials: int) -> float:
     """Variance of the place of a memory (mean over axes) that 3,000 ms of noise add, in squared degrees."""
-    found = places(memory(dimensions, samples, g, quadrature, NOISE[dimensions]), dimensions, HELD, trials=trials)
+    found = places(
+        memory(dimensions, samples, g, quadrature, NOISE[dimensions]), dimensions, HELD, trials=trials
+    )
     return float(np.mean(np.var(found[:, 1] - found[:, 0], axis=0)))
 
 
 def motion(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str) -> float:
-    """How far from its input a memory lies at most after 3,000 ms without noise, in samples, for inputs on a sample and between two."""
+    """How far from its input a memory lies at most after 3,000 ms without noise, in samples, for inputs on a
+    sample and between two.
+    """
     step = LENGTH[dimensions] / (samples - 1)
     model, most = memory(dimensions, samples, g, quadrature), 0.0
     for share in (0.0, 0.1, 0.25, 0.4, 0.5):
@@ -149,10 +216,18 @@ def motion(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str) -
 
 
 def table(
-    title: str, dimensions: int, grids: tuple[int, ...], measure: Callable[..., float], form: str, sigmoids: dict[str, SigmoidFunction]
+    title: str,
+    dimensions: int,
+    grids: tuple[int, ...],
+    measure: Callable[..., float],
+    form: str,
+    sigmoids: dict[str, SigmoidFunction],
 ) -> None:
     print(f"\n{title}")
-    print(f"{'samples an axis (a kernel width)':44}" + "".join(f"{f'{n} ({5 * (n - 1) / LENGTH[dimensions]:g})':>12}" for n in grids))
+    print(
+        f"{'samples an axis (a kernel width)':44}"
+        + "".join(f"{f'{n} ({5 * (n - 1) / LENGTH[dimensions]:g})':>12}" for n in grids)
+    )
     for name, g in sigmoids.items():
         for quadrature in ("point", "cell"):
             print(f"{name + ', ' + quadrature:44}", end="", flush=True)
@@ -163,11 +238,26 @@ def table(
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", nargs="?", choices=("behaviour", "cost", "edges"), default="behaviour", help="what is measured (default: behaviour)")
-    parser.add_argument("--rounds", type=int, default=15, help="pairs of runs that the cost is taken over (default 15)")
-    parser.add_argument("--seconds", type=float, default=0.5, help="CPU time of the shorter run of the cost (default 0.5)")
+    parser.add_argument(
+        "what",
+        nargs="?",
+        choices=("behaviour", "cost", "edges"),
+        default="behaviour",
+        help="what is measured (default: behaviour)",
+    )
+    parser.add_argument(
+        "--rounds", type=int, default=15, help="pairs of runs that the cost is taken over (default 15)"
+    )
+    parser.add_argument(
+        "--seconds", type=float, default=0.5, help="CPU time of the shorter run of the cost (default 0.5)"
+    )
     parser.add_argument("--quick", action="store_true", help="one dimension, three grids, 400 trials")
-    parser.add_argument("--trials", type=int, default=1000, help="runs that the variance of drift is taken over (default 1000)")
+    parser.add_argument(
+        "--trials",
+        type=int,
+        default=1000,
+        help="runs that the variance of drift is taken over (default 1000)",
+    )
     parser.add_argument("--dimensions", type=int, choices=(1, 2), help="one of them alone")
     given = parser.parse_args()
     began = time.time()
@@ -180,11 +270,35 @@ def main() -> int:
         grids = GRIDS[dimensions][:3] if given.quick else GRIDS[dimensions]
         where = "a line" if dimensions == 1 else "a plane"
         known = f"; Amari's value for the step: {amari():.4f}" if dimensions == 1 else ""
-        table(f"Boost at which a memory is forgotten, on {where}{known}", dimensions, grids, forgetting, "12.4f", SIGMOIDS)
-        table(f"Farthest from its input after {HELD} ms without noise, in samples, on {where}", dimensions, grids[:2], motion, "12.3f", SIGMOIDS)
+        table(
+            f"Boost at which a memory is forgotten, on {where}{known}",
+            dimensions,
+            grids,
+            forgetting,
+            "12.4f",
+            SIGMOIDS,
+        )
+        table(
+            f"Farthest from its input after {HELD} ms without noise, in samples, on {where}",
+            dimensions,
+            grids[:2],
+            motion,
+            "12.3f",
+            SIGMOIDS,
+        )
         noisy = functools.partial(drift, trials=trials if dimensions == 1 else min(trials, 400))
-        title = f"Variance of the place after {HELD} ms of noise {NOISE[dimensions]:g}, squared degrees, {noisy.keywords['trials']} runs, on {where}"
-        table(title, dimensions, grids[:3], noisy, "12.4f", SIGMOIDS if not given.quick else dict([*SIGMOIDS.items()][:1]))
+        title = (
+            f"Variance of the place after {HELD} ms of noise {NOISE[dimensions]:g}, squared degrees,"
+            f" {noisy.keywords['trials']} runs, on {where}"
+        )
+        table(
+            title,
+            dimensions,
+            grids[:3],
+            noisy,
+            "12.4f",
+            SIGMOIDS if not given.quick else dict([*SIGMOIDS.items()][:1]),
+        )
     print(f"\n{time.time() - began:.0f} s; deodar {dd.__version__}, single precision")
     return 0
 

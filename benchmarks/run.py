@@ -1,8 +1,9 @@
-"""Prints the figures that the project promises, each beside its target: `python benchmarks/run.py [NAME ...]`.
+"""Prints the figures that the project promises, each beside its target: `python benchmarks/run.py [NAME
+...]`.
 
-Times are CPU time (user and system) of processes that keep to one core (`NPROC=1`), medians over repetitions. Nothing is
-asserted: a busy machine prints larger numbers. The workloads stand in workloads.py, how they are timed in steps.py, what the columns mean in
-README.md.
+Times are CPU time (user and system) of processes that keep to one core (`NPROC=1`), medians over repetitions.
+Nothing is asserted: a busy machine prints larger numbers. The workloads stand in workloads.py, how they are
+timed in steps.py, what the columns mean in README.md.
 """
 
 from __future__ import annotations
@@ -44,7 +45,12 @@ def child(code: str, *arguments: str, cache: str | None = None) -> float:
     """CPU seconds of a process of its own."""
     environment = os.environ | {"NPROC": "1"} | ({} if cache is None else {"DEODAR_CACHE": cache})
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, *(["-c", code] if code else []), *arguments], check=True, env=environment, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [sys.executable, *(["-c", code] if code else []), *arguments],
+        check=True,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+    )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
@@ -67,14 +73,18 @@ def start_up() -> None:
 
 
 def one_field() -> None:
-    """W1_200: one field of 200 samples with excitation, inhibition, global inhibition, a stimulus, noise in every step."""
+    """W1_200: one field of 200 samples with excitation, inhibition, global inhibition, a stimulus, noise in
+    every step.
+    """
     import deodar as dd
 
     n = 200
     x = dd.Axis("x", 0, n, samples=n, periodic=True)
     model = dd.Model("one field")
     kernel = [dd.Gaussian(15, 5, normalized=True), dd.Gaussian(-8, 10, normalized=True)]
-    u = model.add(dd.Field("u", [x], tau=20, resting_level=-5, kernel=kernel, global_inhibition=0.1, noise=1.0))
+    u = model.add(
+        dd.Field("u", [x], tau=20, resting_level=-5, kernel=kernel, global_inhibition=0.1, noise=1.0)
+    )
     model.add(dd.GaussianStimulus("s", [x], center=n // 2, sigma=3, amplitude=6)) >> u
     single = slope(lambda steps: dd.simulate(model, steps), 10_000)
     show("W1_200: one step of one field of 200 samples", single * 1e6, "us", 8)
@@ -95,14 +105,18 @@ def slope(run: Callable[[int], object], steps: int) -> float:
 
 
 def compile_times() -> None:
-    """60 fields with 300 couplings, from the model to the first step: with nothing kept, and with the compiled programs kept on disk."""
+    """60 fields with 300 couplings, from the model to the first step: with nothing kept, and with the
+    compiled programs kept on disk.
+    """
     for name, cold, warm in (("A", 2, 0.8), ("B", 2, 0.8), ("C", 4, 0.8)):
         code = f"""
 import sys, time
 sys.path.insert(0, {str(HERE)!r})
 import graphs, jax, deodar as dd
 dd.Session; jax.devices()
-model = {{"A": lambda: graphs.line_fields(0), "B": lambda: graphs.line_fields(100), "C": graphs.mixed_fields}}["{name}"]()
+model = dict(
+    A=lambda: graphs.line_fields(0), B=lambda: graphs.line_fields(100), C=graphs.mixed_fields
+)["{name}"]()
 before = time.process_time()
 dd.Session(model).step(1)
 print(time.process_time() - before)
@@ -110,12 +124,26 @@ print(time.process_time() - before)
 
         def seconds(cache: str, code: str = code) -> float:
             environment = os.environ | {"NPROC": "1", "DEODAR_CACHE": cache}
-            return float(subprocess.run([sys.executable, "-c", code], check=True, env=environment, capture_output=True, text=True).stdout)
+            return float(
+                subprocess.run(
+                    [sys.executable, "-c", code], check=True, env=environment, capture_output=True, text=True
+                ).stdout
+            )
 
-        show(f"graph {name}, 60 fields, 300 couplings: first step, nothing kept", statistics.median(seconds("off") for _ in range(3)), "s", cold)
+        show(
+            f"graph {name}, 60 fields, 300 couplings: first step, nothing kept",
+            statistics.median(seconds("off") for _ in range(3)),
+            "s",
+            cold,
+        )
         with tempfile.TemporaryDirectory() as cache:
             seconds(cache)
-            show(f"graph {name}: the same, compiled programs kept", statistics.median(seconds(cache) for _ in range(3)), "s", warm)
+            show(
+                f"graph {name}: the same, compiled programs kept",
+                statistics.median(seconds(cache) for _ in range(3)),
+                "s",
+                warm,
+            )
 
 
 def memory() -> None:
@@ -140,7 +168,13 @@ def recorded() -> None:
     show("W1_200, kept every 10 steps: a step over one that keeps nothing", every_ten / without, "x", 1.05)
 
 
-PARTS: dict[str, Callable[[], None]] = {"start": start_up, "field": one_field, "compile": compile_times, "memory": memory, "recording": recorded}
+PARTS: dict[str, Callable[[], None]] = {
+    "start": start_up,
+    "field": one_field,
+    "compile": compile_times,
+    "memory": memory,
+    "recording": recorded,
+}
 MARKS = ("<!-- table -->", "<!-- end of the table -->")
 
 
@@ -155,12 +189,27 @@ def machine() -> dict[str, str]:
     processor = platform.processor() or platform.machine()
     with contextlib.suppress(OSError):
         lines = Path("/proc/cpuinfo").read_text().splitlines()
-        processor = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), processor)
-        widest = [name for name in ("avx512f", "avx2") if any(line.startswith("flags") and name in line.split() for line in lines)]
+        processor = next(
+            (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), processor
+        )
+        widest = [
+            name
+            for name in ("avx512f", "avx2")
+            if any(line.startswith("flags") and name in line.split() for line in lines)
+        ]
         processor = ", ".join([processor, *widest[:1]])
     cc = steps.compiler()
-    told = subprocess.run([cc, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0] if cc else "none"
-    versions = {"deodar": deodar.__version__, "jax": jax.__version__, "jaxlib": jaxlib.version.__version__, "numpy": np.__version__}
+    told = (
+        subprocess.run([cc, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+        if cc
+        else "none"
+    )
+    versions = {
+        "deodar": deodar.__version__,
+        "jax": jax.__version__,
+        "jaxlib": jaxlib.version.__version__,
+        "numpy": np.__version__,
+    }
     return {
         "date": time.strftime("%Y-%m-%d"),
         "system": platform.platform(),
@@ -178,13 +227,20 @@ def load() -> str:
 
 def workload_table(rows: list[steps.Row]) -> list[str]:
     """Lines of text, readable as they are and as Markdown."""
-    head = f"| {'workload':12} | {'us a step':>9} | {'C, us':>8} | {'ratio':>7} | {'of':6} | {'earlier C':>9} | {'target':>6} | {'spread':>6} |"
+    head = (
+        f"| {'workload':12} | {'us a step':>9} | {'C, us':>8} | {'ratio':>7} | {'of':6} | {'earlier C':>9} |"
+        f" {'target':>6} | {'spread':>6} |"
+    )
     lines = [head + f" {'what it is':68} |"]
     lines.append("|" + "|".join("-" * len(cell) for cell in lines[0].split("|")[1:-1]) + "|")
     for r in rows:
-        c, ratio, earlier = (f"{x:.{digits}f}" if x is not None else "-" for x, digits in ((r.c_us, 3), (r.ratio, 2), (r.earlier, 2)))
+        c, ratio, earlier = (
+            f"{x:.{digits}f}" if x is not None else "-"
+            for x, digits in ((r.c_us, 3), (r.ratio, 2), (r.earlier, 2))
+        )
         lines.append(
-            f"| {r.name:12} | {r.us:9.3f} | {c:>8} | {ratio:>7} | {r.to:6} | {earlier:>9} | {r.target:6g} | {r.spread:6.0%} | {r.meaning:68} |"
+            f"| {r.name:12} | {r.us:9.3f} | {c:>8} | {ratio:>7} | {r.to:6} | {earlier:>9} | {r.target:6g} |"
+            f" {r.spread:6.0%} | {r.meaning:68} |"
         )
     return lines
 
@@ -196,7 +252,9 @@ def write_readme(about: dict[str, str], rows: list[steps.Row]) -> None:
     after = rest.split(MARKS[1])[1]
     facts = [f"- {name}: {value}" for name, value in about.items()]
     promised = ["| figure | value | target |", "|---|---|---|"]
-    promised += [f"| {name} | {value:.3f} {unit} | {target:g} {unit} |" for name, value, unit, target in SHOWN]
+    promised += [
+        f"| {name} | {value:.3f} {unit} | {target:g} {unit} |" for name, value, unit, target in SHOWN
+    ]
     body = [*facts, "", *workload_table(rows), *(["", *promised] if SHOWN else [])]
     path.write_text("\n".join([before + MARKS[0], "", *body, "", MARKS[1] + after]), encoding="utf-8")
 
@@ -204,9 +262,17 @@ def write_readme(about: dict[str, str], rows: list[steps.Row]) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     known = [*PARTS, *workloads.WORKLOADS, steps.CLOSED_LOOP]
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"all of them, or some of: {', '.join(known)}")
-    parser.add_argument("--quick", action="store_true", help="the workloads only (unless others are named), fewer rounds, less sure")
-    parser.add_argument("--json", action="store_true", help="one JSON object on the standard output, nothing else")
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME", help=f"all of them, or some of: {', '.join(known)}"
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="the workloads only (unless others are named), fewer rounds, less sure",
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="one JSON object on the standard output, nothing else"
+    )
     parser.add_argument("--readme", action="store_true", help="write the table into benchmarks/README.md")
     given = parser.parse_args()
     unknown = [name for name in given.names if name not in known]
@@ -215,9 +281,15 @@ def main() -> None:
     os.environ["NPROC"] = "1"
     with contextlib.redirect_stdout(io.StringIO() if given.json else sys.stdout):
         about = machine() | {"load before": load()}
-        print(f"{about['system']}, {about['processor']}\nPython {about['python']}, {about['versions']}; C: {about['compiler']}; load {load()}")
+        print(
+            f"{about['system']}, {about['processor']}\nPython {about['python']}, {about['versions']}; C:"
+            f" {about['compiler']}; load {load()}"
+        )
         if steps.compiler() is None:
-            print("No C compiler was found (gcc, clang, cc, or the one that CC names): the ratios to C are left out.")
+            print(
+                "No C compiler was found (gcc, clang, cc, or the one that CC names): the ratios to C are left"
+                " out."
+            )
         timed = [name for name in known if name not in PARTS and (not given.names or name in given.names)]
         rows: list[steps.Row] = []
         if timed:
@@ -233,7 +305,11 @@ def main() -> None:
         write_readme(about, rows)
     if given.json:
         figures = [dict(zip(("name", "value", "unit", "target"), figure, strict=True)) for figure in SHOWN]
-        print(json.dumps({"machine": about, "workloads": [dc.asdict(r) for r in rows], "figures": figures}, indent=1))
+        print(
+            json.dumps(
+                {"machine": about, "workloads": [dc.asdict(r) for r in rows], "figures": figures}, indent=1
+            )
+        )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """CPU time of a step of every workload, ours and the yardstick's in alternation.
 
-Ours run in one process (`python benchmarks/steps.py`, with NPROC=1) that reads lines "WORKLOAD STEPS" and answers each with the CPU seconds
-of that call of `dd.simulate`; the yardstick is one process for each workload and answers in the same way. A step is (T(2n) - T(n)) / n.
+Ours run in one process (`python benchmarks/steps.py`, with NPROC=1) that reads lines "WORKLOAD STEPS" and
+answers each with the CPU seconds of that call of `dd.simulate`; the yardstick is one process for each
+workload and answers in the same way. A step is (T(2n) - T(n)) / n.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class Row:
     spread: float
 
 
-# ------------------------------------------------------------------------------------------------ the process that is timed
+# ---------------------------------------------------------------------------------- the process that is timed
 
 
 def serve() -> None:
@@ -81,20 +82,32 @@ def _closed_loop(session: Any, steps: int) -> None:
         session.read("u3.activation")
 
 
-# ------------------------------------------------------------------------------------------------ the processes beside it
+# ------------------------------------------------------------------------------------ the processes beside it
 
 
 def compiler() -> str | None:
     """A C compiler of this machine."""
-    return next((found for name in (os.environ.get("CC", ""), "gcc", "clang", "cc") if name and (found := shutil.which(name))), None)
+    return next(
+        (
+            found
+            for name in (os.environ.get("CC", ""), "gcc", "clang", "cc")
+            if name and (found := shutil.which(name))
+        ),
+        None,
+    )
 
 
-def build(cc: str, folder: Path, name: str, shape: Sequence[int], sigmas: tuple[int, int], trials: int) -> Path:
+def build(
+    cc: str, folder: Path, name: str, shape: Sequence[int], sigmas: tuple[int, int], trials: int
+) -> Path:
     """The yardstick for one workload."""
     sizes = [*shape, 1, 1][:3]
     made = folder / name
     keys = ("DIM", "N0", "N1", "N2", "TRIALS", "SIGMA_EXC", "SIGMA_INH")
-    defined = [f"-D{key}={value}" for key, value in zip(keys, (len(shape), *sizes, trials or 1, *sigmas), strict=True)]
+    defined = [
+        f"-D{key}={value}"
+        for key, value in zip(keys, (len(shape), *sizes, trials or 1, *sigmas), strict=True)
+    ]
     subprocess.run([cc, *FLAGS, *defined, str(HERE / "yardstick.c"), "-o", str(made), "-lm"], check=True)
     return made
 
@@ -102,7 +115,9 @@ def build(cc: str, folder: Path, name: str, shape: Sequence[int], sigmas: tuple[
 @contextlib.contextmanager
 def process(*command: str) -> Iterator[Callable[[str], float]]:
     """A process that answers each line with CPU seconds."""
-    running = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | {"NPROC": "1"})
+    running = subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | {"NPROC": "1"}
+    )
     to, back = _pipe(running.stdin), _pipe(running.stdout)
 
     def ask(line: str) -> float:
@@ -127,11 +142,13 @@ def _pipe(stream: IO[str] | None) -> IO[str]:
     return stream
 
 
-# ------------------------------------------------------------------------------------------------ measuring
+# -------------------------------------------------------------------------------------------------- measuring
 
 
 def measure(names: Sequence[str], rounds: int, seconds: float, folder: Path) -> list[Row]:
-    """The figures of the named workloads and of those they are compared with; about `seconds` of CPU for each T(n)."""
+    """The figures of the named workloads and of those they are compared with; about `seconds` of CPU for each
+    T(n).
+    """
     import workloads
 
     table = workloads.WORKLOADS

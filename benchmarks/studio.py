@@ -1,7 +1,9 @@
-"""Prints what the studio promises about time, each figure beside its target: `python benchmarks/studio.py [engine|browser ...]`.
+"""Prints what the studio promises about time, each figure beside its target: `python benchmarks/studio.py
+[engine|browser ...]`.
 
-`engine` measures how much a free-running engine is slowed by a page without a screen that watches four plots at 30 frames a second;
-`browser` starts a real browser, with graphics in software. Nothing is asserted: a busy machine prints larger numbers.
+`engine` measures how much a free-running engine is slowed by a page without a screen that watches four plots
+at 30 frames a second; `browser` starts a real browser, with graphics in software. Nothing is asserted: a busy
+machine prints larger numbers.
 """
 
 from __future__ import annotations
@@ -33,7 +35,11 @@ async def steps(socket: Any, watching: bool, streams: list[str], element: str) -
     """Steps a second while the engine runs free, with or without a page that watches."""
     for number, port in enumerate(streams, 1):
         await socket.send(
-            json.dumps({"type": "watch", "stream": number, "element": element, "port": port} if watching else {"type": "unwatch", "stream": number})
+            json.dumps(
+                {"type": "watch", "stream": number, "element": element, "port": port}
+                if watching
+                else {"type": "unwatch", "stream": number}
+            )
         )
     await settle(socket, 1.2, watching)  # the engine averages over half a second
     return statistics.median([(await settle(socket, 0.6, watching))["steps"] for _ in range(3)])
@@ -79,8 +85,19 @@ async def compare(address: str) -> tuple[float, float]:
 def engine() -> None:
     """A server in a process of its own, and a page without a screen in this one."""
     with tempfile.TemporaryDirectory() as state:
-        command = [sys.executable, "-m", "deodar", "studio", str(HERE.parent / "examples" / "selection.json"), "--no-browser", "--port", "0"]
-        server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=os.environ | {"DEODAR_STATE": state})
+        command = [
+            sys.executable,
+            "-m",
+            "deodar",
+            "studio",
+            str(HERE.parent / "examples" / "selection.json"),
+            "--no-browser",
+            "--port",
+            "0",
+        ]
+        server = subprocess.Popen(
+            command, stdout=subprocess.PIPE, text=True, env=os.environ | {"DEODAR_STATE": state}
+        )
         assert server.stdout is not None
         try:
             address = server.stdout.readline().split()[-1]

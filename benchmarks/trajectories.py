@@ -1,4 +1,5 @@
-"""Store the trajectories of everything that the repository can run, and compare them with what the code computes now.
+"""Store the trajectories of everything that the repository can run, and compare them with what the code
+computes now.
 
     python benchmarks/trajectories.py compare               all models
     python benchmarks/trajectories.py compare contract      those whose name contains a text
@@ -6,14 +7,16 @@
     python benchmarks/trajectories.py store "contract Gain" run some models again; the others stay
     python benchmarks/trajectories.py list                  what is stored, and which versions computed it
 
-Each model runs from the start of its document with seed 0, in double and in single precision (`trajectory_models.py`). Stored are, for each
-readable port, the mean and the maximum every 10 steps, and up to 64 evenly spaced cells every 50 steps (16 cells where a model has more than 300
-ports). The intervals of a run of n times 300 steps are n times as long. A difference is the largest absolute difference of a port, divided by the
-largest absolute value of that port if this is above 1. `compare` prints one line for each model and ends with status 1 if a difference exceeds its
-limit (1e-10 in double, 1e-4 in single precision), if a document, an id, the bits of a noise or an event time changed, or if a model is missing.
+Each model runs from the start of its document with seed 0, in double and in single precision
+(`trajectory_models.py`). Stored are, for each readable port, the mean and the maximum every 10 steps, and up
+to 64 evenly spaced cells every 50 steps (16 cells where a model has more than 300 ports). The intervals of a
+run of n times 300 steps are n times as long. A difference is the largest absolute difference of a port,
+divided by the largest absolute value of that port if this is above 1. `compare` prints one line for each
+model and ends with status 1 if a difference exceeds its limit (1e-10 in double, 1e-4 in single precision), if
+a document, an id, the bits of a noise or an event time changed, or if a model is missing.
 
-The document of each model is stored too, as the version that computed the trajectory wrote it. `compare` opens it, as a user opens a file of that
-version, and requires that it is the document of the present model.
+The document of each model is stored too, as the version that computed the trajectory wrote it. `compare`
+opens it, as a user opens a file of that version, and requires that it is the document of the present model.
 """
 
 from __future__ import annotations
@@ -55,14 +58,16 @@ Values = Mapping[str, np.ndarray]
 """The rows `PORT mean`, `PORT maximum` and `PORT cells` of each port."""
 
 
-# ------------------------------------------------------------------------------------------------ the description of a model
+# --------------------------------------------------------------------------------- the description of a model
 
 
 def written(model: dd.Model) -> dict[str, str]:
     """Return the document of a model as text, and its arrays, as `dd.save` writes them."""
     with tempfile.TemporaryDirectory() as folder:
         dd.save(model, Path(folder) / "model.json")
-        arrays = {p.name: base64.b64encode(p.read_bytes()).decode() for p in sorted(Path(folder).glob("*.npz"))}
+        arrays = {
+            p.name: base64.b64encode(p.read_bytes()).decode() for p in sorted(Path(folder).glob("*.npz"))
+        }
         return {"document": (Path(folder) / "model.json").read_text(encoding="utf-8"), **arrays}
 
 
@@ -90,13 +95,17 @@ def ids(model: dd.Model) -> dict[str, str]:
 
 
 def noises(model: dd.Model) -> dict[str, str]:
-    """Return, for each element with noise, the digest of the integers from which the first four deviates of each cell are made."""
+    """Return, for each element with noise, the digest of the integers from which the first four deviates of
+    each cell are made.
+    """
     out: dict[str, str] = {}
     for e in model.document.entries:
         axes = e.element.noise_axes()
         if axes is not None:
             (key,) = np.asarray(element_keys(0, 0, [int(e.id, 16)]))
-            words = [np.asarray(w, "<u4") for block in (0, 1) for w in bits(int(np.prod(shape(axes))), key, block)]
+            words = [
+                np.asarray(w, "<u4") for block in (0, 1) for w in bits(int(np.prod(shape(axes))), key, block)
+            ]
             out[e.path] = digest(*(w.tobytes() for w in words))[:12]
     return out
 
@@ -106,7 +115,7 @@ def ports(model: dd.Model) -> list[str]:
     return [f"{e.path}.{port}" for e in model.document.entries for port in find.readable(e)]
 
 
-# ------------------------------------------------------------------------------------------------ running
+# ---------------------------------------------------------------------------------------------------- running
 
 
 def run(scene: Scene, model: dd.Model, precision: str) -> dict[str, np.ndarray]:
@@ -116,8 +125,16 @@ def run(scene: Scene, model: dd.Model, precision: str) -> dict[str, np.ndarray]:
     world = None if scene.world is None else scene.world()
     most = CELLS if len(ports(model)) <= MANY_PORTS else FEW_CELLS
     data = dd.simulate(
-        model, scene.steps * dt, dt=dt, seed=0, record=ports(model), every=means * dt, precision=precision, world=world, progress=False
-    )  # fmt: skip
+        model,
+        scene.steps * dt,
+        dt=dt,
+        seed=0,
+        record=ports(model),
+        every=means * dt,
+        precision=precision,
+        world=world,
+        progress=False,
+    )
     out: dict[str, np.ndarray] = {}
     for path, variable in data.data_vars.items():
         values = variable.values.reshape(variable.sizes["time"], -1)
@@ -132,9 +149,15 @@ def run(scene: Scene, model: dd.Model, precision: str) -> dict[str, np.ndarray]:
 
 
 def computed(name: str, scene: Scene | Table) -> tuple[dict[str, Any], dict[str, dict[str, np.ndarray]]]:
-    """Run a model or a table, and return what is stored: its description, and the values of each precision."""
+    """Run a model or a table, and return what is stored: its description, and the values of each
+    precision.
+    """
     if isinstance(scene, Table):
-        return {"name": name, "numbers": {p: scene.numbers(p) for p in scene.precisions}, "exact": list(scene.exact)}, {}
+        return {
+            "name": name,
+            "numbers": {p: scene.numbers(p) for p in scene.precisions},
+            "exact": list(scene.exact),
+        }, {}
     model = scene.build()
     document = written(model)
     about = {
@@ -149,12 +172,14 @@ def computed(name: str, scene: Scene | Table) -> tuple[dict[str, Any], dict[str,
     return about, {p: run(scene, model, p) for p in scene.precisions}
 
 
-# ------------------------------------------------------------------------------------------------ files
+# ------------------------------------------------------------------------------------------------------ files
 
 
 @dc.dataclass
 class Stored:
-    """The content of `evidence/trajectories`: the description of each model, and its values in each precision."""
+    """The content of `evidence/trajectories`: the description of each model, and its values in each
+    precision.
+    """
 
     about: dict[str, Any]
     models: dict[str, dict[str, Any]]
@@ -167,7 +192,11 @@ class Stored:
             return cls({}, {}, {})
         about = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
         models = json.loads(lzma.decompress((folder / MODELS).read_bytes()))
-        raw, at, values = lzma.decompress((folder / VALUES).read_bytes()), 0, dict[str, dict[str, dict[str, np.ndarray]]]()
+        raw, at, values = (
+            lzma.decompress((folder / VALUES).read_bytes()),
+            0,
+            dict[str, dict[str, dict[str, np.ndarray]]](),
+        )
         for name, body in models.items():
             exact: dict[str, np.ndarray] = {}
             for precision, rows in body.pop("rows", {}).items():
@@ -205,7 +234,9 @@ def _compressed(content: bytes) -> bytes:
 
 
 def _packed(array: np.ndarray, exact: np.ndarray | None) -> bytes:
-    """Bytes of an array, those of equal weight side by side; single precision as the distance of its bits from the double precision's, rounded."""
+    """Bytes of an array, those of equal weight side by side; single precision as the distance of its bits
+    from the double precision's, rounded.
+    """
     whole = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
     if whole.dtype.itemsize == 4 and exact is not None and exact.shape == array.shape:
         whole = whole.view("<u4") - exact.astype("<f4").view("<u4")
@@ -214,7 +245,11 @@ def _packed(array: np.ndarray, exact: np.ndarray | None) -> bytes:
 
 def _unpacked(content: bytes, precision: str, form: tuple[int, ...], exact: np.ndarray | None) -> np.ndarray:
     size = np.dtype(precision).itemsize
-    whole = np.ascontiguousarray(np.frombuffer(content, np.uint8).reshape(size, -1).T).view(f"<u{size}").reshape(form)
+    whole = (
+        np.ascontiguousarray(np.frombuffer(content, np.uint8).reshape(size, -1).T)
+        .view(f"<u{size}")
+        .reshape(form)
+    )
     if size == 4 and exact is not None and exact.shape == form:
         whole = whole + exact.astype("<f4").view("<u4")
     return whole.view(f"<f{size}")
@@ -224,9 +259,15 @@ def made_by() -> dict[str, str]:
     """Return versions, machine and commit."""
 
     def git(*words: str) -> str:
-        return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+        return subprocess.run(
+            ["git", *words], cwd=ROOT, capture_output=True, text=True, check=True
+        ).stdout.strip()
 
-    changed = "" if not git("status", "--porcelain", "--", "src", "examples") else ", with changes in src or examples"
+    changed = (
+        ""
+        if not git("status", "--porcelain", "--", "src", "examples")
+        else ", with changes in src or examples"
+    )
     return {
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "commit": git("log", "-1", "--format=%H") + changed,
@@ -237,7 +278,7 @@ def made_by() -> dict[str, str]:
     }
 
 
-# ------------------------------------------------------------------------------------------------ comparing
+# -------------------------------------------------------------------------------------------------- comparing
 
 
 @dc.dataclass(frozen=True)
@@ -259,7 +300,13 @@ class Comparison:
         return "\n".join([f"{self.name:45} {told}", *(f"    {problem}" for problem in self.problems)])
 
 
-def compare(name: str, scene: Scene | Table, before: Mapping[str, Any], values: Mapping[str, Values], only: Sequence[str] = ()) -> Comparison:
+def compare(
+    name: str,
+    scene: Scene | Table,
+    before: Mapping[str, Any],
+    values: Mapping[str, Values],
+    only: Sequence[str] = (),
+) -> Comparison:
     """Run a model again, and compare it with the stored run.
 
     Args:
@@ -272,7 +319,11 @@ def compare(name: str, scene: Scene | Table, before: Mapping[str, Any], values: 
     if isinstance(scene, Table):
         return _compare_numbers(name, scene, before, only)
     model = scene.build()
-    problems = [*_documents(model, before), *_changed("id", before["ids"], ids(model)), *_changed("noise", before["noise"], noises(model))]
+    problems = [
+        *_documents(model, before),
+        *_changed("id", before["ids"], ids(model)),
+        *_changed("noise", before["noise"], noises(model)),
+    ]
     largest: dict[str, tuple[float, str]] = {}
     if scene.steps != before["steps"]:
         return Comparison(name, {}, [*problems, f"{before['steps']} steps are stored, {scene.steps} are run"])
@@ -285,12 +336,17 @@ def compare(name: str, scene: Scene | Table, before: Mapping[str, Any], values: 
             if found > largest[precision][0]:
                 largest[precision] = (found, row)
         if largest[precision][0] > LIMITS[precision]:
-            problems.append(f"{precision}: {largest[precision][1]} differs by {largest[precision][0]:.3g}, above {LIMITS[precision]:g}")
+            problems.append(
+                f"{precision}: {largest[precision][1]} differs by {largest[precision][0]:.3g}, above"
+                f" {LIMITS[precision]:g}"
+            )
     return Comparison(name, largest, problems)
 
 
 def difference(then: np.ndarray, now: np.ndarray) -> float:
-    """The largest absolute difference, divided by the largest absolute value if this is above 1; infinite where only one of the two is NaN."""
+    """The largest absolute difference, divided by the largest absolute value if this is above 1; infinite
+    where only one of the two is NaN.
+    """
     if then.shape != now.shape or not np.array_equal(np.isnan(then), np.isnan(now)):
         return float("inf")
     there = ~np.isnan(then)
@@ -311,7 +367,10 @@ def _documents(model: dd.Model, before: Mapping[str, Any]) -> Iterator[str]:
     now = written(model)
     if then != now:
         lines = list(zip(then["document"].split("\n"), now["document"].split("\n"), strict=False))
-        first = next((f"{a.strip()} was stored, {b.strip()} is the present one" for a, b in lines if a != b), "arrays or length differ")
+        first = next(
+            (f"{a.strip()} was stored, {b.strip()} is the present one" for a, b in lines if a != b),
+            "arrays or length differ",
+        )
         yield f"another document: {first}"
 
 
@@ -333,15 +392,28 @@ def _compare_numbers(name: str, table: Table, before: Mapping[str, Any], only: S
         largest[precision] = (0.0, "")
         for column, values in then.items():
             if column in before["exact"]:
-                problems += [] if now.get(column) == values else [f"{precision}: {column} was {values}, and is {now.get(column)}"]
+                problems += (
+                    []
+                    if now.get(column) == values
+                    else [f"{precision}: {column} was {values}, and is {now.get(column)}"]
+                )
                 continue
-            found = difference(*(np.asarray([np.nan if v is None else v for v in c], np.float64) for c in (values, now.get(column, []))))
+            found = difference(
+                *(
+                    np.asarray([np.nan if v is None else v for v in c], np.float64)
+                    for c in (values, now.get(column, []))
+                )
+            )
             largest[precision] = max(largest[precision], (found, column))
-            problems += [f"{precision}: {column} differs by {found:.3g}, above {LIMITS[precision]:g}"] if found > LIMITS[precision] else []
+            problems += (
+                [f"{precision}: {column} differs by {found:.3g}, above {LIMITS[precision]:g}"]
+                if found > LIMITS[precision]
+                else []
+            )
     return Comparison(name, largest, problems)
 
 
-# ------------------------------------------------------------------------------------------------ command
+# ---------------------------------------------------------------------------------------------------- command
 
 
 def chosen(texts: Sequence[str]) -> dict[str, Scene | Table]:
@@ -356,7 +428,9 @@ def stored_names(found: Stored, texts: Sequence[str]) -> list[str]:
 
 
 def _matching(names: Sequence[str], texts: Sequence[str]) -> list[str]:
-    return [name for name in names if not texts or any(t == name or (t not in names and t in name) for t in texts)]
+    return [
+        name for name in names if not texts or any(t == name or (t not in names and t in name) for t in texts)
+    ]
 
 
 def store(texts: Sequence[str]) -> int:
@@ -376,7 +450,9 @@ def store(texts: Sequence[str]) -> int:
         makers = {**found.about.get("made_by", {}), mark: maker}
         used = {body["made_by"] for body in found.models.values()}
         found.about = {
-            "what": "trajectories of every model of the repository; python benchmarks/trajectories.py compare",
+            "what": (
+                "trajectories of every model of the repository; python benchmarks/trajectories.py compare"
+            ),
             "limits": LIMITS,
             "models": len(found.models),
             "made_by": {m: makers[m] for m in sorted(used)},
@@ -400,12 +476,20 @@ def compare_all(texts: Sequence[str]) -> int:
             done.append(Comparison(name, {}, ["is stored, but no model has this name now"]))
         print(done[-1], flush=True)
     for precision, limit in LIMITS.items():
-        largest = max(((c.largest[precision][0], c.name) for c in done if precision in c.largest), default=(0.0, "-"))
-        print(f"{precision}: largest difference {largest[0]:.3g}{f' ({largest[1]})' if largest[0] else ''}, limit {limit:g}")
+        largest = max(
+            ((c.largest[precision][0], c.name) for c in done if precision in c.largest), default=(0.0, "-")
+        )
+        print(
+            f"{precision}: largest difference {largest[0]:.3g}{f' ({largest[1]})' if largest[0] else ''},"
+            f" limit {limit:g}"
+        )
     new = [name for name in now if name not in found.models]
     print(f"not stored: {', '.join(new)}" if new else "every model is stored")
     bad = [c for c in done if c.problems]
-    print(f"{len(done)} models compared, {len(bad)} differ" + (f": {', '.join(c.name for c in bad)}" if bad else ""))
+    print(
+        f"{len(done)} models compared, {len(bad)} differ"
+        + (f": {', '.join(c.name for c in bad)}" if bad else "")
+    )
     return 1 if bad or not done else 0
 
 
@@ -415,16 +499,27 @@ def listed() -> int:
     print(json.dumps(found.about, indent=2))
     for name, body in found.models.items():
         values = found.values.get(name, {})
-        gap = max((difference(v, values["float32"][row]) for row, v in values["float64"].items()), default=0.0) if len(values) == 2 else None
-        print(f"{name:45} {body.get('steps', ''):>6} steps  " + (f"float32 from float64 {gap:8.2g}" if gap is not None else ""))
+        gap = (
+            max((difference(v, values["float32"][row]) for row, v in values["float64"].items()), default=0.0)
+            if len(values) == 2
+            else None
+        )
+        print(
+            f"{name:45} {body.get('steps', ''):>6} steps  "
+            + (f"float32 from float64 {gap:8.2g}" if gap is not None else "")
+        )
     return 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("what", choices=("store", "compare", "list"))
-    parser.add_argument("names", nargs="*", help="models whose name contains one of these texts (default: all)")
+    parser.add_argument(
+        "names", nargs="*", help="models whose name contains one of these texts (default: all)"
+    )
     args = parser.parse_args(arguments)
     return listed() if args.what == "list" else (store if args.what == "store" else compare_all)(args.names)
 

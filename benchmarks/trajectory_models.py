@@ -1,6 +1,8 @@
-"""The models of `trajectories.py`: every example, registered kind, architecture and imported file, and experiments.
+"""The models of `trajectories.py`: every example, registered kind, architecture and imported file, and
+experiments.
 
-A `Scene` is a model with its world and its number of steps; a `Table` holds the numbers of a script or an experiment.
+A `Scene` is a model with its world and its number of steps; a `Table` holds the numbers of a script or an
+experiment.
 """
 
 from __future__ import annotations
@@ -91,21 +93,40 @@ EXAMPLE_WORLDS: Mapping[str, Callable[[], World]] = {"saliency": _photograph, "s
 
 def _example(name: str) -> Scene:
     steps = HEAVY.get(name, STEPS)
-    return Scene(lambda: dd.load(f"example:{name}"), EXAMPLE_WORLDS.get(name), steps=steps, why="a step is expensive" if steps < STEPS else "")
+    return Scene(
+        lambda: dd.load(f"example:{name}"),
+        EXAMPLE_WORLDS.get(name),
+        steps=steps,
+        why="a step is expensive" if steps < STEPS else "",
+    )
 
 
 def _to_the_end(name: str) -> Scene:
-    """An example for the duration that its notes state, in double precision: most examples show their effect after the first 300 steps."""
+    """An example for the duration that its notes state, in double precision: most examples show their effect
+    after the first 300 steps.
+    """
     model, duration = dd.load(f"example:{name}"), examples.duration(name)
     steps = round((duration or 0.0) / model.document.step)
-    return Scene(lambda: dd.load(f"example:{name}"), EXAMPLE_WORLDS.get(name), steps=steps, why="to the end of the example", precisions=("float64",))
+    return Scene(
+        lambda: dd.load(f"example:{name}"),
+        EXAMPLE_WORLDS.get(name),
+        steps=steps,
+        why="to the end of the example",
+        precisions=("float64",),
+    )
 
 
 def _two_layers() -> dd.Model:
     model = dd.Model("two layers")
     kernel, inhibition = [dd.Gaussian(2.0, 4.0)], [dd.Gaussian(-1.0, 8.0)]
-    model.insert(published.two_layer_field([LINE], kernel, inhibition, drive=[dd.Gaussian(1.0, 4.0)], noise=0.3), "layers")
-    model.add(dd.GaussianStimulus("input", [LINE], center=40, sigma=5, amplitude=8)) >> model["layers.excitatory"]
+    model.insert(
+        published.two_layer_field([LINE], kernel, inhibition, drive=[dd.Gaussian(1.0, 4.0)], noise=0.3),
+        "layers",
+    )
+    (
+        model.add(dd.GaussianStimulus("input", [LINE], center=40, sigma=5, amplitude=8))
+        >> model["layers.excitatory"]
+    )
     return model
 
 
@@ -137,7 +158,9 @@ def _noisy_maze() -> dd.Model:
 
 
 def architectures() -> dict[str, Scene]:
-    """Architectures that are not among the examples, and those of the demonstrations and papers with their worlds."""
+    """Architectures that are not among the examples, and those of the demonstrations and papers with their
+    worlds.
+    """
     return {
         "behaviour": Scene(_small(published.behaviour, "task")),
         "behaviour over a line": Scene(_small(lambda: published.behaviour([LINE]), "goal")),
@@ -148,9 +171,13 @@ def architectures() -> dict[str, Scene]:
         "plan to the left": Scene(lambda: published.plan(start=200.0)),
         "reference_frame diagonal": Scene(_looking("diagonal")),
         "reference_frame steered": Scene(_looking("steered")),
-        "saliency of another hue": Scene(lambda: published.saliency(hue=120.0, cue=9.0), _photograph, steps=50, why="a step is expensive"),
+        "saliency of another hue": Scene(
+            lambda: published.saliency(hue=120.0, cue=9.0), _photograph, steps=50, why="a step is expensive"
+        ),
         "serial_order": Scene(lambda: published.serial_order(3)),
-        "spa with noise": Scene(_noisy_maze, lambda: published.maze("z", "high"), steps=100, why="a step is expensive"),
+        "spa with noise": Scene(
+            _noisy_maze, lambda: published.maze("z", "high"), steps=100, why="a step is expensive"
+        ),
         "two_layer_field": Scene(_two_layers),
     }
 
@@ -163,7 +190,9 @@ def scenes() -> dict[str, Scene]:
     out |= {f"architecture {name}": scene for name, scene in architectures().items()}
     out |= {f"imported {path.stem}": Scene(lambda path=path: dd.load(path)) for path in SAMPLES}
     for kind in (*build.KINDS, *build.PARTS):
-        out[f"contract {kind}"] = Scene(lambda kind=kind: build.around(build.any_example(kind), noisy=True), build.Anything)
+        out[f"contract {kind}"] = Scene(
+            lambda kind=kind: build.around(build.any_example(kind), noisy=True), build.Anything
+        )
     out |= {
         f"world {kind}": Scene(
             lambda kind=kind: embodied.everything(kind),
@@ -184,7 +213,7 @@ def _own_function() -> dd.Model:
     return own_function.model()
 
 
-# ------------------------------------------------------------------------------------------------ numbers of experiments and scripts
+# ------------------------------------------------------------------------- numbers of experiments and scripts
 
 
 def _rows(experiment: dd.Experiment) -> Callable[[str], dict[str, list[Any]]]:
@@ -207,21 +236,49 @@ def _experiment(experiment: dd.Experiment) -> Table:
 def _choice() -> dd.Experiment:
     """Two inputs from 20 ms on, with every kind of action in between."""
     model = dd.Model("choice")
-    u = model.add(dd.Field("u", [LINE], tau=10, resting_level=-5, kernel=[MexicanHat(1.2, 5, 0.3, 15)], global_inhibition=0.4, noise=1.0))
+    u = model.add(
+        dd.Field(
+            "u",
+            [LINE],
+            tau=10,
+            resting_level=-5,
+            kernel=[MexicanHat(1.2, 5, 0.3, 15)],
+            global_inhibition=0.4,
+            noise=1.0,
+        )
+    )
     for name, center in (("left", 30), ("right", 70)):
-        model.add(dd.GaussianStimulus(name, [LINE], center=center, sigma=5, amplitude=6, windows=[(20, 120)])) >> u
+        (
+            model.add(
+                dd.GaussianStimulus(name, [LINE], center=center, sigma=5, amplitude=6, windows=[(20, 120)])
+            )
+            >> u
+        )
     return dd.Experiment(
-        "choice", model, 200, 3, seed=1,
+        "choice",
+        model,
+        200,
+        3,
+        seed=1,
         conditions=[Appears("detected", "u", threshold=1.0, ends=False), Vanishes("gone", "u")],
-        actions=[Push(10, "u", 1.0, 5), Set(50, "u.resting_level", -5.5, when="detected"), Ramp(130, "u.resting_level", -8.0, 20)],
+        actions=[
+            Push(10, "u", 1.0, 5),
+            Set(50, "u.resting_level", -5.5, when="detected"),
+            Ramp(130, "u.resting_level", -8.0, 20),
+        ],
         factors=[Factor("strength", [6.0, 7.0], "left.amplitude")],
-        measures=[Measure("where", "u.activation", "place", "detected"), Measure("end", "u.activation", "mean")],
-    )  # fmt: skip
+        measures=[
+            Measure("where", "u.activation", "place", "detected"),
+            Measure("end", "u.activation", "mean"),
+        ],
+    )
 
 
 def _robot() -> dd.Experiment:
     far = [Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)]
-    return dd.Experiment("robot", straight(), 300, world=room(), conditions=far, actions=[Move(5, "far", (88, 20), when="far")])
+    return dd.Experiment(
+        "robot", straight(), 300, world=room(), conditions=far, actions=[Move(5, "far", (88, 20), when="far")]
+    )
 
 
 def tables() -> dict[str, Table]:
@@ -234,9 +291,15 @@ def tables() -> dict[str, Table]:
     return {
         "example reaction_time": _experiment(reaction_time.experiment(trials=1)),
         "example choices": Table(lambda precision: {"shares": choices.shares(20)}, ("shares",), ("float32",)),
-        "example live_session": Table(lambda precision: live_session.main(), ("remembered", "pulled along", "restored"), ("float32",)),
-        "example sequences": Table(lambda precision: {"judged": list(sequences.judged(2, range(1)))}, ("judged",), ("float32",)),
+        "example live_session": Table(
+            lambda precision: live_session.main(), ("remembered", "pulled along", "restored"), ("float32",)
+        ),
+        "example sequences": Table(
+            lambda precision: {"judged": list(sequences.judged(2, range(1)))}, ("judged",), ("float32",)
+        ),
         "experiment choice": _experiment(_choice()),
         "experiment robot": _experiment(_robot()),
-        "experiment decider": _experiment(dd.Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])),
+        "experiment decider": _experiment(
+            dd.Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])
+        ),
     }

@@ -1,9 +1,11 @@
-"""What planning while driving costs: `python benchmarks/vehicles.py [steps] [hundred] [live]`, all three by default.
+"""What planning while driving costs: `python benchmarks/vehicles.py [steps] [hundred] [live]`, all three by
+default.
 
-`steps`: wall time of a step for each copy, in the Z-maze by the size of a batch, and in the large maze, on one core. `hundred`: 100 runs
-of the Z-maze (the published pairs of start and goal, 3,000 steps at most) in as many worker processes as there are cores, their start
-included, and beside it the same in batches that finished runs leave. `live`: how many times faster than the robot one run in a session is
-that a page of the studio would watch. Nothing is asserted.
+`steps`: wall time of a step for each copy, in the Z-maze by the size of a batch, and in the large maze, on
+one core. `hundred`: 100 runs of the Z-maze (the published pairs of start and goal, 3,000 steps at most) in as
+many worker processes as there are cores, their start included, and beside it the same in batches that
+finished runs leave. `live`: how many times faster than the robot one run in a session is that a page of the
+studio would watch. Nothing is asserted.
 """
 
 from __future__ import annotations
@@ -62,22 +64,34 @@ def batch(first: int, count: int) -> list[dict[str, object]]:
         _kept.append((arena, spa(arena)))
     (arena, model), trials = _kept[0], range(first, first + count)
     courses = run_batch(model, LIMIT, trials, ["touching.output"], DONE, world=arena)  # type: ignore[arg-type]
-    return [{"key": str(k), "steps": len(c.times) - 1, "outcome": c.outcome} for k, c in zip(trials, courses, strict=True)]
+    return [
+        {"key": str(k), "steps": len(c.times) - 1, "outcome": c.outcome}
+        for k, c in zip(trials, courses, strict=True)
+    ]
 
 
 def hundred() -> None:
     """100 runs, one by one and in batches, on all cores."""
     cores = available()
     for size in (1, 4):
-        jobs = [Job(tuple(str(j) for j in range(k, k + size)), batch, {"first": k, "count": size}) for k in range(0, RUNS, size)]
+        jobs = [
+            Job(tuple(str(j) for j in range(k, k + size)), batch, {"first": k, "count": size})
+            for k in range(0, RUNS, size)
+        ]
         with tempfile.TemporaryDirectory() as folder:
             rows = Rows(Path(folder) / "rows.jsonl", {})
             began = time.perf_counter()
             carry_out(jobs, rows, workers=cores)
             wall = time.perf_counter() - began
         taken = [row["steps"] for row in rows.found.values()]
-        each = f"{cores * wall / RUNS:.2f} s of a core for a run, {sum(taken) / RUNS:.0f} steps on average, {max(taken)} at most"
-        print(f"{RUNS} runs of the Z-maze, {size} at once on {cores} cores: {wall / 60:.1f} min; {each}", flush=True)
+        each = (
+            f"{cores * wall / RUNS:.2f} s of a core for a run, {sum(taken) / RUNS:.0f} steps on average,"
+            f" {max(taken)} at most"
+        )
+        print(
+            f"{RUNS} runs of the Z-maze, {size} at once on {cores} cores: {wall / 60:.1f} min; {each}",
+            flush=True,
+        )
 
 
 def live() -> None:
@@ -86,15 +100,27 @@ def live() -> None:
     session = dd.Session(spa(arena), world=arena)
     session.step(20)
     meter = session.run_live(400, speed=None)
-    print(f"Z-maze, live: {meter.steps / meter.wall:.0f} steps a second, {meter.steps * STEP_MS / 1000 / meter.wall:.0f} times real time", flush=True)
+    print(
+        f"Z-maze, live: {meter.steps / meter.wall:.0f} steps a second,"
+        f" {meter.steps * STEP_MS / 1000 / meter.wall:.0f} times real time",
+        flush=True,
+    )
 
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", nargs="*", choices=["steps", "hundred", "live", []], help="what to measure (default: all)")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "what", nargs="*", choices=["steps", "hundred", "live", []], help="what to measure (default: all)"
+    )
     args = parser.parse_args()
-    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else f"{os.cpu_count()} cores")
+    print(
+        f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.2f}"
+        if hasattr(os, "getloadavg")
+        else f"{os.cpu_count()} cores"
+    )
     for name, measure in (("steps", steps), ("hundred", hundred), ("live", live)):
         if not args.what or name in args.what:
             measure()

@@ -1,7 +1,8 @@
-"""The models whose steps are timed: single fields in one, two and three dimensions, a batch of trials, and two architectures.
+"""The models whose steps are timed: single fields in one, two and three dimensions, a batch of trials, and
+two architectures.
 
-All fields are rings or tori of unit spacing with tau = 20, h = -5, a logistic output of steepness 4, noise of strength 1 in every step, global
-inhibition 0.1, and a kernel of two normalised Gaussians, 15 and -8.
+All fields are rings or tori of unit spacing with tau = 20, h = -5, a logistic output of steepness 4, noise of
+strength 1 in every step, global inhibition 0.1, and a kernel of two normalised Gaussians, 15 and -8.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ class Workload:
         to: "C" (the yardstick), or another workload of the same run.
         trials: how many copies run at once; 0: one, without the axis.
         shape, sigmas: what the yardstick is compiled for.
-        earlier: how many times the yardstick that the targets were set against was slower than this one (README.md).
+        earlier: how many times the yardstick that the targets were set against was slower than this one
+            (README.md).
     """
 
     model: Callable[[], dd.Model]
@@ -48,7 +50,9 @@ def axes(shape: Sequence[int]) -> list[dd.Axis]:
 def field(name: str, shape: Sequence[int], sigmas: tuple[int, int]) -> dd.Field:
     """A field with lateral excitation and inhibition of these widths."""
     kernel = [dd.Gaussian(15, sigmas[0], normalized=True), dd.Gaussian(-8, sigmas[1], normalized=True)]
-    return dd.Field(name, axes(shape), tau=20, resting_level=-5, kernel=kernel, global_inhibition=0.1, noise=1.0)
+    return dd.Field(
+        name, axes(shape), tau=20, resting_level=-5, kernel=kernel, global_inhibition=0.1, noise=1.0
+    )
 
 
 def stimulus(shape: Sequence[int]) -> dd.GaussianStimulus:
@@ -75,14 +79,21 @@ def targets(count: int, seed: int | None) -> list[int]:
 
 
 def lines(seed: int | None = None) -> dd.Model:
-    """20 fields of 100 samples coupled in a ring, each with a node that it drives and that boosts it; with a seed the targets are shuffled."""
+    """20 fields of 100 samples coupled in a ring, each with a node that it drives and that boosts it; with a
+    seed the targets are shuffled.
+    """
     model = dd.Model("lines and nodes")
     fields = [model.add(field(f"u{k}", [100], (5, 10))) for k in range(20)]
-    nodes = [model.add(dd.Field(f"v{k}", tau=20, resting_level=-5, kernel=[dd.Gaussian(2.0)], noise=1.0)) for k in range(20)]
+    nodes = [
+        model.add(dd.Field(f"v{k}", tau=20, resting_level=-5, kernel=[dd.Gaussian(2.0)], noise=1.0))
+        for k in range(20)
+    ]
     model.add(stimulus([100])) >> fields[0]
     for k, target in enumerate(targets(20, seed)):
         fields[k] >> Convolve([dd.Gaussian(3, 5, normalized=True)]) >> fields[target]
-    to_nodes, to_fields = ([*range(20)], [*range(20)]) if seed is None else (targets(20, seed + 1), targets(20, seed + 2))
+    to_nodes, to_fields = (
+        ([*range(20)], [*range(20)]) if seed is None else (targets(20, seed + 1), targets(20, seed + 2))
+    )
     for k in range(20):
         fields[k] >> dd.Gain(0.05) >> nodes[to_nodes[k]]
         nodes[k] >> fields[to_fields[k]]
@@ -99,9 +110,19 @@ def planes(seed: int | None = None) -> dd.Model:
     return model
 
 
-def _single(shape: tuple[int, ...], sigmas: tuple[int, int], target: float, earlier: float, trials: int = 0) -> Workload:
+def _single(
+    shape: tuple[int, ...], sigmas: tuple[int, int], target: float, earlier: float, trials: int = 0
+) -> Workload:
     meaning = "one field, " + " x ".join(map(str, shape)) + (f", {trials} trials at once" if trials else "")
-    return Workload(lambda: single(shape, sigmas), meaning, target, trials=trials, shape=shape, sigmas=sigmas, earlier=earlier)
+    return Workload(
+        lambda: single(shape, sigmas),
+        meaning,
+        target,
+        trials=trials,
+        shape=shape,
+        sigmas=sigmas,
+        earlier=earlier,
+    )
 
 
 WORKLOADS = {
@@ -118,4 +139,6 @@ WORKLOADS = {
     "W4b": Workload(planes, "ring of 16 fields of 50 x 50", 16, to="W2_50"),
     "W4b_shuffled": Workload(lambda: planes(1), "the same, couplings shuffled", 1.25, to="W4b"),
 }
-CLOSED_LOOP = Workload(lines, "W4a in a session: every 10 steps one parameter set, one field read", 3, to="W4a")
+CLOSED_LOOP = Workload(
+    lines, "W4a in a session: every 10 steps one parameter set, one field read", 3, to="W4a"
+)

@@ -40,8 +40,16 @@ def pictures(only: Sequence[str] = ()) -> None:
 
 def site() -> int:
     """The site, by zensical."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(pages.DOCS), os.environ.get("PYTHONPATH")]))}  # for mathml.py
-    return subprocess.run([sys.executable, "-m", "zensical", "build", "--clean", "--strict"], cwd=pages.ROOT, env=environment, check=False).returncode
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(filter(None, [str(pages.DOCS), os.environ.get("PYTHONPATH")])),
+    }  # for mathml.py
+    return subprocess.run(
+        [sys.executable, "-m", "zensical", "build", "--clean", "--strict"],
+        cwd=pages.ROOT,
+        env=environment,
+        check=False,
+    ).returncode
 
 
 def main() -> int:

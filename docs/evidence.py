@@ -1,11 +1,13 @@
-"""The runs that the manual speaks of: kept in `evidence/`, a folder for each paper, and every number on a page that comes from them.
+"""The runs that the manual speaks of: kept in `evidence/`, a folder for each paper, and every number on a
+page that comes from them.
 
-python docs/evidence.py FOLDER   take the complete conditions in the folder of a `deodar reproduce PAPER [--quick]`, then write all anew
-python docs/evidence.py          write claims and pages anew from the runs that are kept
-python docs/evidence.py --print  print every number and table by its name
+python docs/evidence.py FOLDER   take the complete conditions in the folder of a `deodar reproduce PAPER
+[--quick]`, then write all anew python docs/evidence.py          write claims and pages anew from the runs
+that are kept python docs/evidence.py --print  print every number and table by its name
 
-A folder of evidence holds `about.json` (versions, machine, date, command), `runs.jsonl.xz` (a row for each run) and `results.json` (the claims).
-On a page a comment names a number or table of a paper, and what lies between it and the next `<!-- end -->` is written from the rows:
+A folder of evidence holds `about.json` (versions, machine, date, command), `runs.jsonl.xz` (a row for each
+run) and `results.json` (the claims). On a page a comment names a number or table of a paper, and what lies
+between it and the next `<!-- end -->` is written from the rows:
 
     reaches <!-- evidence spa success:z/planner/low -->96 of 96<!-- end --> goals
 """
@@ -35,9 +37,12 @@ ABOUT, ROWS, RESULTS = "about.json", "runs.jsonl.xz", "results.json"
 PLACE = re.compile(r"<!-- evidence (\w+) (\S+) -->(.*?)<!-- end -->", re.DOTALL)
 REGION = re.compile(r"<!-- numbers of (\w+) -->(.*?)<!-- end of numbers -->", re.DOTALL)
 NAMED = re.compile(
-    r"!?\[[^\]]*\]\([^)]*\)|`[^`]*`|\(\d{4}\)|(?:figures?|sections?|tables?|eqs?\.|equations?|cases?) \d[\d.]*(?:(?:, | to | and )\d[\d.]*)*|95 %"
+    r"!?\[[^\]]*\]\([^)]*\)|`[^`]*`|\(\d{4}\)|(?:figures?|sections?|tables?|eqs?\.|equations?|cases?)"
+    r" \d[\d.]*(?:(?:, | to | and )\d[\d.]*)*|95 %"
 )
-"""What may stand outside of a mark: links and pictures, code, years, places in a paper, and the level of all intervals."""
+"""What may stand outside of a mark: links and pictures, code, years, places in a paper, and the level of all
+intervals.
+"""
 
 
 @dataclass(frozen=True)
@@ -62,7 +67,10 @@ class Evidence:
 
     def results(self, report: papers.Report) -> str:
         """The content of `results.json`."""
-        return dd.analysis.claims.results(report.claims, {"paper": self.paper, "quick": self.quick, "runs": len(self.rows), "of": self.about["of"]})
+        return dd.analysis.claims.results(
+            report.claims,
+            {"paper": self.paper, "quick": self.quick, "runs": len(self.rows), "of": self.about["of"]},
+        )
 
     @property
     def quick(self) -> bool:
@@ -80,7 +88,12 @@ def read(paper: str, folder: Path | None = None) -> Evidence:
     at = folder or EVIDENCE / paper
     about = json.loads((at / ABOUT).read_text(encoding="utf-8"))
     lines = [json.loads(line) for line in lzma.decompress((at / ROWS).read_bytes()).splitlines()]
-    return Evidence(paper, about, [line["about"] for line in lines if "key" not in line], {line["key"]: line for line in lines if "key" in line})
+    return Evidence(
+        paper,
+        about,
+        [line["about"] for line in lines if "key" not in line],
+        {line["key"]: line for line in lines if "key" in line},
+    )
 
 
 def take(source: Path, into: Path = EVIDENCE) -> Evidence:
@@ -93,7 +106,9 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     quick = bool(made["quick"])
     command = f"deodar reproduce {name}" + (" --quick" if quick else "")
     if any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(quick))).items()):
-        sys.exit(f"{source}: not the whole design of {name}, or another one; run {command} into a new folder first")
+        sys.exit(
+            f"{source}: not the whole design of {name}, or another one; run {command} into a new folder first"
+        )
     keys = {key for job in paper.jobs(quick) for key in job.keys}
     found = {line["key"]: paper.kept(line) for line in lines if "key" in line}
     unfinished = _unfinished(keys, found)
@@ -101,12 +116,25 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     if not rows:
         sys.exit(f"{source}: no condition is complete; run {command} --out {source} first")
     if unfinished:
-        sys.stderr.write(f"{source}: not complete, and left out: {', '.join(unfinished)}. To go on: {command} --out {source}\n")
+        sys.stderr.write(
+            f"{source}: not complete, and left out: {', '.join(unfinished)}. To go on: {command} --out"
+            f" {source}\n"
+        )
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
-    about = {"paper": name, "command": command, "quick": quick, "date": str(date), "runs": len(rows), "of": len(keys), "made_by": made["made_by"]}
+    about = {
+        "paper": name,
+        "command": command,
+        "quick": quick,
+        "date": str(date),
+        "runs": len(rows),
+        "of": len(keys),
+        "made_by": made["made_by"],
+    }
     folder = into / name
     folder.mkdir(parents=True, exist_ok=True)
-    content = "".join(json.dumps(line) + "\n" for line in [*(line for line in lines if "key" not in line), *rows])
+    content = "".join(
+        json.dumps(line) + "\n" for line in [*(line for line in lines if "key" not in line), *rows]
+    )
     (folder / ROWS).write_bytes(lzma.compress(content.encode(), preset=9))
     (folder / ABOUT).write_text(json.dumps(about, indent=2) + "\n", encoding="utf-8")
     return read(name, folder)
@@ -149,8 +177,20 @@ def _missing(evidence: Evidence) -> str:
 
 
 def unrun(paper: str) -> dict[str, str]:
-    """What a page may say of a paper whose runs are not kept: its settings, and in the place of every other number that nothing was run."""
-    names = ("required", "contradicted", "undecided", "inferred", "required-count", "reported-count", "made", "command", "missing")
+    """What a page may say of a paper whose runs are not kept: its settings, and in the place of every other
+    number that nothing was run.
+    """
+    names = (
+        "required",
+        "contradicted",
+        "undecided",
+        "inferred",
+        "required-count",
+        "reported-count",
+        "made",
+        "command",
+        "missing",
+    )
     return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, papers.NOT_RUN)}
 
 
@@ -159,7 +199,10 @@ def _counted(what: str, claims: Sequence[dd.analysis.claims.Claim]) -> str:
     hold, fail = (sum(c.holds is verdict for c in claims) for verdict in (True, False))
     untold = sum(c.origin == "none" for c in claims)
     target = f", {untold} have no target" if untold else ""
-    return f"{len(claims)} {what} {hold} hold, {fail} fail, {len(claims) - hold - fail - untold} are undecided{target}"
+    return (
+        f"{len(claims)} {what} {hold} hold, {fail} fail, {len(claims) - hold - fail - untold} are"
+        f" undecided{target}"
+    )
 
 
 def _table(claims: Sequence[dd.analysis.claims.Claim]) -> str:
@@ -176,7 +219,11 @@ def _table(claims: Sequence[dd.analysis.claims.Claim]) -> str:
 
 def pages() -> list[Path]:
     """Every page that has a place for a number."""
-    return [p for p in (ROOT / "README.md", *sorted(DOCS.glob("*.md"))) if PLACE.search(p.read_text(encoding="utf-8"))]
+    return [
+        p
+        for p in (ROOT / "README.md", *sorted(DOCS.glob("*.md")))
+        if PLACE.search(p.read_text(encoding="utf-8"))
+    ]
 
 
 def filled(text: str, known: Mapping[str, Mapping[str, str]]) -> str:
@@ -185,10 +232,14 @@ def filled(text: str, known: Mapping[str, Mapping[str, str]]) -> str:
     def put(found: re.Match[str]) -> str:
         paper, name, _ = found.groups()
         if name not in known.get(paper, {}):
-            sys.exit(f"the runs of {paper} give nothing that is called {name}: see python docs/evidence.py --print")
+            sys.exit(
+                f"the runs of {paper} give nothing that is called {name}: see python docs/evidence.py --print"
+            )
         value = known[paper][name]
         block = "\n" in value
-        return f"<!-- evidence {paper} {name} -->{chr(10) * 2 + value + chr(10) if block else value}<!-- end -->"
+        return (
+            f"<!-- evidence {paper} {name} -->{chr(10) * 2 + value + chr(10) if block else value}<!-- end -->"
+        )
 
     return PLACE.sub(put, text)
 
@@ -208,7 +259,9 @@ def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
     (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
     for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():
         if figure in report.figures:
-            dd.figures.save_figure(report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True, dots=DOTS)
+            dd.figures.save_figure(
+                report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True, dots=DOTS
+            )
     return numbers(evidence, report)
 
 
@@ -216,10 +269,16 @@ def main() -> int:
     """Status 0."""
     words = [word for word in sys.argv[1:] if not word.startswith("-")]
     taken = [take(Path(word)).paper for word in words]
-    known = {paper: write(read(paper), paper in taken) if paper in kept() else unrun(paper) for paper in papers.names()}
+    known = {
+        paper: write(read(paper), paper in taken) if paper in kept() else unrun(paper)
+        for paper in papers.names()
+    }
     if "--print" in sys.argv[1:]:
         for paper, found in known.items():
-            sys.stdout.writelines(f"{paper} {name}: {chr(10) if chr(10) in value else ''}{value}\n" for name, value in found.items())
+            sys.stdout.writelines(
+                f"{paper} {name}: {chr(10) if chr(10) in value else ''}{value}\n"
+                for name, value in found.items()
+            )
     for page in pages():
         page.write_text(filled(page.read_text(encoding="utf-8"), known), encoding="utf-8")
     return 0

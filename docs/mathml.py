@@ -1,4 +1,6 @@
-"""Formulas of the manual: blocks of TeX marked `math`, written as MathML, which browsers typeset without a script."""
+"""Formulas of the manual: blocks of TeX marked `math`, written as MathML, which browsers typeset without a
+script.
+"""
 
 from __future__ import annotations
 

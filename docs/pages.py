@@ -1,8 +1,9 @@
-"""The pages as programs: their blocks of Python and of commands, run in order, and what they print compared with the page.
+"""The pages as programs: their blocks of Python and of commands, run in order, and what they print compared
+with the page.
 
-Blocks of one page share their names and one folder. A `text` block right after a `python` block holds what it prints. In a
-`console` block a line that begins with `$` is a command, the lines after it what it answers. A line `...` stands for any lines;
-numbers agree to two percent, since machines differ in the last digits.
+Blocks of one page share their names and one folder. A `text` block right after a `python` block holds what it
+prints. In a `console` block a line that begins with `$` is a command, the lines after it what it answers. A
+line `...` stands for any lines; numbers agree to two percent, since machines differ in the last digits.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ NEAR = 0.02
 
 @dataclass(frozen=True)
 class Block:
-    """One thing to run: where it stands, its language, its text, and what it prints (None: the page does not say)."""
+    """One thing to run: where it stands, its language, its text, and what it prints (None: the page does not
+    say).
+    """
 
     page: Path
     line: int
@@ -60,7 +63,12 @@ def blocks(page: Path) -> list[Block]:
             out.append(Block(page, line, language, body))
         elif language == "console":
             out += _commands(page, line, body)
-        elif language == "text" and out and out[-1].language == "python" and not text[end : found.start()].strip():
+        elif (
+            language == "text"
+            and out
+            and out[-1].language == "python"
+            and not text[end : found.start()].strip()
+        ):
             last = out.pop()
             out.append(Block(page, last.line, last.language, last.text, body))
         end = found.end()
@@ -107,7 +115,9 @@ def _run(block: Block, names: dict[str, Any]) -> None:
     from deodar import cli
 
     words = shlex.split(block.text)
-    assert words[0] == "deodar", f"{block.where}: a console block holds commands of deodar; other words stand in a sh block"
+    assert words[0] == "deodar", (
+        f"{block.where}: a console block holds commands of deodar; other words stand in a sh block"
+    )
     told = io.StringIO()
     with contextlib.redirect_stderr(told):
         status = cli.main(words[1:])
@@ -136,7 +146,9 @@ def same(line: str, other: str) -> bool:
     """Whether two lines agree in their words, and in their numbers to two percent."""
     a, b = [[float(n) for n in NUMBER.findall(text)] for text in (line, other)]
     words = [" ".join(NUMBER.sub("#", text).split()) for text in (line, other)]
-    return words[0] == words[1] and all(abs(p - q) <= NEAR * max(abs(p), abs(q)) for p, q in zip(a, b, strict=True))
+    return words[0] == words[1] and all(
+        abs(p - q) <= NEAR * max(abs(p), abs(q)) for p, q in zip(a, b, strict=True)
+    )
 
 
 def pictures(page: Path) -> list[str]:

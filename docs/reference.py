@@ -2,8 +2,9 @@
 
     python docs/reference.py
 
-One page for each room of the registry, one for what a script calls, one for measuring and drawing. Nothing here is written by hand
-twice: equations (TeX), ports and sources are the docstrings', units, ranges and costs of change the declarations'.
+One page for each room of the registry, one for what a script calls, one for measuring and drawing. Nothing
+here is written by hand twice: equations (TeX), ports and sources are the docstrings', units, ranges and costs
+of change the declarations'.
 """
 
 from __future__ import annotations
@@ -28,18 +29,58 @@ MADE = "<!-- Made by docs/reference.py from the code: change the docstrings, not
 HEAD = re.compile(r"^([A-Z][A-Za-z ]*):\s*$")
 
 ROOMS = {
-    "elements": ("Elements", "What stands in a model: fields and nodes, stimuli, sensors, motors, motor variables."),
-    "couplings": ("Couplings", "Elements between elements. They are written `a >> Gain(2) >> b`, or added and connected by name."),
-    "numerics.kernels": ("Interaction kernels", "What `kernel=[...]` of a field, or of `Convolve`, holds: any number of them, summed."),
+    "elements": (
+        "Elements",
+        "What stands in a model: fields and nodes, stimuli, sensors, motors, motor variables.",
+    ),
+    "couplings": (
+        "Couplings",
+        "Elements between elements. They are written `a >> Gain(2) >> b`, or added and connected by name.",
+    ),
+    "numerics.kernels": (
+        "Interaction kernels",
+        "What `kernel=[...]` of a field, or of `Convolve`, holds: any number of them, summed.",
+    ),
     "numerics.sigmoids": ("Sigmoids", "Output functions g(u) of fields."),
-    "worlds": ("Worlds", "What a model senses and moves. A model names sensors and motors; the world that has them is chosen when it is run."),
+    "worlds": (
+        "Worlds",
+        (
+            "What a model senses and moves. A model names sensors and motors; the world that has them is"
+            " chosen when it is run."
+        ),
+    ),
 }
 
-SCRIPT = ["Axis", "Model", "Session", "simulate", "Experiment", "save", "load", "save_record", "load_record", "draw", "quote", "use_cores"]
+SCRIPT = [
+    "Axis",
+    "Model",
+    "Session",
+    "simulate",
+    "Experiment",
+    "save",
+    "load",
+    "save_record",
+    "load_record",
+    "draw",
+    "quote",
+    "use_cores",
+]
 """What a script calls, under `dd`."""
 
 CLASSES = [
-    *("Element", "Coupling", "Kernel", "SigmoidFunction", "World", "PureWorld", "Signal", "Setting", "Time", "Action", "Event"),
+    *(
+        "Element",
+        "Coupling",
+        "Kernel",
+        "SigmoidFunction",
+        "World",
+        "PureWorld",
+        "Signal",
+        "Setting",
+        "Time",
+        "Action",
+        "Event",
+    ),
     *("register", "needed", "euler"),
 ]
 """What a script derives its own kinds from, under `dd`, with what their methods get."""
@@ -55,20 +96,91 @@ MEASURES = [
     *("dd.peaks", "dd.analysis.Peaks", "dd.analysis.Peak", "dd.regimes", "dd.analysis.Regimes"),
     *("dd.thresholds", "dd.analysis.Thresholds", "dd.analysis.Transition", "dd.descend"),
     *("dd.outlives", "dd.analysis.Memory", "dd.forgetting", "dd.selects", "dd.analysis.Selection"),
-    *("dd.phase", "dd.analysis.Phase", "dd.analysis.FixedPoint", "dd.ramp", "dd.analysis.Ramp", "dd.analysis.Branch"),
-    *("dd.isolate", "dd.analysis.Isolated", "dd.settle", "dd.analysis.Settled", "dd.regimes_figure", "dd.phase_figure"),
-    *("dd.path_length", "dd.path_until", "dd.path_divergence", "dd.clearance", "dd.shortest_path", "dd.arena_grid", "dd.analysis.Grid"),
+    *(
+        "dd.phase",
+        "dd.analysis.Phase",
+        "dd.analysis.FixedPoint",
+        "dd.ramp",
+        "dd.analysis.Ramp",
+        "dd.analysis.Branch",
+    ),
+    *(
+        "dd.isolate",
+        "dd.analysis.Isolated",
+        "dd.settle",
+        "dd.analysis.Settled",
+        "dd.regimes_figure",
+        "dd.phase_figure",
+    ),
+    *(
+        "dd.path_length",
+        "dd.path_until",
+        "dd.path_divergence",
+        "dd.clearance",
+        "dd.shortest_path",
+        "dd.arena_grid",
+        "dd.analysis.Grid",
+    ),
     *("dd.wilson", "dd.mean_interval", "dd.median_interval", "dd.anova"),
-    *("dd.Factor", "dd.Measure", "dd.load_results", "dd.run_trial", "dd.run_batch", "deodar.experiments.course.Course"),
-    *("dd.Crosses", "dd.Appears", "dd.Vanishes", "dd.Reached", "dd.Within", "dd.Leaves", "dd.All", "dd.AnyOf"),
-    *("dd.Set", "dd.Ramp", "dd.Push", "dd.Place", "dd.Move", "dd.Remove", "dd.Record", "dd.Snapshot", "dd.Reset", "dd.End"),
+    *(
+        "dd.Factor",
+        "dd.Measure",
+        "dd.load_results",
+        "dd.run_trial",
+        "dd.run_batch",
+        "deodar.experiments.course.Course",
+    ),
+    *(
+        "dd.Crosses",
+        "dd.Appears",
+        "dd.Vanishes",
+        "dd.Reached",
+        "dd.Within",
+        "dd.Leaves",
+        "dd.All",
+        "dd.AnyOf",
+    ),
+    *(
+        "dd.Set",
+        "dd.Ramp",
+        "dd.Push",
+        "dd.Place",
+        "dd.Move",
+        "dd.Remove",
+        "dd.Record",
+        "dd.Snapshot",
+        "dd.Reset",
+        "dd.End",
+    ),
     *("dd.carry_out", "dd.Job", "dd.Rows"),
-    *("deodar.session.run_live.run_live", "deodar.session.meter.Meter", "deodar.session.cost.Costs", "deodar.session.cost.Cost"),
-    *("deodar.model.diagram.Diagram", "dd.read", "dd.apply_preset", "deodar.importers.report.Report", "deodar.importers.report.Line"),
+    *(
+        "deodar.session.run_live.run_live",
+        "deodar.session.meter.Meter",
+        "deodar.session.cost.Costs",
+        "deodar.session.cost.Cost",
+    ),
+    *(
+        "deodar.model.diagram.Diagram",
+        "dd.read",
+        "dd.apply_preset",
+        "deodar.importers.report.Report",
+        "deodar.importers.report.Line",
+    ),
 ]
-"""A public name stands with `dd`; a class that scripts get but do not make, or a method's function, with the module it is in."""
+"""A public name stands with `dd`; a class that scripts get but do not make, or a method's function, with the
+module it is in.
+"""
 
-FIGURES = ["time_course", "space_time", "snapshot", "snapshots", "projection", "path_figure", "animate_path", "save_figure"]
+FIGURES = [
+    "time_course",
+    "space_time",
+    "snapshot",
+    "snapshots",
+    "projection",
+    "path_figure",
+    "animate_path",
+    "save_figure",
+]
 
 
 def pages() -> dict[Path, str]:
@@ -91,7 +203,7 @@ def write() -> None:
             path.write_text(text, encoding="utf-8", newline="\n")
 
 
-# ------------------------------------------------------------------------------------------------ docstrings
+# ------------------------------------------------------------------------------------------------- docstrings
 
 
 def sections(text: str) -> tuple[str, dict[str, str]]:
@@ -105,7 +217,9 @@ def sections(text: str) -> tuple[str, dict[str, str]]:
             into = found.setdefault(head[1], [])
         else:
             into.append(line)
-    return "\n".join(opening).strip(), {name: inspect.cleandoc("\n".join(lines)) for name, lines in found.items()}
+    return "\n".join(opening).strip(), {
+        name: inspect.cleandoc("\n".join(lines)) for name, lines in found.items()
+    }
 
 
 def entries(text: str) -> dict[str, str]:
@@ -138,7 +252,7 @@ def prose(text: str) -> str:
     return re.sub(r"``([^`]+)``", r"`\1`", text)
 
 
-# ------------------------------------------------------------------------------------------------ kinds
+# ------------------------------------------------------------------------------------------------------ kinds
 
 
 def room_page(room: str) -> str:
@@ -159,13 +273,22 @@ def kind_section(cls: type) -> str:
         out += [f"```math\n{line}\n```\n" for line in docstring(cls).equation]
     described = entries(found.get("Parameters", ""))
     if issubclass(cls, Part):
-        rows = [(f"`{p.name}`", described.get(p.name, p.meaning), p.unit, default(p), limits(p), p.cost) for p in parameters(cls) if p.name != "name"]
+        rows = [
+            (f"`{p.name}`", described.get(p.name, p.meaning), p.unit, default(p), limits(p), p.cost)
+            for p in parameters(cls)
+            if p.name != "name"
+        ]
         if rows:
             out.append(table(("parameter", "meaning", "unit", "default", "range", "a change costs"), rows))
     elif described:
         out.append(table(("argument", "meaning"), [(f"`{name}`", text) for name, text in described.items()]))
     if "Ports" in found:
-        out.append(table(("port", "what it carries"), [(f"`{name}`", text) for name, text in entries(found["Ports"]).items()]))
+        out.append(
+            table(
+                ("port", "what it carries"),
+                [(f"`{name}`", text) for name, text in entries(found["Ports"]).items()],
+            )
+        )
     if "Shapes" in found:
         out.append(f"**Shapes.** {' '.join(found['Shapes'].split())}\n")
     out.append(f"**Reference.** {' '.join(found.get('Reference', 'no reference').split())}\n")
@@ -175,7 +298,12 @@ def kind_section(cls: type) -> str:
 def default(p: Parameter) -> str:
     """A default as one would type it."""
     value = p.default
-    if isinstance(value, Needed) or value is dataclasses.MISSING or value is ... or value is inspect.Parameter.empty:
+    if (
+        isinstance(value, Needed)
+        or value is dataclasses.MISSING
+        or value is ...
+        or value is inspect.Parameter.empty
+    ):
         return "required"
     if isinstance(value, float):
         return f"`{value:g}`" if abs(value) < 1e20 else "never"
@@ -193,7 +321,11 @@ def short(value: Any) -> str:
     if isinstance(value, (tuple, list)):
         return "[" + ", ".join(short(v) for v in value) + "]"
     if isinstance(value, Part):
-        shown = [f"{p.name}={short(getattr(value, p.name))}" for p in parameters(type(value)) if getattr(value, p.name) not in (None, "", ())]
+        shown = [
+            f"{p.name}={short(getattr(value, p.name))}"
+            for p in parameters(type(value))
+            if getattr(value, p.name) not in (None, "", ())
+        ]
         return f"{type(value).__name__}({', '.join(shown)})"
     if isinstance(value, float):
         return f"{value:g}"
@@ -211,7 +343,7 @@ def limits(p: Parameter) -> str:
     return f"at least {low}" if low is not None else f"at most {high}" if high is not None else ""
 
 
-# ------------------------------------------------------------------------------------------------ functions and classes
+# -------------------------------------------------------------------------------------- functions and classes
 
 
 def script_page() -> str:
@@ -219,13 +351,27 @@ def script_page() -> str:
     parts = [
         MADE,
         "# In a script\n",
-        "`import deodar as dd` gives every public name: `dd.Field`, `dd.peaks`, `dd.Arena`. A name is imported when it is first used. This page has"
-        " what every script calls; elements, couplings, kernels, sigmoids, worlds, measuring and drawing, and base classes have their own pages."
-        " `dd.analysis`, `dd.architectures`, `dd.figures` and `dd.worlds` are modules: results and published models are found there.\n",
+        (
+            "`import deodar as dd` gives every public name: `dd.Field`, `dd.peaks`, `dd.Arena`. A name is"
+            " imported when it is first used. This page has what every script calls; elements, couplings,"
+            " kernels, sigmoids, worlds, measuring and drawing, and base classes have their own pages."
+            " `dd.analysis`, `dd.architectures`, `dd.figures` and `dd.worlds` are modules: results and"
+            " published models are found there.\n"
+        ),
     ]
     parts += [section(getattr(dd, name), f"dd.{name}") for name in SCRIPT]
-    listed = [(f"`dd.errors.{n}`", opening(c)) for n, c in vars(dd.errors).items() if isinstance(c, type) and issubclass(c, dd.errors.DeodarError)]
-    parts += ["## dd.errors\n", "Every error raised on purpose is one of these. The message says what is wrong, where, and what to type.\n"]
+    listed = [
+        (f"`dd.errors.{n}`", opening(c))
+        for n, c in vars(dd.errors).items()
+        if isinstance(c, type) and issubclass(c, dd.errors.DeodarError)
+    ]
+    parts += [
+        "## dd.errors\n",
+        (
+            "Every error raised on purpose is one of these. The message says what is wrong, where, and what"
+            " to type.\n"
+        ),
+    ]
     parts.append(table(("error", "when"), listed))
     return "\n".join(parts)
 
@@ -235,34 +381,55 @@ def contract_page() -> str:
     parts = [
         MADE,
         "# Base classes and declarations\n",
-        "What a kind of your own derives from, declares and gets. [Adding an element](../adding-an-element.md) builds one step by step,"
-        " [Worlds](../worlds.md) a world.\n",
+        (
+            "What a kind of your own derives from, declares and gets. [Adding an"
+            " element](../adding-an-element.md) builds one step by step, [Worlds](../worlds.md) a world.\n"
+        ),
     ]
-    parts += [section(getattr(dd, name), f"dd.{name}", constructed=name in ("Signal", "needed", "register", "euler")) for name in CLASSES]
+    parts += [
+        section(
+            getattr(dd, name), f"dd.{name}", constructed=name in ("Signal", "needed", "register", "euler")
+        )
+        for name in CLASSES
+    ]
     for name in DECLARATIONS:
         parts.append(section(getattr(dd, name), f"dd.{name}"))
     text, found = sections(inspect.getdoc(dd.Live.__base__) or "")
     parts += ["## The arguments of a declaration\n", prose(text) + "\n", attributes(found)]
-    parts += ["## Types\n", table(("type", "what it is"), [(f"`dd.{name}`", about) for name, about in ALIASES.items()])]
+    parts += [
+        "## Types\n",
+        table(("type", "what it is"), [(f"`dd.{name}`", about) for name, about in ALIASES.items()]),
+    ]
     return "\n".join(parts)
 
 
 def analysis_page() -> str:
     """Measuring, drawing, files."""
-    parts = [MADE, "# Measuring, drawing, files\n", "Peaks, instabilities, experiments, importing, and figures of records.\n"]
+    parts = [
+        MADE,
+        "# Measuring, drawing, files\n",
+        "Peaks, instabilities, experiments, importing, and figures of records.\n",
+    ]
     for path in MEASURES:
         title = path if path.startswith("dd.") else path.rpartition(".")[2]
         parts.append(section(named(path), title, constructed=not path.startswith("dd.analysis.")))
     parts += [section(getattr(dd, name), f"dd.{name}") for name in FIGURES]
     parts.append("The words of `view`:\n")
-    parts.append(table(("argument", "meaning"), [(f"`{k}`", v) for k, v in _described(dd.figures.View).items() if k != "variable"]))
+    parts.append(
+        table(
+            ("argument", "meaning"),
+            [(f"`{k}`", v) for k, v in _described(dd.figures.View).items() if k != "variable"],
+        )
+    )
     return "\n".join(parts)
 
 
 def named(path: str) -> Any:
     """What a path such as `dd.analysis.Peaks` stands for."""
     head, _, name = path.rpartition(".")
-    return getattr(importlib.import_module(head.replace("dd", "deodar", 1) if head.split(".")[0] == "dd" else head), name)
+    return getattr(
+        importlib.import_module(head.replace("dd", "deodar", 1) if head.split(".")[0] == "dd" else head), name
+    )
 
 
 def _described(obj: Any) -> dict[str, str]:
@@ -276,17 +443,25 @@ def opening(obj: Any) -> str:
 
 
 def section(obj: Any, title: str, constructed: bool = True) -> str:
-    """One function or class: signature, docstring, public methods. Without the signature where scripts do not construct it."""
+    """One function or class: signature, docstring, public methods.
+
+    Without the signature where scripts do not construct it.
+    """
     text, found = sections(inspect.getdoc(obj) or "")
     out = [f"## {title}\n"]
-    if (title.startswith("dd.") and constructed) or (not dataclasses.is_dataclass(obj) and not inspect.isclass(obj)):
+    if (title.startswith("dd.") and constructed) or (
+        not dataclasses.is_dataclass(obj) and not inspect.isclass(obj)
+    ):
         out.append(f"```text\n{signature(obj, title)}\n```\n")
     out += [prose(text) + "\n", attributes(found)]
     for name in ("Returns", "Raises", "Reference"):
         if name in found:
             out.append(f"**{name}.** {' '.join(found[name].split())}\n")
     if inspect.isclass(obj):
-        rows = [(f"`{signature(f, name)}`" if callable(f) else f"`{name}`", opening(f)) for name, f in members(obj)]
+        rows = [
+            (f"`{signature(f, name)}`" if callable(f) else f"`{name}`", opening(f))
+            for name, f in members(obj)
+        ]
         if rows:
             out.append(table(("method or property", "what it does"), rows))
     return "\n".join(part for part in out if part)
@@ -294,15 +469,28 @@ def section(obj: Any, title: str, constructed: bool = True) -> str:
 
 def attributes(found: dict[str, str]) -> str:
     """The tables of arguments and attributes of a docstring."""
-    heads = {"Args": "argument", "Attributes": "attribute", "Class attributes": "class attribute", "What the functions see": "argument"}
-    tables = [table((head, "meaning"), [(f"`{k}`", v) for k, v in entries(found[name]).items()]) for name, head in heads.items() if name in found]
+    heads = {
+        "Args": "argument",
+        "Attributes": "attribute",
+        "Class attributes": "class attribute",
+        "What the functions see": "argument",
+    }
+    tables = [
+        table((head, "meaning"), [(f"`{k}`", v) for k, v in entries(found[name]).items()])
+        for name, head in heads.items()
+        if name in found
+    ]
     return "\n".join(tables)
 
 
 def members(cls: type) -> Iterator[tuple[str, Any]]:
     """Public methods and properties that the class itself declares and documents."""
     for name, value in vars(cls).items():
-        if not name.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)) and inspect.getdoc(value):
+        if (
+            not name.startswith("_")
+            and (inspect.isfunction(value) or isinstance(value, property))
+            and inspect.getdoc(value)
+        ):
             yield name, value
 
 
@@ -323,7 +511,9 @@ def signature(obj: Any, title: str) -> str:
 
 
 def arguments(obj: Any) -> list[inspect.Parameter]:
-    """The arguments of a call; of a part, whose constructor checks them by its declaration, the declared ones."""
+    """The arguments of a call; of a part, whose constructor checks them by its declaration, the declared
+    ones.
+    """
     found = list(inspect.signature(obj).parameters.values())
     if not dataclasses.is_dataclass(obj) or not any(p.kind is p.VAR_KEYWORD for p in found):
         return found
@@ -336,11 +526,13 @@ def arguments(obj: Any) -> list[inspect.Parameter]:
     return out
 
 
-# ------------------------------------------------------------------------------------------------ the command line
+# ------------------------------------------------------------------------------------------- the command line
 
 
 def fill(text: str) -> str:
-    """The page of the command line with every table of arguments made anew; commands that are not there are added."""
+    """The page of the command line with every table of arguments made anew; commands that are not there are
+    added.
+    """
     for name, module in cli.commands().items():
         begin, end = f"<!-- arguments of {name} -->\n", f"<!-- end of {name} -->\n"
         if begin not in text:
@@ -368,7 +560,9 @@ def written(action: argparse.Action) -> str:
     value = action.metavar or ("|".join(map(str, action.choices)) if action.choices else action.dest.upper())
     if isinstance(value, tuple):
         value = " ".join(value)
-    many = {"*": f"[{value} ...]", "+": f"{value} [{value} ...]", "?": f"[{value}]"}.get(str(action.nargs), value)
+    many = {"*": f"[{value} ...]", "+": f"{value} [{value} ...]", "?": f"[{value}]"}.get(
+        str(action.nargs), value
+    )
     if not action.option_strings:
         return many
     return ", ".join(action.option_strings) + ("" if action.nargs == 0 else f" {many}")

@@ -2,7 +2,8 @@
 
     python examples/choices.py
 
-Look at the numbers: with equal inputs half of the trials go each way; the share of the stronger one grows with its advantage.
+Look at the numbers: with equal inputs half of the trials go each way; the share of the stronger one grows
+with its advantage.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ def shares(trials: int = 200) -> list[float]:
     """For each advantage of the left input, the share of trials in which it wins."""
     model = dd.load(Path(__file__).parent / "selection.json")
     strength = model.get("left.amplitude")
-    data = dd.simulate(model, 600, trials=trials, sweep={"left.amplitude": [strength + a for a in ADVANTAGES]})
+    data = dd.simulate(
+        model, 600, trials=trials, sweep={"left.amplitude": [strength + a for a in ADVANTAGES]}
+    )
     u = data["u.activation"].isel(time=-1)
     return [float(s) for s in (u.sel(x=30) > u.sel(x=70)).mean("trial")]
 

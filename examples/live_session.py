@@ -2,7 +2,8 @@
 
     python examples/live_session.py
 
-Look at the places: the peak stays without input, follows an input nearby, and is where it was after `restore`.
+Look at the places: the peak stays without input, follows an input nearby, and is where it was after
+`restore`.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
     python examples/make.py
 
-Every function below makes one document, `NAME.json`, and its notes say what to look at. `tests/docs/test_examples.py` runs each
-of them and checks what its notes claim.
+Every function below makes one document, `NAME.json`, and its notes say what to look at.
+`tests/docs/test_examples.py` runs each of them and checks what its notes claim.
 """
 
 from __future__ import annotations
@@ -20,9 +20,16 @@ X = dd.Axis("x", 0, 100, samples=101, unit="deg")
 
 
 def field(name: str, excitation: float, inhibition: float, axis: dd.Axis = X, **others: object) -> dd.Field:
-    """A field with local excitation and global inhibition; the two numbers decide what it does with its input."""
+    """A field with local excitation and global inhibition; the two numbers decide what it does with its
+    input.
+    """
     kernel = [dd.Gaussian(excitation, 5, normalized=True)]
-    given: dict[str, object] = {"tau": 20, "resting_level": -5, "sigmoid": dd.Logistic(beta=4), "global_inhibition": inhibition} | others
+    given: dict[str, object] = {
+        "tau": 20,
+        "resting_level": -5,
+        "sigmoid": dd.Logistic(beta=4),
+        "global_inhibition": inhibition,
+    } | others
     return dd.Field(name, [axis], kernel=kernel, **given)  # type: ignore[arg-type]
 
 
@@ -33,10 +40,12 @@ def detection() -> dd.Model:
     model.add(dd.GaussianStimulus("weak", [X], center=50, sigma=5, amplitude=3.5, windows=[(100, 1000)])) >> u
     model.add(dd.GaussianStimulus("more", [X], center=50, sigma=5, amplitude=2.5, windows=[(400, 700)])) >> u
     model.describe(
-        notes="Detection. An input that grows makes a peak all at once; the peak stays when the input shrinks again. An input of 3.5"
-        " comes at 100 ms and leaves the field below threshold. At 400 ms it grows to 6 and one peak arises at 50 deg. At 700 ms"
-        " it is 3.5 again: the peak stays, where there was none before (hysteresis). At 1000 ms the input goes, and the peak"
-        " with it. Run it for 1300 ms."
+        notes=(
+            "Detection. An input that grows makes a peak all at once; the peak stays when the input shrinks"
+            " again. An input of 3.5 comes at 100 ms and leaves the field below threshold. At 400 ms it grows"
+            " to 6 and one peak arises at 50 deg. At 700 ms it is 3.5 again: the peak stays, where there was"
+            " none before (hysteresis). At 1000 ms the input goes, and the peak with it. Run it for 1300 ms."
+        )
     )
     return model
 
@@ -46,11 +55,18 @@ def selection() -> dd.Model:
     model = dd.Model("selection")
     u = model.add(field("u", 12, 0.6, noise=1.0))
     for name, center in (("left", 30), ("right", 70)):
-        model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[dd.Window(100)])) >> u
+        (
+            model.add(
+                dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=6, windows=[dd.Window(100)])
+            )
+            >> u
+        )
     model.describe(
-        notes="Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at 100 ms, at 30 and 70 deg."
-        " Both grow, and one wins: exactly one peak stands at 600 ms. Which one, the noise decides: about half of the trials"
-        " each. Run 100 trials for 600 ms."
+        notes=(
+            "Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at 100"
+            " ms, at 30 and 70 deg. Both grow, and one wins: exactly one peak stands at 600 ms. Which one,"
+            " the noise decides: about half of the trials each. Run 100 trials for 600 ms."
+        )
     )
     return model
 
@@ -58,11 +74,16 @@ def selection() -> dd.Model:
 def working_memory() -> dd.Model:
     """A peak that outlives its input."""
     model = dd.Model("working memory")
-    u = model.add(field("u", 18, 0.3, noise=0.2, quadrature="cell"))  # as points its edges are narrower than a sample: it would not drift
+    u = model.add(
+        field("u", 18, 0.3, noise=0.2, quadrature="cell")
+    )  # as points its edges are narrower than a sample: it would not drift
     model.add(dd.GaussianStimulus("cue", [X], center=35, sigma=5, amplitude=6, windows=[(100, 300)])) >> u
     model.describe(
-        notes="Working memory. A peak that outlives its input. An input at 35 deg is there from 100 to 300 ms. The peak it makes"
-        " sustains itself: at 1500 ms there is still one peak, within 5 deg of where the input was. Run it for 1500 ms."
+        notes=(
+            "Working memory. A peak that outlives its input. An input at 35 deg is there from 100 to 300 ms."
+            " The peak it makes sustains itself: at 1500 ms there is still one peak, within 5 deg of where"
+            " the input was. Run it for 1500 ms."
+        )
     )
     return model
 
@@ -73,9 +94,12 @@ def forgetting() -> dd.Model:
     model.describe(name="forgetting")
     model.add(dd.Boost("inhibition", [X], amplitude=-3, windows=[(900, 1100)])) >> model["u"]
     model.describe(
-        notes="Forgetting. Inhibition of the whole field erases a memory. The working memory again, and a homogeneous inhibition of"
-        " -3 from 900 to 1100 ms. It takes the field through the reverse detection instability: the peak is there at 900 ms,"
-        " gone at 1100 ms, and does not come back. Run it for 1500 ms."
+        notes=(
+            "Forgetting. Inhibition of the whole field erases a memory. The working memory again, and a"
+            " homogeneous inhibition of -3 from 900 to 1100 ms. It takes the field through the reverse"
+            " detection instability: the peak is there at 900 ms, gone at 1100 ms, and does not come back."
+            " Run it for 1500 ms."
+        )
     )
     return model
 
@@ -88,9 +112,12 @@ def boost() -> dd.Model:
         model.add(dd.GaussianStimulus(name, [X], center=center, sigma=5, amplitude=amplitude)) >> u
     model.add(dd.Boost("boost", [X], amplitude=2.6, windows=[(300, 900)])) >> u
     model.describe(
-        notes="Boost. Lifting the whole field turns weak traces into one decision. Two weak inputs preshape the field at 65 deg (2.0)"
-        " and 30 deg (1.4); both stay below threshold. At 300 ms a boost of 2.6 lifts the whole field, and one peak arises at"
-        " the stronger preshape, 65 deg, as high as any other. At 900 ms the boost goes, and the peak too. Run it for 1200 ms."
+        notes=(
+            "Boost. Lifting the whole field turns weak traces into one decision. Two weak inputs preshape the"
+            " field at 65 deg (2.0) and 30 deg (1.4); both stay below threshold. At 300 ms a boost of 2.6"
+            " lifts the whole field, and one peak arises at the stronger preshape, 65 deg, as high as any"
+            " other. At 900 ms the boost goes, and the peak too. Run it for 1200 ms."
+        )
     )
     return model
 
@@ -100,21 +127,52 @@ def projection() -> dd.Model:
     hue = dd.Axis("hue", 0, 360, samples=36, periodic=True, unit="deg")
     place = dd.Axis("place", 0, 50, samples=51, unit="cm")
     model = dd.Model("projection")
-    colour = model.add(dd.Field("colour", [hue], resting_level=-5, kernel=[dd.Gaussian(10, 20, normalized=True)], global_inhibition=0.02, noise=0.2))
-    scene = model.add(
-        dd.Field("scene", [place, hue], resting_level=-5, kernel=[dd.Gaussian(12, [3, 20], normalized=True)], global_inhibition=0.004, noise=0.2)
+    colour = model.add(
+        dd.Field(
+            "colour",
+            [hue],
+            resting_level=-5,
+            kernel=[dd.Gaussian(10, 20, normalized=True)],
+            global_inhibition=0.02,
+            noise=0.2,
+        )
     )
-    where = model.add(dd.Field("where", [place], resting_level=-5, kernel=[dd.Gaussian(10, 3, normalized=True)], global_inhibition=0.1, noise=0.2))
+    scene = model.add(
+        dd.Field(
+            "scene",
+            [place, hue],
+            resting_level=-5,
+            kernel=[dd.Gaussian(12, [3, 20], normalized=True)],
+            global_inhibition=0.004,
+            noise=0.2,
+        )
+    )
+    where = model.add(
+        dd.Field(
+            "where",
+            [place],
+            resting_level=-5,
+            kernel=[dd.Gaussian(10, 3, normalized=True)],
+            global_inhibition=0.1,
+            noise=0.2,
+        )
+    )
     for name, at in (("red", [12, 0]), ("green", [36, 120])):
         model.add(dd.GaussianStimulus(name, [place, hue], center=at, sigma=[3, 20], amplitude=3.5)) >> scene
-    model.add(dd.GaussianStimulus("cue", [hue], center=120, sigma=20, amplitude=7, windows=[(300, 5000)])) >> colour
+    (
+        model.add(dd.GaussianStimulus("cue", [hue], center=120, sigma=20, amplitude=7, windows=[(300, 5000)]))
+        >> colour
+    )
     colour >> dd.Gain(3) >> model.add(dd.Project([place, hue], name="expand")) >> scene
     scene >> model.add(dd.Project([place], name="contract")) >> dd.Gain(0.15) >> where
     model.describe(
-        notes="Projection. A colour selects a place, through a field over both. A scene of two objects, red at 12 cm and green at 36"
-        " cm, over place and hue; neither makes a peak. At 300 ms a colour cue makes a peak at 120 deg in `colour`; its output"
-        " expands over place into a ridge in `scene`, where it meets the green object: one peak. Contracted over hue it makes"
-        " one peak in `where`, at 36 cm. Run it for 900 ms."
+        notes=(
+            "Projection. A colour selects a place, through a field over both. A scene of two objects, red at"
+            " 12 cm and green at 36 cm, over place and hue; neither makes a peak. At 300 ms a colour cue"
+            " makes a peak at 120 deg in `colour`; its output expands over place into a ridge in `scene`,"
+            " where it meets the green object: one peak. Contracted over hue it makes one peak in `where`, at"
+            " 36 cm. Run it for 900 ms."
+        )
     )
     return model
 
@@ -122,13 +180,19 @@ def projection() -> dd.Model:
 def node() -> dd.Model:
     """A node with self-excitation: a switch."""
     model = dd.Model("node")
-    u = model.add(dd.Field("u", [], tau=20, resting_level=-2, sigmoid=dd.Logistic(beta=8), kernel=[dd.Gaussian(4)], noise=0.1))
+    u = model.add(
+        dd.Field(
+            "u", [], tau=20, resting_level=-2, sigmoid=dd.Logistic(beta=8), kernel=[dd.Gaussian(4)], noise=0.1
+        )
+    )
     model.add(dd.Boost("on", [], amplitude=3, windows=[(200, 350)])) >> u
     model.add(dd.Boost("off", [], amplitude=-3, windows=[(700, 850)])) >> u
     model.describe(
-        notes="Node. A field of no dimension that excites itself is a switch. With self-excitation 4 and resting level -2 it has two"
-        " stable states, near -2 and +2. A pulse at 200 ms turns it on, and it stays on; a pulse at 700 ms turns it off, and it"
-        " stays off. Run it for 1100 ms."
+        notes=(
+            "Node. A field of no dimension that excites itself is a switch. With self-excitation 4 and"
+            " resting level -2 it has two stable states, near -2 and +2. A pulse at 200 ms turns it on, and"
+            " it stays on; a pulse at 700 ms turns it off, and it stays off. Run it for 1100 ms."
+        )
     )
     return model
 
@@ -137,13 +201,27 @@ def correlated_noise() -> dd.Model:
     """Noise with a correlation length makes peaks by itself, here and there."""
     model = dd.Model("correlated noise")
     kernel = [dd.Gaussian(12, 5, normalized=True)]
-    model.add(dd.Field("u", [X], tau=10, resting_level=-1.5, kernel=kernel, global_inhibition=0.5, noise=3, noise_length=8))
+    model.add(
+        dd.Field(
+            "u",
+            [X],
+            tau=10,
+            resting_level=-1.5,
+            kernel=kernel,
+            global_inhibition=0.5,
+            noise=3,
+            noise_length=8,
+        )
+    )
     model.describe(
-        notes="Correlated noise. Noise that neighbours share makes peaks by itself, here and there. A field below detection, without"
-        " any input. Neighbours within about 8 deg share their noise, so that it can lift a whole stretch over the threshold. At"
-        " 400 ms about half of the trials hold one peak, none holds two, and the peaks stand all over the field. `noise` is here"
-        " the standard deviation at a point; with a correlation length, refining the grid leaves the rate of such events as it"
-        " is. Run 100 trials for 400 ms."
+        notes=(
+            "Correlated noise. Noise that neighbours share makes peaks by itself, here and there. A field"
+            " below detection, without any input. Neighbours within about 8 deg share their noise, so that it"
+            " can lift a whole stretch over the threshold. At 400 ms about half of the trials hold one peak,"
+            " none holds two, and the peaks stand all over the field. `noise` is here the standard deviation"
+            " at a point; with a correlation length, refining the grid leaves the rate of such events as it"
+            " is. Run 100 trials for 400 ms."
+        )
     )
     return model
 
@@ -152,12 +230,25 @@ def timed_stimuli() -> dd.Model:
     """Stimuli that come and go: a script without a script."""
     model = dd.Model("timed stimuli")
     u = model.add(field("u", 10, 0.3))
-    model.add(dd.BoxStimulus("early", [X], center=20, width=12, amplitude=6, windows=[(100, 300), (700, 900)])) >> u
-    model.add(dd.BoxStimulus("late", [X], center=80, width=12, amplitude=6, windows=[(400, 600), (1000, 1200)])) >> u
+    (
+        model.add(
+            dd.BoxStimulus("early", [X], center=20, width=12, amplitude=6, windows=[(100, 300), (700, 900)])
+        )
+        >> u
+    )
+    (
+        model.add(
+            dd.BoxStimulus("late", [X], center=80, width=12, amplitude=6, windows=[(400, 600), (1000, 1200)])
+        )
+        >> u
+    )
     model.describe(
-        notes="Timed stimuli. Inputs come and go at times that stand in the document. Two box stimuli, each on in two windows of"
-        " time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at 550 and 1150 ms, and nowhere at 50, 380 and 680 ms:"
-        " the windows are part of the document. Run it for 1300 ms."
+        notes=(
+            "Timed stimuli. Inputs come and go at times that stand in the document. Two box stimuli, each on"
+            " in two windows of time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at 550 and 1150"
+            " ms, and nowhere at 50, 380 and 680 ms: the windows are part of the document. Run it for"
+            " 1300 ms."
+        )
     )
     return model
 
@@ -166,8 +257,12 @@ def behaviour() -> dd.Model:
     """The template: an intention that a condition of satisfaction switches off."""
     model = dd.Model("behaviour")
     sharp = dd.Logistic(beta=8)
-    intention = model.add(dd.Field("intention", [], tau=20, resting_level=-2, sigmoid=sharp, kernel=[dd.Gaussian(4)]))
-    satisfied = model.add(dd.Field("satisfied", [], tau=20, resting_level=-4, sigmoid=sharp, kernel=[dd.Gaussian(2)]))
+    intention = model.add(
+        dd.Field("intention", [], tau=20, resting_level=-2, sigmoid=sharp, kernel=[dd.Gaussian(4)])
+    )
+    satisfied = model.add(
+        dd.Field("satisfied", [], tau=20, resting_level=-4, sigmoid=sharp, kernel=[dd.Gaussian(2)])
+    )
     intention >> model.add(dd.Gain(2.5, name="expects")) >> satisfied
     satisfied >> model.add(dd.Gain(-6, name="ends")) >> intention
     return model
@@ -185,14 +280,24 @@ def groups() -> dd.Model:
     model.add(dd.Boost("start", [], amplitude=4, windows=[(100, 200)])) >> model["search.intention"]
     for k, name in enumerate(names):
         begins = 500.0 + 600 * k
-        model.add(dd.Boost(f"{name} done", [], amplitude=3, windows=[(begins, begins + 200)])) >> model[f"{name}.satisfied"]
+        (
+            model.add(dd.Boost(f"{name} done", [], amplitude=3, windows=[(begins, begins + 200)]))
+            >> model[f"{name}.satisfied"]
+        )
     for before, after in itertools.pairwise(names):
-        model[f"{before}.satisfied"] >> model.add(dd.Gain(4, name=f"{before} then {after}")) >> model[f"{after}.intention"]
+        (
+            model[f"{before}.satisfied"]
+            >> model.add(dd.Gain(4, name=f"{before} then {after}"))
+            >> model[f"{after}.intention"]
+        )
     model.describe(
-        notes="Groups. Four behaviours take turns, each until its condition of satisfaction. They are copied from one template: a"
-        " bistable intention node and a condition of satisfaction that ends it. One intention is on at a time, in the order"
-        " search, approach, grasp, lift; each goes off when its signal `done` comes, at 500, 1100, 1700 and 2300 ms, and hands"
-        " over to the next. The document parameter `tempo` is the time constant of all eight nodes. Run it for 2800 ms."
+        notes=(
+            "Groups. Four behaviours take turns, each until its condition of satisfaction. They are copied"
+            " from one template: a bistable intention node and a condition of satisfaction that ends it. One"
+            " intention is on at a time, in the order search, approach, grasp, lift; each goes off when its"
+            " signal `done` comes, at 500, 1100, 1700 and 2300 ms, and hands over to the next. The document"
+            " parameter `tempo` is the time constant of all eight nodes. Run it for 2800 ms."
+        )
     )
     return model
 
@@ -202,14 +307,28 @@ def motor_attractor() -> dd.Model:
     heading = dd.Axis("heading", -180, 180, samples=180, periodic=True, unit="deg")
     model = dd.Model("motor attractor")
     target = model.add(field("target", 10, 0.1, heading, noise=0.1))
-    model.add(dd.GaussianStimulus("first", [heading], center=150, sigma=8, amplitude=7, windows=[(200, 900)])) >> target
-    model.add(dd.GaussianStimulus("second", [heading], center=-120, sigma=8, amplitude=7, windows=[(1300, 2000)])) >> target
+    (
+        model.add(
+            dd.GaussianStimulus("first", [heading], center=150, sigma=8, amplitude=7, windows=[(200, 900)])
+        )
+        >> target
+    )
+    (
+        model.add(
+            dd.GaussianStimulus(
+                "second", [heading], center=-120, sigma=8, amplitude=7, windows=[(1300, 2000)]
+            )
+        )
+        >> target
+    )
     target >> model.add(dd.Attractor("turn", heading, tau=1500, initial=0))
     model.describe(
-        notes="Motor attractor. A motor variable turns to the place of a peak, and stays where it is without one. The peak of"
-        " `target` draws the motor variable `turn` to 150 deg; without a peak, from 900 to 1300 ms, it stays there. Then a peak"
-        " at -120 deg draws it the short way round, over 180 deg: it ends at -120 deg and never passes 0 on this way. Run it for"
-        " 2000 ms."
+        notes=(
+            "Motor attractor. A motor variable turns to the place of a peak, and stays where it is without"
+            " one. The peak of `target` draws the motor variable `turn` to 150 deg; without a peak, from 900"
+            " to 1300 ms, it stays there. Then a peak at -120 deg draws it the short way round, over 180 deg:"
+            " it ends at -120 deg and never passes 0 on this way. Run it for 2000 ms."
+        )
     )
     return model
 
@@ -218,10 +337,13 @@ def saliency() -> dd.Model:
     """The architecture of `deodar demo saliency`."""
     model = dd.architectures.saliency(hue=0.0)
     model.describe(
-        notes="Saliency. A colour cue selects an object in a picture, and a motor variable turns to it. Sandamirskaya (2014), figure"
-        " 2, over both dimensions of a picture. It senses a picture, so it is run with one: --world picture:FILE. A cue for red"
-        " comes at 500 ms; where the picture holds a red object, exactly one peak arises on it in `perceptual` and in `spatial`,"
-        " and `pan` and `tilt` turn to it. Run it for 3500 ms."
+        notes=(
+            "Saliency. A colour cue selects an object in a picture, and a motor variable turns to it."
+            " Sandamirskaya (2014), figure 2, over both dimensions of a picture. It senses a picture, so it"
+            " is run with one: --world picture:FILE. A cue for red comes at 500 ms; where the picture holds a"
+            " red object, exactly one peak arises on it in `perceptual` and in `spatial`, and `pan` and"
+            " `tilt` turn to it. Run it for 3500 ms."
+        )
     )
     return model
 
@@ -230,10 +352,14 @@ def plan() -> dd.Model:
     """A plan on a line: `dd.architectures.plan`."""
     model = dd.architectures.plan()
     model.describe(
-        notes="Plan. A wave of motivation spreads from a goal until it meets the walker, who then goes there. Billing, Lowe & Sandamirskaya (2015),"
-        " figure 3. The goal is at 40 cm; in `left.motivation` the wave spreads to the right at a constant speed. Near step 85 it is at 100 cm,"
-        " where the walker stands: its place releases the precondition, `left.intention` rises, and it walks (`gone`). At step 450 the goal goes to"
-        " 150 cm: the plan decays, another one spreads, and it walks back. Time is in steps of 64 ms. Run it for 1200 steps."
+        notes=(
+            "Plan. A wave of motivation spreads from a goal until it meets the walker, who then goes there."
+            " Billing, Lowe & Sandamirskaya (2015), figure 3. The goal is at 40 cm; in `left.motivation` the"
+            " wave spreads to the right at a constant speed. Near step 85 it is at 100 cm, where the walker"
+            " stands: its place releases the precondition, `left.intention` rises, and it walks (`gone`). At"
+            " step 450 the goal goes to 150 cm: the plan decays, another one spreads, and it walks back. Time"
+            " is in steps of 64 ms. Run it for 1200 steps."
+        )
     )
     return model
 
@@ -242,10 +368,14 @@ def spa() -> dd.Model:
     """The architecture of `deodar demo spa`, for the Z-maze in metres."""
     model = dd.architectures.spa(dd.Arena("z"))
     model.describe(
-        notes="Simultaneous planning and action. A robot plans its way through a maze by a wave of motivation, and follows it. Billing, Lowe &"
-        " Sandamirskaya (2015), figure 4. It is run in an arena: --world arena:z. Four behaviours go north, south, west and east; each has a"
-        " motivation, a precondition, an intention and a condition of satisfaction over the whole maze. Where the wave meets the robot, an intention"
-        " rises, and the action field turns the wheels. Time is in steps of 64 ms. Run it for 1000 steps."
+        notes=(
+            "Simultaneous planning and action. A robot plans its way through a maze by a wave of motivation,"
+            " and follows it. Billing, Lowe & Sandamirskaya (2015), figure 4. It is run in an arena: --world"
+            " arena:z. Four behaviours go north, south, west and east; each has a motivation, a precondition,"
+            " an intention and a condition of satisfaction over the whole maze. Where the wave meets the"
+            " robot, an intention rises, and the action field turns the wheels. Time is in steps of 64 ms."
+            " Run it for 1000 steps."
+        )
     )
     return model
 
@@ -254,10 +384,14 @@ def behaviours() -> dd.Model:
     """Templates: `dd.architectures.behaviour`."""
     model = dd.architectures.behaviours()
     model.describe(
-        notes="Behaviours. Five elementary behaviours order themselves by precondition, suppression and competition. All tasks but `avoid` come at"
-        " 100 ms. `find` is satisfied at 500 ms; only then `reach` begins. An obstacle from 900 to 1200 ms turns `avoid` on, which suppresses"
-        " `reach`; afterwards it goes on, until the hand is at the target at 1600 ms, where `reach.outcome` predicts it. `look left` and"
-        " `look right` compete: noise decides which is first, the other has its turn when that is satisfied, at 700 ms. Run it for 2400 ms."
+        notes=(
+            "Behaviours. Five elementary behaviours order themselves by precondition, suppression and"
+            " competition. All tasks but `avoid` come at 100 ms. `find` is satisfied at 500 ms; only then"
+            " `reach` begins. An obstacle from 900 to 1200 ms turns `avoid` on, which suppresses `reach`;"
+            " afterwards it goes on, until the hand is at the target at 1600 ms, where `reach.outcome`"
+            " predicts it. `look left` and `look right` compete: noise decides which is first, the other has"
+            " its turn when that is satisfied, at 700 ms. Run it for 2400 ms."
+        )
     )
     return model
 
@@ -267,11 +401,14 @@ def serial_order() -> dd.Model:
     model = dd.architectures.lesson([30.0, 6.0, 30.0, 54.0])
     model.describe(
         name="serial order",
-        notes="Serial order. A chain of ordinal nodes learns a sequence of four actions, one of them twice, and produces it. Sandamirskaya & Schöner"
-        " (2010), without a robot. From 1000 to 5000 ms the actions 30, 6, 30, 54 are shown, one a second, and the weights `meaning` of one ordinal"
-        " node after the other learn them. At 5000 ms all is cleared but the weights, at 5300 ms the first node is started. From 6000 ms on the"
-        " places 6, 30 and 54 are perceived in turn, over and over; each action waits for its own, and the order is 30, 6, 30, 54 again."
-        " Run it for 11200 ms.",
+        notes=(
+            "Serial order. A chain of ordinal nodes learns a sequence of four actions, one of them twice, and"
+            " produces it. Sandamirskaya & Schöner (2010), without a robot. From 1000 to 5000 ms the actions"
+            " 30, 6, 30, 54 are shown, one a second, and the weights `meaning` of one ordinal node after the"
+            " other learn them. At 5000 ms all is cleared but the weights, at 5300 ms the first node is"
+            " started. From 6000 ms on the places 6, 30 and 54 are perceived in turn, over and over; each"
+            " action waits for its own, and the order is 30, 6, 30, 54 again. Run it for 11200 ms."
+        ),
     )
     return model
 
@@ -280,9 +417,13 @@ def binding() -> dd.Model:
     """Templates: `dd.architectures.feature_space`."""
     model = dd.architectures.binding()
     model.describe(
-        notes="Binding. What is where: a cue for a feature brings its place, a cue for a place its feature. Three objects lie below threshold in"
-        " `bound`. At 200 ms a cue for 120 deg in `feature` makes a ridge, which meets the green object: one peak at 50 deg in `space`. It outlives"
-        " the cue, until all is released at 800 ms. At 1000 ms a cue for 80 deg in `space` brings 240 deg in `feature`. Run it for 1800 ms."
+        notes=(
+            "Binding. What is where: a cue for a feature brings its place, a cue for a place its feature."
+            " Three objects lie below threshold in `bound`. At 200 ms a cue for 120 deg in `feature` makes a"
+            " ridge, which meets the green object: one peak at 50 deg in `space`. It outlives the cue, until"
+            " all is released at 800 ms. At 1000 ms a cue for 80 deg in `space` brings 240 deg in `feature`."
+            " Run it for 1800 ms."
+        )
     )
     return model
 
@@ -291,9 +432,13 @@ def remapping() -> dd.Model:
     """Templates: `dd.architectures.reference_frame`."""
     model = dd.architectures.remapping()
     model.describe(
-        notes="Remapping. From the retina to the body, by a steered shift and by the diagonals of a field: both say the same. An object stands still"
-        " at 12 deg before the body; the gaze jumps to 15 deg at 400 ms and to -10 deg at 800 ms, so that it jumps on the retina to -3 and 22 deg."
-        " In both fields `body` its peak is at 12 deg before and after. At 1000 ms another object appears at -25 deg. Run it for 1400 ms."
+        notes=(
+            "Remapping. From the retina to the body, by a steered shift and by the diagonals of a field: both"
+            " say the same. An object stands still at 12 deg before the body; the gaze jumps to 15 deg at 400"
+            " ms and to -10 deg at 800 ms, so that it jumps on the retina to -3 and 22 deg. In both fields"
+            " `body` its peak is at 12 deg before and after. At 1000 ms another object appears at -25 deg."
+            " Run it for 1400 ms."
+        )
     )
     return model
 
@@ -303,10 +448,13 @@ def change_detection() -> dd.Model:
     model = dd.architectures.change_trial()
     model.describe(
         name="change detection",
-        notes="Change detection. Three colours are remembered, one has changed when they are shown again: different. A sample of 40, 130 and 250 deg"
-        " is shown from 200 ms to 700 ms; `memory` takes it over and keeps it, and inhibits `contrast` there. The test at 1700 ms has 180 instead of"
-        " 130 deg: it alone makes a peak in `contrast`, and the node `different` comes on. Set `test 2.center` to 130, and `same` does. Run it for"
-        " 2600 ms.",
+        notes=(
+            "Change detection. Three colours are remembered, one has changed when they are shown again:"
+            " different. A sample of 40, 130 and 250 deg is shown from 200 ms to 700 ms; `memory` takes it"
+            " over and keeps it, and inhibits `contrast` there. The test at 1700 ms has 180 instead of 130"
+            " deg: it alone makes a peak in `contrast`, and the node `different` comes on. Set `test"
+            " 2.center` to 130, and `same` does. Run it for 2600 ms."
+        ),
     )
     return model
 

@@ -2,8 +2,8 @@
 
     python examples/pictures.py
 
-Every function below runs one document for as long as its notes say and draws it, `NAME.png`. Activation is drawn from dark to bright, the
-threshold as a thin line; time runs to the right.
+Every function below runs one document for as long as its notes say and draws it, `NAME.png`. Activation is
+drawn from dark to bright, the threshold as a thin line; time runs to the right.
 """
 
 from __future__ import annotations
@@ -40,10 +40,12 @@ def run(name: str, *paths: str, seed: int = 0) -> xarray.Dataset:
     model = dd.load(HERE / f"{name}.json")
     found = re.search(r"(\d+) ms\.$", model.document.notes)
     assert found is not None
-    return dd.simulate(model, float(found[1]), seed=seed, record=list(paths), every=5 * model.document.step, progress=False)
+    return dd.simulate(
+        model, float(found[1]), seed=seed, record=list(paths), every=5 * model.document.step, progress=False
+    )
 
 
-# ------------------------------------------------------------------------------------------------ what is drawn
+# ---------------------------------------------------------------------------------------------- what is drawn
 
 
 def blank() -> Figure:
@@ -61,9 +63,25 @@ def part(figure: Figure, box: Box = WHOLE) -> Axes:
 def heat(axes: Axes, values: np.ndarray, low: float, high: float, threshold: bool = True) -> None:
     """Activation over two dimensions, the second upwards."""
     width, height = values.shape
-    axes.imshow(values.T, origin="lower", aspect="auto", cmap=COLORS, vmin=low, vmax=high, extent=(0, width, 0, height), interpolation="bilinear")
+    axes.imshow(
+        values.T,
+        origin="lower",
+        aspect="auto",
+        cmap=COLORS,
+        vmin=low,
+        vmax=high,
+        extent=(0, width, 0, height),
+        interpolation="bilinear",
+    )
     if threshold and values.min() < 0 < values.max():
-        axes.contour(np.arange(width) + 0.5, np.arange(height) + 0.5, values.T, levels=[0], colors=[LINE], linewidths=0.8)
+        axes.contour(
+            np.arange(width) + 0.5,
+            np.arange(height) + 0.5,
+            values.T,
+            levels=[0],
+            colors=[LINE],
+            linewidths=0.8,
+        )
     axes.set_xlim(0, width)
     axes.set_ylim(0, height)
 
@@ -85,7 +103,7 @@ def space_time(name: str, seed: int = 0, darkest: float = 0.01) -> Figure:
     return figure
 
 
-# ------------------------------------------------------------------------------------------------ the examples
+# ----------------------------------------------------------------------------------------------- the examples
 
 
 def detection() -> Figure:
@@ -130,8 +148,20 @@ def projection() -> Figure:
     scene, colour, where = (end[f"{name}.activation"].values for name in ("scene", "colour", "where"))
     low = min(float(u.min()) for u in (scene, colour, where))
     heat(part(figure, (0.1, 0.16, 0.9, 0.84)), scene, low, float(scene.max()))
-    heat(part(figure, (0, 0.16, 0.085, 0.84)), np.repeat(colour[None], 2, 0), low, float(colour.max()), threshold=False)
-    heat(part(figure, (0.1, 0, 0.9, 0.136)), np.repeat(where[:, None], 2, 1), low, float(where.max()), threshold=False)
+    heat(
+        part(figure, (0, 0.16, 0.085, 0.84)),
+        np.repeat(colour[None], 2, 0),
+        low,
+        float(colour.max()),
+        threshold=False,
+    )
+    heat(
+        part(figure, (0.1, 0, 0.9, 0.136)),
+        np.repeat(where[:, None], 2, 1),
+        low,
+        float(where.max()),
+        threshold=False,
+    )
     return figure
 
 
@@ -173,15 +203,29 @@ def saliency() -> Figure:
     model = dd.load(HERE / "saliency.json")
     model.set("cue.center", 5.0)
     paths = ["eye.output", "spatial.activation", "pan.output", "tilt.output"]
-    end = dd.simulate(model, 3500, record=paths, every=3500, world=scene.picture, progress=False).isel(time=-1)
+    end = dd.simulate(model, 3500, record=paths, every=3500, world=scene.picture, progress=False).isel(
+        time=-1
+    )
     seen, u = end["eye.output"].values, end["spatial.activation"]
     width, height = scene.picture.size
     x, y = u[u.dims[0]].values, u[u.dims[1]].values
     side = float(x[0] + x[-1])
     axes = part(figure)
-    axes.imshow(0.15 + 0.75 * seen.transpose(1, 0, 2), extent=(0, side, side, 0), interpolation="nearest", aspect="auto")
+    axes.imshow(
+        0.15 + 0.75 * seen.transpose(1, 0, 2),
+        extent=(0, side, side, 0),
+        interpolation="nearest",
+        aspect="auto",
+    )
     axes.contour(x, y, u.values.T, levels=[0], colors=["white"], linewidths=2)
-    axes.plot(float(end["pan.output"]), float(end["tilt.output"]), "+", color="white", markersize=11, markeredgewidth=2)
+    axes.plot(
+        float(end["pan.output"]),
+        float(end["tilt.output"]),
+        "+",
+        color="white",
+        markersize=11,
+        markeredgewidth=2,
+    )
     half = side / 2 * min(height / width, SIZE[1] / SIZE[0])
     axes.set_xlim(0, side)
     axes.set_ylim(side / 2 + half, side / 2 - half)
@@ -191,10 +235,21 @@ def saliency() -> Figure:
 def plan() -> Figure:
     """The wave that goes left first and right later, and the walker's way."""
     figure = blank()
-    data = dd.simulate(dd.load(HERE / "plan.json"), 1200, record=["left.motivation.activation", "gone.activation"], every=5, progress=False)
+    data = dd.simulate(
+        dd.load(HERE / "plan.json"),
+        1200,
+        record=["left.motivation.activation", "gone.activation"],
+        every=5,
+        progress=False,
+    )
     axes = part(figure)
     heat(axes, data["left.motivation.activation"].values, -12, 10, threshold=False)
-    axes.plot(np.arange(len(data["time"])) + 0.5, dd.architectures.PLAN_START + data["gone.activation"].values, color="white", linewidth=2.2)
+    axes.plot(
+        np.arange(len(data["time"])) + 0.5,
+        dd.architectures.PLAN_START + data["gone.activation"].values,
+        color="white",
+        linewidth=2.2,
+    )
     return figure
 
 
@@ -203,13 +258,24 @@ def spa() -> Figure:
     figure = blank()
     arena = dd.architectures.maze("z")
     model = dd.architectures.spa(arena)
-    data = dd.simulate(model, 220, record=["north.motivation.activation"], every=220, world=arena, progress=False)
-    pose = dd.simulate(model, 760, record=["pose.output"], every=5, world=arena, progress=False)["pose.output"].values
+    data = dd.simulate(
+        model, 220, record=["north.motivation.activation"], every=220, world=arena, progress=False
+    )
+    pose = dd.simulate(model, 760, record=["pose.output"], every=5, world=arena, progress=False)[
+        "pose.output"
+    ].values
     u = data["north.motivation.activation"].isel(time=-1)
     x, y = u["x"].values, u["y"].values
     axes = part(figure)
     axes.imshow(
-        u.values.T, extent=(x[0], x[-1], y[0], y[-1]), cmap=COLORS, vmin=-12, vmax=10, interpolation="bilinear", aspect="auto", origin="lower"
+        u.values.T,
+        extent=(x[0], x[-1], y[0], y[-1]),
+        cmap=COLORS,
+        vmin=-12,
+        vmax=10,
+        interpolation="bilinear",
+        aspect="auto",
+        origin="lower",
     )
     axes.plot(pose[:, 0], pose[:, 1], color="white", linewidth=2.2)
     axes.plot(pose[0, 0], pose[0, 1], "o", color="white", markersize=7)
@@ -222,7 +288,9 @@ def behaviours() -> Figure:
     names = ("find", "reach", "avoid", "look left", "look right")
     data = run("behaviours", *(f"{name}.intention.activation" for name in names))
     for k, name in enumerate(names):
-        course(part(figure, (0, 0.8 - 0.2 * k, 1, 0.2)), data[f"{name}.intention.activation"].clip(min=-6), -7, 5)
+        course(
+            part(figure, (0, 0.8 - 0.2 * k, 1, 0.2)), data[f"{name}.intention.activation"].clip(min=-6), -7, 5
+        )
     return figure
 
 
@@ -305,7 +373,11 @@ def write(figure: Figure, path: Path, photograph: bool) -> None:
     drawn = io.BytesIO()
     FigureCanvasAgg(figure).print_png(drawn)
     picture = Image.open(drawn).convert("RGB").resize(SIZE, Image.Resampling.BOX)
-    few = picture.quantize(40) if photograph else picture.quantize(palette=scale_colors(), dither=Image.Dither.NONE)
+    few = (
+        picture.quantize(40)
+        if photograph
+        else picture.quantize(palette=scale_colors(), dither=Image.Dither.NONE)
+    )
     few.save(path, optimize=True)
 
 

@@ -2,10 +2,12 @@
 
     python examples/reaction_time.py
 
-Two equal inputs come at 100 ms, and a trial ends when a peak has formed. Look at the figure: near targets add up and are answered soonest, at a
-place between them; far ones inhibit each other and take longest. A pre-shape, which is there from the start and too weak for a peak, makes the
-answer to the expected target come sooner, and this target is chosen. Without a pre-shape the model is symmetric: the share of peaks left of the
-middle is one half. A peak exactly at the middle would count half. Bands are 95 % intervals: of medians by the binomial law, of shares by Wilson's.
+Two equal inputs come at 100 ms, and a trial ends when a peak has formed. Look at the figure: near targets add
+up and are answered soonest, at a place between them; far ones inhibit each other and take longest. A
+pre-shape, which is there from the start and too weak for a peak, makes the answer to the expected target come
+sooner, and this target is chosen. Without a pre-shape the model is symmetric: the share of peaks left of the
+middle is one half. A peak exactly at the middle would count half. Bands are 95 % intervals: of medians by the
+binomial law, of shares by Wilson's.
 """
 
 from __future__ import annotations
@@ -30,30 +32,49 @@ def experiment(trials: int = 100) -> dd.Experiment:
     x = dd.Axis("x", 0, 100, samples=101, unit="deg")
     model = dd.Model("reaction time")
     kernel = [dd.Gaussian(amplitude=1.2, sigma=5)]
-    u = model.add(dd.Field("u", [x], tau=20, resting_level=RESTING, kernel=kernel, global_inhibition=0.6, noise=1.0))
+    u = model.add(
+        dd.Field("u", [x], tau=20, resting_level=RESTING, kernel=kernel, global_inhibition=0.6, noise=1.0)
+    )
     for name in ("left", "right"):
-        model.add(dd.GaussianStimulus(name, [x], center=MIDDLE, sigma=5, amplitude=5, windows=[(ONSET, 1e9)])) >> u
+        (
+            model.add(
+                dd.GaussianStimulus(name, [x], center=MIDDLE, sigma=5, amplitude=5, windows=[(ONSET, 1e9)])
+            )
+            >> u
+        )
     model.add(dd.GaussianStimulus("preshape", [x], center=MIDDLE, sigma=5, amplitude=1)) >> u
-    places = {d: {"left.center": MIDDLE - d / 2, "right.center": MIDDLE + d / 2, "preshape.center": MIDDLE - d / 2} for d in DISTANCES}
+    places = {
+        d: {"left.center": MIDDLE - d / 2, "right.center": MIDDLE + d / 2, "preshape.center": MIDDLE - d / 2}
+        for d in DISTANCES
+    }
     return dd.Experiment(
         "reaction time",
         model,
         limit=600,
         trials=trials,
         conditions=[dd.Appears("detected", "u")],
-        factors=[dd.Factor("distance", {f"{d} deg": p for d, p in places.items()}), dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude")],
-        measures=[dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)],  # at detection only one sample is above 0
+        factors=[
+            dd.Factor("distance", {f"{d} deg": p for d, p in places.items()}),
+            dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude"),
+        ],
+        measures=[
+            dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)
+        ],  # at detection only one sample is above 0
     )
 
 
 def left_of_middle(places: np.ndarray) -> tuple[float, int]:
-    """How many peaks are left of the middle, those exactly at the middle counted half, and how many peaks there are."""
+    """How many peaks are left of the middle, those exactly at the middle counted half, and how many peaks
+    there are.
+    """
     found = places[~np.isnan(places)]
     return float((found < MIDDLE).sum() + 0.5 * (found == MIDDLE).sum()), len(found)
 
 
 def reactions(data: xarray.Dataset, preshape: float) -> dict[str, list[tuple[float, tuple[float, float]]]]:
-    """For each distance the median time from the onset to a peak, and the share of peaks left of the middle, with their intervals."""
+    """For each distance the median time from the onset to a peak, and the share of peaks left of the middle,
+    with their intervals.
+    """
     out: dict[str, list[tuple[float, tuple[float, float]]]] = {"time": [], "left": []}
     for d in DISTANCES:
         cell = data.isel(trial=((data["distance"] == f"{d} deg") & (data["preshape"] == preshape)).values)
@@ -88,7 +109,10 @@ if __name__ == "__main__":
     found = experiment().run()
     for preshape in (0.0, 1.0):
         row = reactions(found, preshape)
-        told = "   ".join(f"{d} deg: {t:3.0f} ms {100 * s:3.0f} %" for d, (t, _), (s, _) in zip(DISTANCES, row["time"], row["left"], strict=True))
+        told = "   ".join(
+            f"{d} deg: {t:3.0f} ms {100 * s:3.0f} %"
+            for d, (t, _), (s, _) in zip(DISTANCES, row["time"], row["left"], strict=True)
+        )
         print(f"pre-shape {preshape:g}:  {told}")
     figure(found).savefig(Path("reaction_time.png"), dpi=120)
     print("The figure is reaction_time.png")

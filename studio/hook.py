@@ -1,4 +1,6 @@
-"""What hatchling calls before it makes a wheel, an sdist or an editable installation: the page of the studio is built first."""
+"""What hatchling calls before it makes a wheel, an sdist or an editable installation: the page of the studio
+is built first.
+"""
 
 from __future__ import annotations
 

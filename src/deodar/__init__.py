@@ -33,8 +33,14 @@ def __getattr__(name: str) -> Any:
     """Import a public name when it is first used, so that `import deodar` imports neither JAX nor NumPy."""
     home = _HOMES.get(name)
     if home is None:
-        raise importlib.import_module("deodar.renamed").missing("deodar", name, _HOMES)  # `from deodar import` would ask here again
-    found = importlib.import_module(f"deodar.{name}") if home == "deodar" else getattr(importlib.import_module(home), name)
+        raise importlib.import_module("deodar.renamed").missing(
+            "deodar", name, _HOMES
+        )  # `from deodar import` would ask here again
+    found = (
+        importlib.import_module(f"deodar.{name}")
+        if home == "deodar"
+        else getattr(importlib.import_module(home), name)
+    )
     globals()[name] = found
     return found
 

@@ -1,5 +1,6 @@
-# Every public name, one line each: `from MODULE import NAME as PUBLIC`. Editors and pyright read the names here, and so does
-# `__init__.py`, which imports a name when it is first used. A name that is not here is not public.
+# Every public name, one line each: `from MODULE import NAME as PUBLIC`. Editors and pyright read the names
+# here, and so does `__init__.py`, which imports a name when it is first used. A name that is not here is not
+# public.
 
 from deodar import analysis as analysis
 from deodar import architectures as architectures

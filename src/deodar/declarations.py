@@ -1,4 +1,6 @@
-"""What a part declares of a parameter beside its type: what a change costs, the unit, the range, and what kind of time it is."""
+"""What a part declares of a parameter beside its type: what a change costs, the unit, the range, and what
+kind of time it is.
+"""
 
 from __future__ import annotations
 
@@ -22,17 +24,21 @@ class Declaration:
     A parameter whose unit has time in it ("time", "1/time", "axis/time") states its `role`:
 
     * `time constant`: of a linear relaxation; a run refuses an Euler step that is longer.
-    * `time scale`: a time constant for an input of 1, such as tau of tau dphi/dt = f (x - phi); a run refuses a longer step.
-    * `rate`: the inverse of a time constant, such as r of dw/dt = r (x - w); a run refuses a step longer than 1/r.
-    * `speed`: a change per unit of time that does not relax, such as a velocity or the factor of an integrator; the step is not compared with it.
+    * `time scale`: a time constant for an input of 1, such as tau of tau dphi/dt = f (x - phi); a run refuses
+      a longer step.
+    * `rate`: the inverse of a time constant, such as r of dw/dt = r (x - w); a run refuses a step longer than
+      1/r.
+    * `speed`: a change per unit of time that does not relax, such as a velocity or the factor of an
+      integrator; the step is not compared with it.
     * `moment`: a point of document time.
     * `duration`: a length of time, such as a delay, a period or an interval; it may be shorter than a step.
 
-    What is compared with document time, or multiplied by it, is `exact`: in a program of single precision it keeps the digits of float64
-    (`numerics/exact.py`). Moments always are.
+    What is compared with document time, or multiplied by it, is `exact`: in a program of single precision it
+    keeps the digits of float64 (`numerics/exact.py`). Moments always are.
 
     Attributes:
-        unit: of the value, for forms and messages: "time" for the document's, "axis", "activation", "1/time" and so on.
+        unit: of the value, for forms and messages: "time" for the document's, "axis", "activation", "1/time"
+            and so on.
         lower: lowest value; None: any.
         upper: highest value; None: any.
         neutral: the value at which the parameter has no effect, so that the program leaves it out.
@@ -58,8 +64,9 @@ class Declaration:
 class Live(Declaration):
     """A traced leaf: a change takes effect at the next exchange and never recompiles.
 
-    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it recompiles once. Where that
-    value is not what small values tend to (a speed limit of 0 means none), `off` says so: reaching it recompiles as well.
+    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it
+    recompiles once. Where that value is not what small values tend to (a speed limit of 0 means none), `off`
+    says so: reaching it recompiles as well.
     """
 
     cost = "live"
@@ -79,7 +86,8 @@ class Recompile(Declaration):
 
 @dc.dataclass(frozen=True)
 class Needed:
-    """The default of a parameter that has none: leaving it out is an error that proposes a value; use `needed`.
+    """The default of a parameter that has none: leaving it out is an error that proposes a value; use
+    `needed`.
 
     Attributes:
         like: a value as it is written in a call, such as `[x]`; the names in it stand for axes.

@@ -1,14 +1,16 @@
 """The contract of elements and couplings: everything that stands in a model.
 
-An element sees one copy of itself: batches, trials, groups, rates and the working precision are the compiler's. Inside the
-compiled program its live and rebuild parameters are tracers, so that `self.tau` may be used in formulas as it stands.
+An element sees one copy of itself: batches, trials, groups, rates and the working precision are the
+compiler's. Inside the compiled program its live and rebuild parameters are tracers, so that `self.tau` may be
+used in formulas as it stands.
 
 The laws that an element may rely on:
 
 * a step reads every output at time t, then commits all new states together;
 * all connections into one port are summed, in the port's axes;
-* `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to `settle`, which may use all and is computed
-  once a chunk; what that returns is handed to `output` and `advance`.
+* `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to
+  `settle`, which may use all and is computed once a chunk; what that returns is handed to `output` and
+  `advance`.
 """
 
 from __future__ import annotations
@@ -33,7 +35,9 @@ from deodar.parameters import Part, Recompile
 
 Arrays = dict[str, Any]
 WAVES = "~"
-"""Ends the name of a port that holds as waves what the port without it holds; of an input, only what comes as waves."""
+"""Ends the name of a port that holds as waves what the port without it holds; of an input, only what comes as
+waves.
+"""
 
 REST = "-"
 """Ends the name of a port that holds what does not come as waves."""
@@ -43,7 +47,8 @@ REST = "-"
 class Time:
     """Document time inside a step, exact in both precisions.
 
-    It is `origin + passed * step`, computed in float64 from the number of steps, so that it does not depend on how a run was cut into chunks.
+    It is `origin + passed * step`, computed in float64 from the number of steps, so that it does not depend
+    on how a run was cut into chunks.
 
     Attributes:
         origin: document time at some tick before, or at the present one.
@@ -79,36 +84,45 @@ class Time:
 
     @property
     def moment(self) -> Exact:
-        """The time as two numbers of the working precision, for a state that stores when something happened. A state that counts steps or adds up
-        `dt` instead stops counting in single precision.
+        """The time as two numbers of the working precision, for a state that stores when something happened.
+
+        A state that counts steps or adds up `dt` instead stops counting in single precision.
         """
         dtype = self.step.high.dtype
         with exact():
             now, digits = self.wide, jnp.finfo(dtype)
-            high = lax.reduce_precision(now, digits.nexp, digits.nmant)  # a cast there and back would be left out as superfluous
+            high = lax.reduce_precision(
+                now, digits.nexp, digits.nmant
+            )  # a cast there and back would be left out as superfluous
             return Exact(high.astype(dtype), (now - high).astype(dtype))
 
     def since(self, moment: Any) -> Any:
-        """Time passed since `moment` (negative before it), in the working precision: exact to its last digit near the moment."""
+        """Time passed since `moment` (negative before it), in the working precision: exact to its last digit
+        near the moment.
+        """
         now = self.moment
         m = moment if isinstance(moment, Exact) else Exact(moment, 0.0)
         return (now.high - m.high) + (now.low - m.low)
 
     @property
     def now(self) -> Any:
-        """The time itself, in the working precision: in float32 it has 24 bits, so compare with moments by `since`."""
+        """The time itself, in the working precision: in float32 it has 24 bits, so compare with moments by
+        `since`.
+        """
         return self.since(0.0)
 
 
 @dc.dataclass(frozen=True)
 class Setting:
-    """Where an element stands: the axes at its ports, the precision of the model, and how it applies its kernels.
+    """Where an element stands: the axes at its ports, the precision of the model, and how it applies its
+    kernels.
 
     Attributes:
         ins, outs: axes of the ports.
         dtype: working precision.
         choices: for each kind of boundaries how kernels are applied, where not by matrices.
-        shared: the kind of boundaries whose waves it shares with others (it then has ports ending in `WAVES` and `REST`), or "".
+        shared: the kind of boundaries whose waves it shares with others (it then has ports ending in `WAVES`
+            and `REST`), or "".
     """
 
     ins: Mapping[str, Axes]
@@ -132,7 +146,11 @@ class Setting:
 
     def exact(self, values: Any) -> Exact:
         """The values, with the digits of float64."""
-        return values if isinstance(values, Exact) else Exact(*split(getattr(values, "data", values), self.dtype))
+        return (
+            values
+            if isinstance(values, Exact)
+            else Exact(*split(getattr(values, "data", values), self.dtype))
+        )
 
     def points(self, axis: Axis) -> Any:
         """Values at the samples of an axis, in the working precision."""
@@ -145,13 +163,17 @@ class Element(Part):
 
     Class attributes:
         inputs: names of the input ports.
-        direct: for each output port that passes inputs on in the same instant, which; ports not named show the state.
+        direct: for each output port that passes inputs on in the same instant, which; ports not named show
+            the state.
         stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
-        sees_output: whether `advance` finds what the port `output` showed in the same step among its inputs (inside a program).
+        sees_output: whether `advance` finds what the port `output` showed in the same step among its inputs
+            (inside a program).
         linear: whether the default output is linear in the one input.
-        sharing: how its `input` and `output` take part where couplings are added up as waves: they are the `ends` of it (what comes as waves is
-            taken back, and what goes is also given as waves), it `filters` (a kernel is applied to waves too), or it `scales`.
-        levels: for a port, the parameters that are levels on its scale, by what they are called: drawn as lines in plots.
+        sharing: how its `input` and `output` take part where couplings are added up as waves: they are the
+            `ends` of it (what comes as waves is taken back, and what goes is also given as waves), it
+            `filters` (a kernel is applied to waves too), or it `scales`.
+        levels: for a port, the parameters that are levels on its scale, by what they are called: drawn as
+            lines in plots.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = dc.field(default="", kw_only=True)
@@ -170,19 +192,24 @@ class Element(Part):
             fix="Add it first: model.add(...); a chain begins with what was added: u >> dd.Gain(2) >> v",
         )
 
-    # -------------------------------------------------------------------------------- on paper: axes and ports
+    # ------------------------------------------------------------------------------- on paper: axes and ports
 
     def ports(self) -> tuple[str, ...]:
         """Names of the input ports."""
         return self.inputs
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
-        """Axes that an input port takes; None where it takes what comes (the connection with most axes decides)."""
+        """Axes that an input port takes; None where it takes what comes (the connection with most axes
+        decides).
+        """
         axes: Axes | None = getattr(self, "axes", None)
         return axes
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
-        """Axes of every output port; the first is the default one. Elements that show only states ignore `ins`."""
+        """Axes of every output port; the first is the default one.
+
+        Elements that show only states ignore `ins`.
+        """
         raise NotImplementedError
 
     def steady(self) -> bool:
@@ -194,7 +221,9 @@ class Element(Part):
         return None
 
     def outside(self) -> str:
-        """Name of code from outside that it runs (then `load` gives that code), or "": not loaded before the document is trusted."""
+        """Name of code from outside that it runs (then `load` gives that code), or "": not loaded before the
+        document is trusted.
+        """
         return ""
 
     def load(self) -> Any:
@@ -202,17 +231,26 @@ class Element(Part):
         return None
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        """What does not fit between the parameters and the axes at the ports, with what to type if it is not another connection."""
+        """What does not fit between the parameters and the axes at the ports, with what to type if it is not
+        another connection.
+        """
         return iter(())
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        """What is probably a mistake, although it runs: (what is wrong and why, what to type). Called only where nothing is a misfit."""
+        """What is probably a mistake, although it runs: (what is wrong and why, what to type).
+
+        Called only where nothing is a misfit.
+        """
         return iter(())
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
-        """Between which values its ports lie, given the bounds of what arrives and what it returned `before` (empty at first).
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
+        """Between which values its ports lie, given the bounds of what arrives and what it returned `before`
+        (empty at first).
 
-        For checks: an output that is not named may have any value. A strength of 0 counts as one that is set later.
+        For checks: an output that is not named may have any value. A strength of 0 counts as one that is set
+        later.
         """
         return {}
 
@@ -220,10 +258,12 @@ class Element(Part):
         """The kernels it convolves with, whose way of being applied is chosen before it is compiled."""
         return ()
 
-    # -------------------------------------------------------------------------------- in pictures
+    # -------------------------------------------------------------------------------------------- in pictures
 
     def polarity(self) -> Sign:
-        """Sign with which the output acts on what reads it: pictures tell inhibition from excitation by it."""
+        """Sign with which the output acts on what reads it: pictures tell inhibition from excitation by
+        it.
+        """
         return "+"
 
     def recurrence(self) -> Mapping[str, Sign]:
@@ -241,17 +281,22 @@ class Element(Part):
         return {}
 
     def settle(self, at: Setting, constants: Any) -> Any:
-        """What stays the same from step to step although it depends on live parameters: computed once a chunk from what `prepare` gave.
+        """What stays the same from step to step although it depends on live parameters: computed once a chunk
+        from what `prepare` gave.
 
         `output` and `advance` get what it returns in place of the constants.
         """
         return constants
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         """Every output port at time t."""
         raise NotImplementedError
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         """The state at t + dt. `noise` holds standard normal deviates over `noise_axes`, or None."""
         return state
 
@@ -260,14 +305,18 @@ class Element(Part):
         return ()
 
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
-        """The new state after a step if its input had been larger by `amount` (over the axes): for hands that reach into a running model.
+        """The new state after a step if its input had been larger by `amount` (over the axes): for hands that
+        reach into a running model.
 
         None where that is not a simple sum, or where there is no such input.
         """
         return None
 
     def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
-        """What was learned, as parameters: with them `init` gives this state. Nothing where the state is not learned but passes."""
+        """What was learned, as parameters: with them `init` gives this state.
+
+        Nothing where the state is not learned but passes.
+        """
         return {}
 
     @classmethod

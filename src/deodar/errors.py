@@ -1,7 +1,8 @@
 """Errors that say what is wrong, where, why, and what to type.
 
-Every error deodar raises on purpose is a `DeodarError`. Its message is one paragraph made of up to four parts:
-*what* is wrong, *where* (a path, and the line that declared it), *why* it cannot be, and a *fix* to type.
+Every error deodar raises on purpose is a `DeodarError`. Its message is one paragraph made of up to four
+parts: *what* is wrong, *where* (a path, and the line that declared it), *why* it cannot be, and a *fix* to
+type.
 """
 
 from __future__ import annotations
@@ -58,11 +59,15 @@ class ParameterError(DeodarError):
 
 
 class UnknownName(DeodarError):
-    """Raised when a name (element, port, parameter, kind, command) does not exist; suggests the nearest one."""
+    """Raised when a name (element, port, parameter, kind, command) does not exist; suggests the nearest
+    one.
+    """
 
 
 class UnknownAttribute(UnknownName, AttributeError):
-    """Raised when a handle of an element has no such parameter; an `AttributeError` too, so that `hasattr` answers."""
+    """Raised when a handle of an element has no such parameter; an `AttributeError` too, so that `hasattr`
+    answers.
+    """
 
     def __init__(self, what: str | Sequence[Problem], where: str = "", fix: str = "") -> None:
         super().__init__(what, where, fix)
@@ -74,11 +79,15 @@ class AxesError(DeodarError):
 
 
 class ModelError(DeodarError):
-    """Raised when an architecture cannot be: names that clash, ports that do not fit, loops without a state."""
+    """Raised when an architecture cannot be: names that clash, ports that do not fit, loops without a
+    state.
+    """
 
 
 class DocumentError(DeodarError):
-    """Raised when a document file cannot be read: not JSON, unknown version or kind, an array file that is not its own."""
+    """Raised when a document file cannot be read: not JSON, unknown version or kind, an array file that is
+    not its own.
+    """
 
 
 class Untrusted(DeodarError):
@@ -86,17 +95,25 @@ class Untrusted(DeodarError):
 
 
 class WorldError(DeodarError):
-    """Raised when a world cannot give what a sensor asks for, or a model reads sensors that no world provides."""
+    """Raised when a world cannot give what a sensor asks for, or a model reads sensors that no world
+    provides.
+    """
 
 
 class TimeError(DeodarError):
-    """Raised when durations and steps do not fit: not a multiple of dt, or a step longer than a time constant."""
+    """Raised when durations and steps do not fit: not a multiple of dt, or a step longer than a time
+    constant.
+    """
 
 
 class NotFinite(DeodarError):
-    """Raised at the end of a chunk in which a value became infinite or undefined; names the step (`step`), and the elements in `paths`."""
+    """Raised at the end of a chunk in which a value became infinite or undefined; names the step (`step`),
+    and the elements in `paths`.
+    """
 
-    def __init__(self, what: str | Sequence[Problem], paths: Sequence[str] = (), fix: str = "", step: int = 0) -> None:
+    def __init__(
+        self, what: str | Sequence[Problem], paths: Sequence[str] = (), fix: str = "", step: int = 0
+    ) -> None:
         self.paths = tuple(paths)
         self.step = step
         super().__init__(what, fix=fix)
@@ -119,7 +136,9 @@ class DeviceError(DeodarError):
 
 
 class WorkerError(DeodarError):
-    """Raised when worker processes cannot do a run: something cannot be handed to them, or one of them has died."""
+    """Raised when worker processes cannot do a run: something cannot be handed to them, or one of them has
+    died.
+    """
 
 
 class OutputExists(DeodarError):
@@ -149,7 +168,9 @@ class MissingExtra(DeodarError):
 
 
 class Interrupted(DeodarError):
-    """Raised when a run is stopped with Ctrl-C; `data` holds what was recorded until then (an `xarray.Dataset`)."""
+    """Raised when a run is stopped with Ctrl-C; `data` holds what was recorded until then (an
+    `xarray.Dataset`).
+    """
 
     def __init__(self, what: str, data: Any) -> None:
         self.data = data

@@ -18,11 +18,16 @@ from deodar.parameters import FrozenArray, Parameter, Part, parameter, parameter
 P = TypeVar("P", bound=Part)
 
 
-# ------------------------------------------------------------------------------------------------ traced leaves
+# ---------------------------------------------------------------------------------------------- traced leaves
 
 
-def leaves(part: Any, prefix: str = "", only: Container[str] | None = None) -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
-    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`. `only`: of parameters with these names."""
+def leaves(
+    part: Any, prefix: str = "", only: Container[str] | None = None
+) -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
+    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`.
+
+    `only`: of parameters with these names.
+    """
     for p in parameters(type(part)):
         if only is not None and p.name not in only:
             continue
@@ -130,13 +135,21 @@ class StepLimit:
         return 1 / self.value if self.value > 0 else math.inf
 
     def __str__(self) -> str:
-        return f"1/{self.path} = {self.longest:g}" if self.role == "rate" else f"the {self.role} {self.path} = {self.value:g}"
+        return (
+            f"1/{self.path} = {self.longest:g}"
+            if self.role == "rate"
+            else f"the {self.role} {self.path} = {self.value:g}"
+        )
 
 
 def step_limits(part: Any) -> Iterator[StepLimit]:
     """Every parameter whose role limits the Euler step, nested parts included."""
     only = _may_limit(type(part))
-    return (StepLimit(path, value, p.role) for path, value, p in leaves(part, only=only) if p.role in LIMITING and isinstance(value, float))
+    return (
+        StepLimit(path, value, p.role)
+        for path, value, p in leaves(part, only=only)
+        if p.role in LIMITING and isinstance(value, float)
+    )
 
 
 @functools.cache
@@ -146,7 +159,11 @@ def _may_limit(cls: type[Part]) -> frozenset[str]:
 
 def resting(part: Any) -> frozenset[str]:
     """Leaves that have their declared neutral value."""
-    return frozenset(path for path, value, p in leaves(part) if p.neutral is not None and np.ndim(value) == 0 and value == p.neutral)
+    return frozenset(
+        path
+        for path, value, p in leaves(part)
+        if p.neutral is not None and np.ndim(value) == 0 and value == p.neutral
+    )
 
 
 def is_neutral(value: Any, neutral: float = 0.0) -> bool:
@@ -162,7 +179,7 @@ def per_axis(value: Any, axes: Sequence[Any]) -> tuple[Any, ...]:
     return (value,) * len(axes)
 
 
-# ------------------------------------------------------------------------------------------------ one value by its path
+# -------------------------------------------------------------------------------------- one value by its path
 
 
 def get(part: Any, path: str) -> Any:
@@ -202,7 +219,9 @@ def _child(holder: Any, step: str, path: str) -> Any:
         items = typing.cast("tuple[Any, ...]", holder)
         if step.isdigit() and int(step) < len(items):
             return items[int(step)]
-        named = {pair[0]: pair[1] for pair in items if isinstance(pair, tuple) and len(typing.cast(Any, pair)) == 2}
+        named = {
+            pair[0]: pair[1] for pair in items if isinstance(pair, tuple) and len(typing.cast(Any, pair)) == 2
+        }
         if step in named:
             return named[step]
         raise UnknownName(f"{path}: there is no part {step!r}", fix=f"There are {len(items)}, counted from 0")

@@ -1,12 +1,12 @@
 """The single declaration of a parameter, and everything that is read from it.
 
-A part (element, coupling, kernel, sigmoid) is a frozen dataclass. Its annotations say what a parameter is, what it
-costs to change, and in which range it makes sense::
+A part (element, coupling, kernel, sigmoid) is a frozen dataclass. Its annotations say what a parameter is,
+what it costs to change, and in which range it makes sense::
 
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 20.0
 
-From this one line come the range check, the JSON form and its schema, the page of the manual, the form in the studio and
-the traced leaf of the compiled program.
+From this one line come the range check, the JSON form and its schema, the page of the manual, the form in the
+studio and the traced leaf of the compiled program.
 """
 
 from __future__ import annotations
@@ -45,7 +45,9 @@ class FrozenArray:
         array = np.array(data, dtype=np.float64, order="C")
         array.setflags(write=False)
         self.data: np.ndarray = array
-        self.digest = hashlib.blake2b(array.tobytes() + repr(array.shape).encode(), digest_size=16).hexdigest()
+        self.digest = hashlib.blake2b(
+            array.tobytes() + repr(array.shape).encode(), digest_size=16
+        ).hexdigest()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -66,7 +68,9 @@ class FrozenArray:
 
 
 class Reference:
-    """A value inside a model, such as `u.kernel`: where a value is needed, it counts as the value that the model has at that moment."""
+    """A value inside a model, such as `u.kernel`: where a value is needed, it counts as the value that the
+    model has at that moment.
+    """
 
     def __value__(self) -> Any:
         raise NotImplementedError
@@ -75,7 +79,21 @@ class Reference:
 ArrayLike = FrozenArray | np.ndarray | Sequence[Any]
 
 PLAIN = ("number", "integer", "flag", "text", "texts", "per_axis", "numbers", "pairs")
-Form = Literal["number", "integer", "flag", "text", "texts", "per_axis", "axes", "axis", "part", "parts", "array", "numbers", "pairs"]
+Form = Literal[
+    "number",
+    "integer",
+    "flag",
+    "text",
+    "texts",
+    "per_axis",
+    "axes",
+    "axis",
+    "part",
+    "parts",
+    "array",
+    "numbers",
+    "pairs",
+]
 
 
 @dc.dataclass(frozen=True)
@@ -101,7 +119,9 @@ class Parameter:
     @property
     def traced(self) -> bool:
         """Whether the values are leaves of the compiled program."""
-        return self.form == "array" or (self.cost != "recompile" and self.form in ("number", "per_axis", "numbers"))
+        return self.form == "array" or (
+            self.cost != "recompile" and self.form in ("number", "per_axis", "numbers")
+        )
 
 
 class Part(metaclass=PartType):
@@ -125,10 +145,18 @@ class Part(metaclass=PartType):
         for p in parameters(type(self)):
             given = getattr(self, p.name)
             if isinstance(p.default, Needed) and (given is None or isinstance(given, Needed)):
-                problems.append(Problem(f"{type(self).__name__}.{p.name}", f"{type(self).__name__} needs {p.name}", _call(type(self), p)))
+                problems.append(
+                    Problem(
+                        f"{type(self).__name__}.{p.name}",
+                        f"{type(self).__name__} needs {p.name}",
+                        _call(type(self), p),
+                    )
+                )
                 continue
             try:
-                if not _same(stored := normal(p, given), given):  # an unchanged object is kept, so that changes are found by identity
+                if not _same(
+                    stored := normal(p, given), given
+                ):  # an unchanged object is kept, so that changes are found by identity
                     object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
@@ -166,14 +194,23 @@ def _call(cls: type[Any], last: Parameter) -> str:
     """A call with the needed parameter and the positional parameters before it."""
     known, order = {p.name: p for p in parameters(cls)}, positional(cls)
     before = [known[name] for name in order[: order.index(last.name)]]
-    likes = [p.default if isinstance(p.default, Needed) else Needed("[x]") for p in (*before, last) if p.form in ("axis", "axes")]
+    likes = [
+        p.default if isinstance(p.default, Needed) else Needed("[x]")
+        for p in (*before, last)
+        if p.form in ("axis", "axes")
+    ]
     names = [name for like in likes for name in like.names]
-    call = ", ".join([*(p.name if p.form not in ("axis", "axes") else "[x]" for p in before), last.default.like])
+    call = ", ".join(
+        [*(p.name if p.form not in ("axis", "axes") else "[x]" for p in before), last.default.like]
+    )
     each = "is" if len(names) == 1 else "are each"
-    return f"Write: {cls.__name__}({call}), where {' and '.join(names)} {each} an Axis, such as x = dd.Axis('x', 0, 100, samples=101)"
+    return (
+        f"Write: {cls.__name__}({call}), where {' and '.join(names)} {each} an Axis, such as x = dd.Axis('x',"
+        " 0, 100, samples=101)"
+    )
 
 
-# ------------------------------------------------------------------------------------------------ reading declarations
+# --------------------------------------------------------------------------------------- reading declarations
 
 
 @functools.cache
@@ -194,7 +231,9 @@ def parameter(cls: type[Any], name: str) -> Parameter:
     for p in parameters(cls):
         if p.name == name:
             return p
-    raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, [p.name for p in parameters(cls)]))
+    raise UnknownName(
+        f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, [p.name for p in parameters(cls)])
+    )
 
 
 def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
@@ -207,11 +246,28 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
     if default is dc.MISSING and field.default_factory is not dc.MISSING:
         default = field.default_factory()
     if bool(re.search(r"\btime\b", d.unit)) != (d.role != ""):
-        raise TypeError(f"{cls.__name__}.{field.name}: a parameter whose unit has time in it, and no other, declares a role: {', '.join(TIME_ROLES)}")
+        raise TypeError(
+            f"{cls.__name__}.{field.name}: a parameter whose unit has time in it, and no other, declares a"
+            f" role: {', '.join(TIME_ROLES)}"
+        )
     exact = d.exact or d.role == "moment"
     return Parameter(
-        field.name, form, d.cost, d.unit, d.lower, d.upper, d.neutral, d.choices, d.meaning, default, of, optional, d.off, d.role, exact
-    )  # fmt: skip
+        field.name,
+        form,
+        d.cost,
+        d.unit,
+        d.lower,
+        d.upper,
+        d.neutral,
+        d.choices,
+        d.meaning,
+        default,
+        of,
+        optional,
+        d.off,
+        d.role,
+        exact,
+    )
 
 
 def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
@@ -241,7 +297,7 @@ def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
     raise TypeError(f"no parameter can be declared as {hint}")
 
 
-# ------------------------------------------------------------------------------------------------ checking values
+# -------------------------------------------------------------------------------------------- checking values
 
 
 def normal(p: Parameter, value: Any) -> Any:
@@ -254,11 +310,15 @@ def normal(p: Parameter, value: Any) -> Any:
 
 
 def _same(a: Any, b: Any) -> bool:
-    return a is b or (type(a) is type(b) is tuple and len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True)))
+    return a is b or (
+        type(a) is type(b) is tuple and len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
+    )
 
 
 def real(value: Any) -> float | None:
-    """The number that a value is, or None if it is none; true and false are not, nor is text that looks like one."""
+    """The number that a value is, or None if it is none; true and false are not, nor is text that looks like
+    one.
+    """
     if hasattr(value, "item"):  # of NumPy or JAX
         value = value.item() if np.ndim(value) == 0 else None
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -298,14 +358,19 @@ def _flag(p: Parameter, value: Any) -> bool:
 def _text(p: Parameter, value: Any) -> str:
     if callable(value) and hasattr(value, "__qualname__"):
         if "<" in value.__qualname__:
-            raise ValueError("needs a function that is found by its name in a module; a lambda or a function inside another one is not")
+            raise ValueError(
+                "needs a function that is found by its name in a module; a lambda or a function inside"
+                " another one is not"
+            )
         value = f"{value.__module__}:{value.__qualname__}"
     if not isinstance(value, str):
         raise ValueError(f"needs text, not {show(value)}")
     if not is_text(value):
         raise ValueError(f"holds characters that cannot be written: {show(value)}")
     if p.choices and value not in p.choices:
-        raise ValueError(f"is {value!r}; it is one of {', '.join(p.choices)}. {did_you_mean(value, p.choices)}")
+        raise ValueError(
+            f"is {value!r}; it is one of {', '.join(p.choices)}. {did_you_mean(value, p.choices)}"
+        )
     return value
 
 
@@ -361,7 +426,10 @@ def _pairs(p: Parameter, value: Any) -> tuple[tuple[str, str], ...]:
 def _named(value: Any, what: str) -> list[tuple[str, Any]]:
     """Pairs of a name and something, from a mapping or from a sequence of pairs; each name occurs once."""
     items = list(value.items()) if isinstance(value, Mapping) else _items(value)
-    if not all(isinstance(item, (tuple, list)) and len(typing.cast(Any, item)) == 2 and isinstance(item[0], str) for item in items):
+    if not all(
+        isinstance(item, (tuple, list)) and len(typing.cast(Any, item)) == 2 and isinstance(item[0], str)
+        for item in items
+    ):
         raise ValueError(f"needs names with {what}, not {show(value)}")
     names = [k for k, _ in items]
     if len(set(names)) < len(names):
@@ -380,9 +448,20 @@ def is_text(value: str) -> bool:
 
 _SIMPLE: dict[Any, Form] = {float: "number", int: "integer", bool: "flag", str: "text", FrozenArray: "array"}
 _NORMAL: dict[Form, Callable[[Parameter, Any], Any]] = {
-    "number": _number, "integer": _integer, "flag": _flag, "text": _text, "texts": _texts, "per_axis": _per_axis,
-    "axes": _list, "axis": _declared, "part": _declared, "parts": _list, "array": _array, "numbers": _numbers, "pairs": _pairs,
-}  # fmt: skip
+    "number": _number,
+    "integer": _integer,
+    "flag": _flag,
+    "text": _text,
+    "texts": _texts,
+    "per_axis": _per_axis,
+    "axes": _list,
+    "axis": _declared,
+    "part": _declared,
+    "parts": _list,
+    "array": _array,
+    "numbers": _numbers,
+    "pairs": _pairs,
+}
 
 
 def _items(value: Any) -> list[Any]:

@@ -1,4 +1,6 @@
-"""The class of parts: what `help`, `inspect.signature` and completion show of them, from their declarations."""
+"""The class of parts: what `help`, `inspect.signature` and completion show of them, from their
+declarations.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,8 @@ _NAMES: dict[Any, str] = {type(None): "None", Any: "Any", ...: "..."}
 class PartType(type):
     """The class of a part: its signature and documentation are those of the declared parameters.
 
-    `cls.__doc__` is the docstring of the source (`source_doc`), with units, ranges and the parameters that it does not describe added to it.
+    `cls.__doc__` is the docstring of the source (`source_doc`), with units, ranges and the parameters that it
+    does not describe added to it.
     """
 
     @property
@@ -37,17 +40,23 @@ class PartType(type):
         return _signature(cls)
 
     def __dir__(cls) -> list[str]:
-        """What no base class has, parameters aside: the signature has those, and a contract's methods are listed where it is declared."""
+        """What no base class has, parameters aside: the signature has those, and a contract's methods are
+        listed where it is declared.
+        """
         declared: Any = vars(cls).get("__dataclass_fields__", {})
         return sorted(
             name
             for name in vars(cls)
-            if not name.startswith("_") and name not in declared and not any(name in vars(base) for base in cls.__mro__[1:])
+            if not name.startswith("_")
+            and name not in declared
+            and not any(name in vars(base) for base in cls.__mro__[1:])
         )
 
 
 def _finished(cls: type[Any]) -> bool:
-    """Whether `dataclass` has made the class: it asks for the docstring before, when annotations may name what is not defined yet."""
+    """Whether `dataclass` has made the class: it asks for the docstring before, when annotations may name
+    what is not defined yet.
+    """
     return "__match_args__" in vars(cls)
 
 
@@ -69,8 +78,14 @@ class _Annotation:
 @functools.cache
 def _signature(cls: Any) -> inspect.Signature:
     hints = typing.get_type_hints(cls)
-    fields = {f.name: inspect.Parameter.KEYWORD_ONLY if f.kw_only else inspect.Parameter.POSITIONAL_OR_KEYWORD for f in dc.fields(cls)}
-    found = [inspect.Parameter(p.name, fields[p.name], default=_default(p), annotation=_annotation(hints[p.name])) for p in cls.__declared__()]
+    fields = {
+        f.name: inspect.Parameter.KEYWORD_ONLY if f.kw_only else inspect.Parameter.POSITIONAL_OR_KEYWORD
+        for f in dc.fields(cls)
+    }
+    found = [
+        inspect.Parameter(p.name, fields[p.name], default=_default(p), annotation=_annotation(hints[p.name]))
+        for p in cls.__declared__()
+    ]
     return inspect.Signature(sorted(found, key=lambda p: p.kind))
 
 
@@ -85,7 +100,9 @@ def _annotation(hint: Any) -> Any:
 def _words(hint: Any) -> str:
     origin, inner = typing.get_origin(hint), typing.get_args(hint)
     if origin in (types.UnionType, typing.Union):
-        return " | ".join(dict.fromkeys(_words(each) for each in inner if getattr(each, "__name__", "") != "FrozenArray"))
+        return " | ".join(
+            dict.fromkeys(_words(each) for each in inner if getattr(each, "__name__", "") != "FrozenArray")
+        )
     name = _NAMES.get(hint) if isinstance(hint, collections.abc.Hashable) else None
     name = name or getattr(origin or hint, "__name__", str(hint))
     return f"{name}[{', '.join(map(_words, inner))}]" if inner else name
@@ -93,13 +110,21 @@ def _words(hint: Any) -> str:
 
 @functools.cache
 def _documentation(cls: Any) -> str:
-    """The docstring of the source, with unit and range after each parameter, and the parameters that it does not describe."""
+    """The docstring of the source, with unit and range after each parameter, and the parameters that it does
+    not describe.
+    """
     text = source_doc(cls)
-    lines = [] if text.startswith(f"{cls.__name__}(") else text.splitlines()  # `dataclass` writes the call where there is no docstring
+    lines = (
+        [] if text.startswith(f"{cls.__name__}(") else text.splitlines()
+    )  # `dataclass` writes the call where there is no docstring
     lines = lines or [f"{cls.__name__}."]
     declared = {p.name: p for p in cls.__declared__()}
     start = next((k + 1 for k, line in enumerate(lines) if line in _HEADS), 0)
-    end = next((k for k in range(start, len(lines)) if lines[k] and not lines[k].startswith(" ")), len(lines)) if start else 0
+    end = (
+        next((k for k in range(start, len(lines)) if lines[k] and not lines[k].startswith(" ")), len(lines))
+        if start
+        else 0
+    )
     entries: dict[str, list[str]] = {}
     for line in lines[start:end]:
         if found := _ENTRY.fullmatch(line):

@@ -5,7 +5,8 @@ A package names in its metadata what it brings, for example
     [project.entry-points."deodar.kinds"]
     Change = "deodar_change.change:Change"
 
-Nothing is imported before its name is looked up. What is wrong with a package is text, not an error: the rest works, and `deodar doctor` lists it.
+Nothing is imported before its name is looked up. What is wrong with a package is text, not an error: the rest
+works, and `deodar doctor` lists it.
 """
 
 from __future__ import annotations
@@ -52,14 +53,19 @@ class Plugin:
 
 
 def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
-    """The entry points of a group, in the order of their packages. A name of deodar itself (`taken`), or of an earlier package, is a problem."""
+    """The entry points of a group, in the order of their packages.
+
+    A name of deodar itself (`taken`), or of an earlier package, is a problem.
+    """
     out: list[Plugin] = []
     owners = dict.fromkeys(taken, "deodar")
     for entry in _entries(group):
         assert entry.dist is not None
         package, version = entry.dist.name, entry.dist.version
         owner = owners.setdefault(entry.name, package)
-        problem = f"takes the name {entry.name!r}, which {owner} has" if owner != package else _misfit(package)
+        problem = (
+            f"takes the name {entry.name!r}, which {owner} has" if owner != package else _misfit(package)
+        )
         out.append(Plugin(group, entry.name, package, version, problem, entry))
     return out
 
@@ -67,7 +73,11 @@ def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
 @functools.cache
 def _entries(group: str) -> tuple[importlib.metadata.EntryPoint, ...]:
     entries = importlib.metadata.entry_points(group=f"deodar.{group}")
-    return tuple(sorted((e for e in entries if e.dist is not None), key=lambda e: (e.dist.name if e.dist else "", e.name)))
+    return tuple(
+        sorted(
+            (e for e in entries if e.dist is not None), key=lambda e: (e.dist.name if e.dist else "", e.name)
+        )
+    )
 
 
 @functools.cache
@@ -83,7 +93,9 @@ def _misfit(package: str) -> str:
             requirement = Requirement(text)
         except InvalidRequirement:
             continue
-        if canonicalize_name(requirement.name) == "deodar" and not requirement.specifier.contains(__version__, prereleases=True):
+        if canonicalize_name(requirement.name) == "deodar" and not requirement.specifier.contains(
+            __version__, prereleases=True
+        ):
             return f"is made for deodar {requirement.specifier}, and this is {__version__}"
     return ""
 

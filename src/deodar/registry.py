@@ -1,8 +1,9 @@
 """The folder is the registry: every module of an extension folder registers exactly one kind.
 
-A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...). `scan` imports its modules once, when a
-kind is first looked up, and refuses a module that registers nothing or two things. Kinds of installed packages are found by the
-entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking up one of them imports it alone.
+A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...). `scan` imports its modules once,
+when a kind is first looked up, and refuses a module that registers nothing or two things. Kinds of installed
+packages are found by the entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking up one of
+them imports it alone.
 """
 
 from __future__ import annotations
@@ -47,12 +48,18 @@ def imported(room: str) -> list[Any]:
 
 
 def kinds(room: str | None = None) -> dict[str, type[Any]]:
-    """Every registered kind by name, or those of one room: kinds from outside belong to the room None, worlds of packages to `worlds` too."""
+    """Every registered kind by name, or those of one room: kinds from outside belong to the room None, worlds
+    of packages to `worlds` too.
+    """
     for each in ROOMS:
         _scan(each)
     outside = [p for p in packaged() if room is None or p.group == room]
     taken = {p.name for p in outside if not take(p)}
-    return {name: cls for name, cls in sorted(_kinds.items()) if room is None or cls.__module__.startswith(f"deodar.{room}.") or name in taken}
+    return {
+        name: cls
+        for name, cls in sorted(_kinds.items())
+        if room is None or cls.__module__.startswith(f"deodar.{room}.") or name in taken
+    }
 
 
 def kind(name: str) -> type[Any]:
@@ -67,11 +74,17 @@ def kind(name: str) -> type[Any]:
     if name not in _kinds:
         outside = {p.name: p for p in reversed(packaged())}
         if name not in outside:
-            raise UnknownName(f"no element, coupling, kernel or sigmoid is called {name!r}", fix=did_you_mean(name, [*_kinds, *outside]))
+            raise UnknownName(
+                f"no element, coupling, kernel or sigmoid is called {name!r}",
+                fix=did_you_mean(name, [*_kinds, *outside]),
+            )
         problem = take(outside[name])
         if problem:
             of = outside[name]
-            raise UnknownName(f"{name!r} cannot be used: the package {of.package} {of.version} {problem}", fix="Type: deodar doctor")
+            raise UnknownName(
+                f"{name!r} cannot be used: the package {of.package} {of.version} {problem}",
+                fix="Type: deodar doctor",
+            )
     return _kinds[name]
 
 
@@ -96,7 +109,9 @@ def take(plugin: Plugin) -> str:
 
 
 def package(name: str) -> str:
-    """Name and version of the installed package that a registered kind comes from, as documents state them; "" where it comes from none."""
+    """Name and version of the installed package that a registered kind comes from, as documents state them;
+    "" where it comes from none.
+    """
     cls = _kinds.get(name)
     if cls is None or cls.__module__.startswith("deodar."):
         return ""
@@ -109,4 +124,7 @@ def _scan(room: str) -> None:
         importlib.import_module(module)
         found = [name for name, cls in _kinds.items() if cls.__module__ == module]
         if len(found) != 1:
-            raise ModelError(f"{module} registers {len(found)} kinds ({', '.join(found) or 'none'}); a file of an extension folder registers one")
+            raise ModelError(
+                f"{module} registers {len(found)} kinds ({', '.join(found) or 'none'}); a file of an"
+                " extension folder registers one"
+            )

@@ -1,6 +1,7 @@
 """Public names that have changed: the table old -> new, and the errors that old names raise.
 
-CHANGELOG.md holds the same table; a test compares the two. The flat names are written `dd.NAME`, others with their full path.
+CHANGELOG.md holds the same table; a test compares the two. The flat names are written `dd.NAME`, others with
+their full path.
 """
 
 from __future__ import annotations
@@ -45,28 +46,44 @@ RENAMED = {
 
 
 def fix(old: str) -> str:
-    """Return what to write instead of an old name, as the `fix` of an error; "" for a name that was never public."""
+    """Return what to write instead of an old name, as the `fix` of an error; "" for a name that was never
+    public.
+    """
     return f"{old} is now {RENAMED[old]}" if old in RENAMED else ""
 
 
 def missing(module: str, name: str, known: Iterable[str] = ()) -> AttributeError:
-    """Make the error for a name that a module does not have: the new name of a renamed one, else the nearest known name."""
-    hint = fix(f"dd.{name}" if module == "deodar" else f"{module}.{name}") or ("" if name.startswith("_") else did_you_mean(name, known))
+    """Make the error for a name that a module does not have: the new name of a renamed one, else the nearest
+    known name.
+    """
+    hint = fix(f"dd.{name}" if module == "deodar" else f"{module}.{name}") or (
+        "" if name.startswith("_") else did_you_mean(name, known)
+    )
     text = f"module {module!r} has no attribute {name!r}"
     return AttributeError(f"{text}. {hint}" if hint else text, name=name, obj=None)
 
 
 def no_member(obj: object, name: str) -> AttributeError:
-    """Make the error for an attribute that an object of a public class does not have; Python itself suggests the nearest one."""
+    """Make the error for an attribute that an object of a public class does not have; Python itself suggests
+    the nearest one.
+    """
     kind = type(obj).__name__
     text = f"{kind!r} object has no attribute {name!r}"
     hint = fix(f"dd.{kind}.{name}")
-    return AttributeError(f"{text}. {hint}", name=name, obj=None) if hint else AttributeError(text, name=name, obj=obj)
+    return (
+        AttributeError(f"{text}. {hint}", name=name, obj=None)
+        if hint
+        else AttributeError(text, name=name, obj=obj)
+    )
 
 
 def arguments(call: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Make a decorator for a public function, under its name in the table: a call with an old argument raises an error that states the new one."""
-    old = {key.removeprefix(f"{call}(").removesuffix("=...)") for key in RENAMED if key.startswith(f"{call}(")}
+    """Make a decorator for a public function, under its name in the table: a call with an old argument raises
+    an error that states the new one.
+    """
+    old = {
+        key.removeprefix(f"{call}(").removesuffix("=...)") for key in RENAMED if key.startswith(f"{call}(")
+    }
 
     def decorate(function: Callable[P, R]) -> Callable[P, R]:
         @functools.wraps(function)
@@ -83,7 +100,8 @@ def arguments(call: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
 def left(module: str) -> Callable[[str], Any]:
     """Make the `__getattr__` of a module that public names have left.
 
-    An old name raises ImportError, because `from MODULE import NAME` replaces the message of an AttributeError by its own.
+    An old name raises ImportError, because `from MODULE import NAME` replaces the message of an
+    AttributeError by its own.
     """
 
     def __getattr__(name: str) -> Any:

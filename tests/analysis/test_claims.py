@@ -11,14 +11,35 @@ from deodar.errors import AnalysisError
 
 
 def test_results_hold_all_that_a_claim_says():
-    claim = Claim("a", 0.5, ">= 0.4", True, "reported", "a paper", 20, (0.4, 0.6), origin="printed", assumes="the start", inferred=True)
+    claim = Claim(
+        "a",
+        0.5,
+        ">= 0.4",
+        True,
+        "reported",
+        "a paper",
+        20,
+        (0.4, 0.6),
+        origin="printed",
+        assumes="the start",
+        inferred=True,
+    )
     told = json.loads(results([claim], {"quick": False}))
     assert told["claims"] == [
         {
-            "name": "a", "value": 0.5, "target": ">= 0.4", "holds": True, "kind": "reported", "source": "a paper", "n": 20, "interval": [0.4, 0.6],
-            "origin": "printed", "assumes": "the start", "inferred": True,
+            "name": "a",
+            "value": 0.5,
+            "target": ">= 0.4",
+            "holds": True,
+            "kind": "reported",
+            "source": "a paper",
+            "n": 20,
+            "interval": [0.4, 0.6],
+            "origin": "printed",
+            "assumes": "the start",
+            "inferred": True,
         }
-    ]  # fmt: skip
+    ]
 
 
 def test_an_origin_is_stated():
@@ -29,7 +50,10 @@ def test_an_origin_is_stated():
 @pytest.mark.parametrize(
     ("marks", "words"),
     [
-        ({"kind": "required", "origin": "printed", "assumes": "the start", "inferred": True}, "cannot be required"),
+        (
+            {"kind": "required", "origin": "printed", "assumes": "the start", "inferred": True},
+            "cannot be required",
+        ),
         ({"kind": "reported", "origin": "printed", "inferred": True}, "does not say which"),
         ({"kind": "reported", "origin": "none"}, "neither holds nor fails"),
     ],

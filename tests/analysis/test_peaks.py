@@ -12,7 +12,9 @@ x = dd.Axis("x", 0, 100, samples=101)
 ring = dd.Axis("phi", 0, 360, samples=72, periodic=True, unit="deg")
 
 
-def bump(axis: dd.Axis, center: float, sigma: float = 6.0, height: float = 3.0, rest: float = -1.0) -> np.ndarray:
+def bump(
+    axis: dd.Axis, center: float, sigma: float = 6.0, height: float = 3.0, rest: float = -1.0
+) -> np.ndarray:
     d = axis.points - center
     if axis.periodic:
         d = d - axis.range * np.round(d / axis.range)

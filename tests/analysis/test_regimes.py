@@ -34,8 +34,17 @@ def lateral(excitation: float, inhibition: float, everywhere: float = 0.0, **mor
 
 def test_input_driven_and_selective() -> None:
     found = regimes(lateral(12, 0, 0.6))
-    assert not found.self_sustained and found.selection is not None and found.selection.selects and found.selection.right
-    assert found.detection is not None and found.reverse is not None and 0 < found.reverse < 0.97 * found.detection
+    assert (
+        not found.self_sustained
+        and found.selection is not None
+        and found.selection.selects
+        and found.selection.right
+    )
+    assert (
+        found.detection is not None
+        and found.reverse is not None
+        and 0 < found.reverse < 0.97 * found.detection
+    )
     assert "selective" in " ".join(found.words)
 
 
@@ -83,7 +92,11 @@ def test_the_distance_from_which_on_two_peaks_stay() -> None:
 def test_without_interaction_there_is_no_instability() -> None:
     found = regimes(dd.Field("u", [x], tau=10))
     assert [b.preshape + b.boost for b in found.boosts] == pytest.approx([5.0] * 3, rel=0.01)  # type: ignore[operator]
-    assert found.detection == pytest.approx(5.0, rel=0.01) and not found.thresholds.detection.jump and found.bistable is None  # type: ignore[union-attr]
+    assert (
+        found.detection == pytest.approx(5.0, rel=0.01)
+        and not found.thresholds.detection.jump
+        and found.bistable is None
+    )  # type: ignore[union-attr]
 
 
 def test_more_excitation_lowers_detection_and_reverse_detection() -> None:
@@ -106,7 +119,9 @@ def test_the_ramp_shows_the_hysteresis_between_the_thresholds() -> None:
 def test_more_dimensions(dimensions: int) -> None:
     axes = [dd.Axis(name, 0, 20, samples=11) for name in "abc"[:dimensions]]
     kernel = [dd.Gaussian(16, 3, normalized=True)]
-    found = regimes(dd.Field("u", axes, tau=10, kernel=kernel, global_inhibition=0.02 if dimensions == 2 else 0.002))
+    found = regimes(
+        dd.Field("u", axes, tau=10, kernel=kernel, global_inhibition=0.02 if dimensions == 2 else 0.002)
+    )
     assert found.detection is not None and 2 < found.detection < 5 and found.peak is not None
     assert np.allclose(found.peak.position, 10, atol=1)
 
@@ -120,14 +135,22 @@ def test_a_node_against_an_independent_root_finder() -> None:
     found = phase(node)
     grid = np.linspace(-4, 4, 4001)
     roots = [optimize.brentq(rate, a, b) for a, b in itertools.pairwise(grid) if rate(a) * rate(b) < 0]
-    assert np.allclose([p.u for p in found.fixed_points], roots, atol=1e-8) and [p.stable for p in found.fixed_points] == [True, False, True]
+    assert np.allclose([p.u for p in found.fixed_points], roots, atol=1e-8) and [
+        p.stable for p in found.fixed_points
+    ] == [True, False, True]
     # at a fold the rate and its slope are zero together
     folds = []
     for guess in (-0.5, 0.5):
-        u = optimize.brentq(lambda v: -1 + 12 * np.exp(-4 * v) / (1 + np.exp(-4 * v)) ** 2, min(0, 4 * guess), max(0, 4 * guess))
+        u = optimize.brentq(
+            lambda v: -1 + 12 * np.exp(-4 * v) / (1 + np.exp(-4 * v)) ** 2,
+            min(0, 4 * guess),
+            max(0, 4 * guess),
+        )
         folds.append(-rate(u))
     measured = regimes(node)
-    assert measured.detection == pytest.approx(max(folds), rel=0.01) and measured.reverse == pytest.approx(min(folds), rel=0.01)
+    assert measured.detection == pytest.approx(max(folds), rel=0.01) and measured.reverse == pytest.approx(
+        min(folds), rel=0.01
+    )
 
 
 def test_settling_says_whether_it_settled() -> None:
@@ -162,17 +185,27 @@ def test_the_command_prints_and_draws(here: Path, capsys: pytest.CaptureFixture[
     assert main(["regimes", "m.json", "u", "-o", "n.svg"]) == 1 and "--force" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("element", "says"), [("v", "Did you mean"), ("s", "is not a Field"), ("u.activation", "element")])
-def test_what_cannot_be_measured(here: Path, element: str, says: str, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("element", "says"), [("v", "Did you mean"), ("s", "is not a Field"), ("u.activation", "element")]
+)
+def test_what_cannot_be_measured(
+    here: Path, element: str, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     before = sorted(here.iterdir())
     assert main(["regimes", "m.json", element]) == 1
     error = capsys.readouterr().err
-    assert (says in error or "there is no element" in error) and "Traceback" not in error and sorted(here.iterdir()) == before
+    assert (
+        (says in error or "there is no element" in error)
+        and "Traceback" not in error
+        and sorted(here.iterdir()) == before
+    )
 
 
 def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -> None:
     def fold(low: float, high: float) -> float:
-        """Input at which a node with self-excitation 3 and steepness 4 loses a stable state: u = -2 + 3 g(u) + s, 3 g'(u) = 1."""
+        """Input at which a node with self-excitation 3 and steepness 4 loses a stable state: u = -2 + 3 g(u)
+        + s, 3 g'(u) = 1.
+        """
         u = optimize.brentq(lambda u: 12 / (2 * np.cosh(2 * u)) ** 2 - 1, low, high)
         return u + 2 - 3 / (1 + np.exp(-4 * u))
 
@@ -185,13 +218,17 @@ def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -
             for name, value in exact.items():
                 low, high = getattr(found, name).interval
                 assert low <= value <= high, (precision, accuracy, name, low - value, high - value)
-                assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * one.scale) + (2e-3 if precision == "float32" else 1.1e-5)
+                assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * one.scale) + (
+                    2e-3 if precision == "float32" else 1.1e-5
+                )
 
 
 def held(samples: int, quadrature: str) -> dd.Field:
     """A memory whose edges are narrower than a sample on the coarse grid."""
     kernel = [dd.Gaussian(18, 5, normalized=True)]
-    return dd.Field("u", [dd.Axis("x", 0, 60, samples)], kernel=kernel, global_inhibition=0.3, quadrature=quadrature)
+    return dd.Field(
+        "u", [dd.Axis("x", 0, 60, samples)], kernel=kernel, global_inhibition=0.3, quadrature=quadrature
+    )
 
 
 def test_the_discretisation_error_is_the_move_on_a_grid_twice_as_fine_and_shrinks_with_cells() -> None:
@@ -206,7 +243,14 @@ def test_the_discretisation_error_is_the_move_on_a_grid_twice_as_fine_and_shrink
 
 
 def test_the_finer_grid_keeps_every_sample() -> None:
-    field = dd.Field("u", [dd.Axis("x", 0, 10, 11), dd.Axis("phi", 0, 360, 12, periodic=True), dd.Axis("one", 0, 1, 1, periodic=True)])
+    field = dd.Field(
+        "u",
+        [
+            dd.Axis("x", 0, 10, 11),
+            dd.Axis("phi", 0, 360, 12, periodic=True),
+            dd.Axis("one", 0, 1, 1, periodic=True),
+        ],
+    )
     for old, new, samples in zip(field.axes, refined(field).axes, (21, 24, 1), strict=True):
         assert new.samples == samples and np.allclose(new.points[::2], old.points)
 
@@ -224,7 +268,9 @@ def test_where_no_finer_grid_is_measured_the_reason_is_given(field: dd.Field, sa
     assert says in obstacle(isolate(field))
 
 
-def test_the_command_prints_the_interval_and_discretisation_error_of_every_threshold(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_prints_the_interval_and_discretisation_error_of_every_threshold(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     model = dd.Model("m")
     model.add(held(25, "cell"))
     dd.save(model, tmp_path / "m.json")
@@ -236,6 +282,10 @@ def test_the_command_prints_the_interval_and_discretisation_error_of_every_thres
         assert " ± " in said and "discretisation error " in said
     assert main([*given, "--json", "--force"]) == 0
     answer = json.loads(capsys.readouterr().out)
-    assert answer["intervals"].keys() == answer["discretisation_error"].keys() >= {"detection", "forgetting", "suppression"}
+    assert (
+        answer["intervals"].keys()
+        == answer["discretisation_error"].keys()
+        >= {"detection", "forgetting", "suppression"}
+    )
     low, high = answer["intervals"]["forgetting"]
     assert low < answer["forgetting_boost"] < high and answer["discretisation_not_measured"] is None

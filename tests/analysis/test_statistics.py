@@ -87,7 +87,9 @@ def test_equality_is_shown_by_two_one_sided_tests_and_not_by_a_large_p():
     for a, b in (few, many, apart):
         p = max(stats.ttest_ind(a + 0.05, b, equal_var=False, alternative="greater").pvalue,
                 stats.ttest_ind(a - 0.05, b, equal_var=False, alternative="less").pvalue)  # fmt: skip
-        assert (p <= 0.025) == (statistics.equivalent(statistics.difference_interval(a, b), -0.05, 0.05) is True)
+        assert (p <= 0.025) == (
+            statistics.equivalent(statistics.difference_interval(a, b), -0.05, 0.05) is True
+        )
 
 
 def test_an_inequality_can_fail_on_its_own_side():
@@ -101,8 +103,13 @@ def test_an_inequality_can_fail_on_its_own_side():
 
 
 def test_the_interval_of_a_difference_of_shares_is_the_published_one():
-    value, (low, high) = statistics.share_difference((56, 70), (48, 80))  # Newcombe (1998), table II, method 10, example (a)
-    assert value == pytest.approx(0.2) and (low, high) == (pytest.approx(0.0524, abs=1e-4), pytest.approx(0.3339, abs=1e-4))
+    value, (low, high) = statistics.share_difference(
+        (56, 70), (48, 80)
+    )  # Newcombe (1998), table II, method 10, example (a)
+    assert value == pytest.approx(0.2) and (low, high) == (
+        pytest.approx(0.0524, abs=1e-4),
+        pytest.approx(0.3339, abs=1e-4),
+    )
     assert statistics.share_difference((0, 0), (1, 2)) == (None, None)
 
 

@@ -1,7 +1,7 @@
 """What is measured against what theory says: Amari (1977), for one dimension, a step output and no noise.
 
-With w(x) = A exp(-x^2 / 2 sigma^2) - c and W(a) = integral_0^a w, a peak of width a is stationary where W(a) + h + s0 = 0
-(s0: homogeneous input). It is stable where w(a) < 0; none exists below s0 = -h - max W.
+With w(x) = A exp(-x^2 / 2 sigma^2) - c and W(a) = integral_0^a w, a peak of width a is stationary where W(a)
++ h + s0 = 0 (s0: homogeneous input). It is stable where w(a) < 0; none exists below s0 = -h - max W.
 """
 
 from __future__ import annotations
@@ -51,7 +51,15 @@ def widths(a: float, sigma: float, c: float, level: float) -> tuple[float, float
 
 def field(a: float, sigma: float, c: float, h: float, samples: int) -> dd.Field:
     x = dd.Axis("x", 0, LENGTH, samples=samples, periodic=True)
-    return dd.Field("u", [x], tau=TAU, resting_level=h, sigmoid=Step(), kernel=[dd.Gaussian(a, sigma)], global_inhibition=c)
+    return dd.Field(
+        "u",
+        [x],
+        tau=TAU,
+        resting_level=h,
+        sigmoid=Step(),
+        kernel=[dd.Gaussian(a, sigma)],
+        global_inhibition=c,
+    )
 
 
 @pytest.mark.parametrize("samples", [160, 320])
@@ -74,7 +82,9 @@ def test_the_width_that_separates_growth_from_decay(a: float, sigma: float, c: f
     for width, grows in ((unstable - 3 * step, False), (unstable + 3 * step, True)):
         one = isolate(field(a, sigma, c, h, samples), precision="float64")
         x = np.asarray(one.axes[0].points) - LENGTH / 2
-        shape = h + sum(w(x - y, a, sigma, c) * step for y in np.arange(-width / 2 + step / 2, width / 2, step))
+        shape = h + sum(
+            w(x - y, a, sigma, c) * step for y in np.arange(-width / 2 + step / 2, width / 2, step)
+        )
         start = one.snapshot()
         ident = one.session.document.by_names()[("field",)].id
         row = {"activation": shape}
@@ -88,11 +98,15 @@ def test_the_width_that_separates_growth_from_decay(a: float, sigma: float, c: f
 
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
 def test_the_level_below_which_no_peak_can_stay(a: float, sigma: float, c: float, h: float) -> None:
-    """A step output on a grid sees the edge at its last sample, half a cell inside: an offset of w(0) step / 2, which two grids remove."""
+    """A step output on a grid sees the edge at its last sample, half a cell inside: an offset of w(0) step /
+    2, which two grids remove.
+    """
     measured = []
     for samples in (320, 640):
         step = LENGTH / samples
-        found = forgetting(isolate(field(a, sigma, c, h, samples), precision="float64"), 1.5 * abs(h), accuracy=0.002)
+        found = forgetting(
+            isolate(field(a, sigma, c, h, samples), precision="float64"), 1.5 * abs(h), accuracy=0.002
+        )
         assert found is not None and found.jump
         on_this_grid = -h - np.cumsum(w(np.arange(samples // 2) * step, a, sigma, c) * step).max()
         assert found.value == pytest.approx(on_this_grid, rel=0.01)
@@ -104,7 +118,9 @@ def test_the_level_below_which_no_peak_can_stay(a: float, sigma: float, c: float
 
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_localised_input_is_detected_where_it_reaches_the_threshold(a: float, sigma: float, c: float, h: float, precision: str) -> None:
+def test_localised_input_is_detected_where_it_reaches_the_threshold(
+    a: float, sigma: float, c: float, h: float, precision: str
+) -> None:
     """A step output is silent up to the threshold, so that detection is where h + amplitude = 0."""
     found = thresholds(isolate(field(a, sigma, c, h, 160), precision=precision)).detection
     assert found is not None and found.jump and found.value == pytest.approx(-h, rel=0.01)
@@ -112,7 +128,9 @@ def test_localised_input_is_detected_where_it_reaches_the_threshold(a: float, si
 
 def test_a_smooth_output_settles_on_its_own_equation() -> None:
     """The pattern that is left satisfies u = h + w * g(u), recomputed with plain sums."""
-    one = isolate(dc.replace(field(1.0, 5.0, 0.30, -2.0, 160), sigmoid=dd.Logistic(20.0)), precision="float64")
+    one = isolate(
+        dc.replace(field(1.0, 5.0, 0.30, -2.0, 160), sigmoid=dd.Logistic(20.0)), precision="float64"
+    )
     kept = outlives(one, 3.0)
     assert kept.outlives
     u, x, step = kept.activation, one.axes[0].points, one.axes[0].step

@@ -1,4 +1,6 @@
-"""Elementary behaviours: each begins, lasts and ends as its nodes say, and the constraints between them hold in every trial."""
+"""Elementary behaviours: each begins, lasts and ends as its nodes say, and the constraints between them hold
+in every trial.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +18,18 @@ X = dd.Axis("x", 0, 100, samples=51)
 def on(model: dd.Model, names: list[str], duration: float = 1200, trials: int = 20) -> dict[str, np.ndarray]:
     """For each node or field whether it is above threshold, (trials, time), every ms."""
     data = dd.simulate(model, duration, record=[f"{name}.activation" for name in names], trials=trials)
-    return {name: (data[f"{name}.activation"].values > 0).reshape(trials, int(duration) + 1, -1).any(-1) for name in names}
+    return {
+        name: (data[f"{name}.activation"].values > 0).reshape(trials, int(duration) + 1, -1).any(-1)
+        for name in names
+    }
 
 
 def tell(model: dd.Model, target: str, amplitude: float, *windows: tuple[float, float]) -> None:
     """A timed signal to one node."""
-    model.add(Boost(f"to {target}", [], amplitude=amplitude, windows=[Window(*w) for w in windows])) >> model[target]
+    (
+        model.add(Boost(f"to {target}", [], amplitude=amplitude, windows=[Window(*w) for w in windows]))
+        >> model[target]
+    )
 
 
 def several(*names: str) -> dd.Model:
@@ -64,10 +72,17 @@ def test_what_is_perceived_must_be_what_was_intended() -> None:
         model.insert(behaviour([X]), "reach")
         tell(model, "reach.task", ON, (100, 1200))
         model.add(dd.GaussianStimulus("target", [X], center=70, sigma=4, amplitude=3)) >> model["reach.goal"]
-        model.add(dd.GaussianStimulus("hand", [X], center=place, sigma=4, amplitude=3, windows=[(500, 1200)])) >> model["reach.outcome"]
+        (
+            model.add(
+                dd.GaussianStimulus("hand", [X], center=place, sigma=4, amplitude=3, windows=[(500, 1200)])
+            )
+            >> model["reach.outcome"]
+        )
         states = on(model, ["reach.intention", "reach.goal", "reach.outcome", "reach.satisfaction"])
         assert states["reach.goal"][:, 300:500].all() and not states["reach.outcome"][:, :500].any()
-        assert (states["reach.satisfaction"][:, -1] == satisfied).all() and (states["reach.intention"][:, -1] != satisfied).all()
+        assert (states["reach.satisfaction"][:, -1] == satisfied).all() and (
+            states["reach.intention"][:, -1] != satisfied
+        ).all()
         assert (states["reach.goal"][:, -1] != satisfied).all()
 
 

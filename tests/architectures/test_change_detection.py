@@ -1,4 +1,6 @@
-"""Same or different: the contrast field is silent where the memory holds what is shown, and speaks where it does not."""
+"""Same or different: the contrast field is silent where the memory holds what is shown, and speaks where it
+does not.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ def trial(sample: tuple[float, ...], **sweep: list[float]) -> xarray.Dataset:
     """A trial, every 10 ms; the third item of the test is swept."""
     record = [f"{name}.activation" for name in ("contrast", "memory", "same", "different")]
     values = {f"test {len(sample)}.center": sweep["last"]}
-    return dd.simulate(change_trial(sample, sample), LENGTH, record=record, every=10, trials=TRIALS, sweep=values)
+    return dd.simulate(
+        change_trial(sample, sample), LENGTH, record=record, every=10, trials=TRIALS, sweep=values
+    )
 
 
 def answers(data: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
@@ -32,7 +36,9 @@ def three() -> xarray.Dataset:
     return trial(SAMPLE, last=[250.0, 265.0, 285.0, 320.0])
 
 
-def test_an_unchanged_display_is_the_same_and_a_changed_one_different_in_every_trial(three: xarray.Dataset) -> None:
+def test_an_unchanged_display_is_the_same_and_a_changed_one_different_in_every_trial(
+    three: xarray.Dataset,
+) -> None:
     same, different = answers(three)
     assert same[0].all() and not different[0].any()
     assert different[2:].all() and not same[2:].any()
@@ -56,7 +62,9 @@ def test_contrast_hands_over_to_memory(three: xarray.Dataset) -> None:
         held = sorted(p.position[0] for p in peaks(one["memory.activation"].sel(time=TEST[0])))
         assert held == pytest.approx(SAMPLE, abs=8)
         assert not peaks(one["contrast.activation"].sel(time=TEST[0] - 100)), "what is held is no news"
-        assert [p.position[0] for p in peaks(one["contrast.activation"].sel(time=TEST[0] + 70))] == pytest.approx([285], abs=4)
+        assert [
+            p.position[0] for p in peaks(one["contrast.activation"].sel(time=TEST[0] + 70))
+        ] == pytest.approx([285], abs=4)
 
 
 @pytest.mark.parametrize("count", [1, 2])

@@ -27,19 +27,25 @@ def moved(f: np.ndarray, dx: int, dy: int) -> np.ndarray:
     """Shifted by whole cells; zeros come in."""
     out = np.zeros_like(f)
     nx, ny = f.shape
-    out[max(dx, 0) : nx + min(dx, 0), max(dy, 0) : ny + min(dy, 0)] = f[max(-dx, 0) : nx + min(-dx, 0), max(-dy, 0) : ny + min(-dy, 0)]
+    out[max(dx, 0) : nx + min(dx, 0), max(dy, 0) : ny + min(dy, 0)] = f[
+        max(-dx, 0) : nx + min(-dx, 0), max(-dy, 0) : ny + min(-dy, 0)
+    ]
     return out
 
 
 def test_sixty_steps_of_a_behaviour_that_leads_north() -> None:
     x, y = X.points[:, None], Y.points[None, :]
-    goal, place = (a * np.exp(-0.5 * (((x - 14) / 3) ** 2 + ((y - at) / 3) ** 2)) for a, at in ((10, 17), (8, 7)))
+    goal, place = (
+        a * np.exp(-0.5 * (((x - 14) / 3) ** 2 + ((y - at) / 3) ** 2)) for a, at in ((10, 17), (8, 7))
+    )
     model = elementary_behaviour([X, Y], (0.0, 5.0), noise=0.0, boundary="periodic")
     model.describe(time_unit="1 = 64 ms", dt=1.0)
     for name, values, target in (("goal", goal, "motivation"), ("place", place, "satisfaction")):
         model.add(Pattern(name, [X, Y], values)) >> model[target]  # type: ignore[arg-type]
     names = ("motivation", "precondition", "intention", "satisfaction")
-    data = dd.simulate(model, STEPS, record=[f"{n}.activation" for n in names], every=STEPS, precision="float64")
+    data = dd.simulate(
+        model, STEPS, record=[f"{n}.activation" for n in names], every=STEPS, precision="float64"
+    )
 
     u = {n: np.full((30, 25), -5.0) for n in names}
     for _ in range(STEPS):
@@ -63,5 +69,9 @@ def test_copies_share_one_knob_for_each_strength() -> None:
         model.insert(elementary_behaviour([X], [5.0 * way]), name)
     for knob, value in STRENGTHS.items():
         model.set(knob, 2 * value)
-    assert model.get("left.precondition to motivation.factor") == model.get("right.precondition to motivation.factor") == 10
+    assert (
+        model.get("left.precondition to motivation.factor")
+        == model.get("right.precondition to motivation.factor")
+        == 10
+    )
     assert model.get("right.satisfaction to intention.kernel.0.amplitude") == -10

@@ -19,9 +19,23 @@ def scene() -> dd.Model:
     """Three objects, and a cue to each read-out that is not there yet."""
     model = feature_space()
     for k, at in enumerate(SCENE):
-        model.add(dd.GaussianStimulus(f"object {k}", [SPACE, FEATURE], center=at, sigma=[5, 20], amplitude=OBJECT)) >> model["bound"]
+        (
+            model.add(
+                dd.GaussianStimulus(
+                    f"object {k}", [SPACE, FEATURE], center=at, sigma=[5, 20], amplitude=OBJECT
+                )
+            )
+            >> model["bound"]
+        )
     for name, axis, sigma in (("space", SPACE, 5), ("feature", FEATURE, 20)):
-        model.add(dd.GaussianStimulus(f"{name} cue", [axis], center=0, sigma=sigma, amplitude=0, windows=[(100, 400)])) >> model[name]
+        (
+            model.add(
+                dd.GaussianStimulus(
+                    f"{name} cue", [axis], center=0, sigma=sigma, amplitude=0, windows=[(100, 400)]
+                )
+            )
+            >> model[name]
+        )
     return model
 
 
@@ -77,4 +91,6 @@ def test_a_selection_outlives_its_cue_and_is_released() -> None:
     for name in ("bound", "space", "feature"):
         release >> model[name]
     u = dd.simulate(model, 1600, record=["feature.activation"], every=10, trials=10)["feature.activation"]
-    assert (np.asarray(u.sel(time=1190).max("feature")) > 0).all() and float(u.sel(time=slice(1290, None)).max()) < 0
+    assert (np.asarray(u.sel(time=1190).max("feature")) > 0).all() and float(
+        u.sel(time=slice(1290, None)).max()
+    ) < 0

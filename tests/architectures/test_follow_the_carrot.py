@@ -11,7 +11,11 @@ from deodar.architectures.follow_the_carrot import Carrot, follow
 from deodar.errors import ParameterError
 from deodar.worlds.arena import Arena
 
-BEND = {"unit": "cm", "arena": {"x": [0, 60], "y": [0, 60]}, "walls": [{"name": "bar", "center": [20, 30], "size": [40, 4]}]}
+BEND = {
+    "unit": "cm",
+    "arena": {"x": [0, 60], "y": [0, 60]},
+    "walls": [{"name": "bar", "center": [20, 30], "size": [40, 4]}],
+}
 START, GOAL = [(10, 10, 0), (10, 15, 2.0)], [(10, 50), (15, 45)]
 
 

@@ -18,7 +18,9 @@ def fronts(motivation: np.ndarray) -> np.ndarray:
 
 
 def test_a_wave_of_constant_speed_spreads_from_the_goal() -> None:
-    data = dd.simulate(plan(start=185.0, goals=[(40.0, (0.0, 1e6))]), 180, record="left.motivation.activation")
+    data = dd.simulate(
+        plan(start=185.0, goals=[(40.0, (0.0, 1e6))]), 180, record="left.motivation.activation"
+    )
     front = fronts(data["left.motivation.activation"].values)
     t = np.flatnonzero((front > 55) & (front < 165))
     speed, start = np.polyfit(t, front[t], 1)
@@ -27,7 +29,12 @@ def test_a_wave_of_constant_speed_spreads_from_the_goal() -> None:
 
 
 def test_it_begins_to_act_when_the_wave_has_come_and_plans_anew() -> None:
-    names = ["gone.activation", "left.strongest.output", "right.strongest.output", "left.motivation.activation"]
+    names = [
+        "gone.activation",
+        "left.strongest.output",
+        "right.strongest.output",
+        "left.motivation.activation",
+    ]
     data = dd.simulate(plan(), 1200, record=names, trials=[3]).isel(trial=0)
     where, front = START + data["gone.activation"].values, fronts(data["left.motivation.activation"].values)
     left, right = (data[f"{way}.strongest.output"].values > 0.5 for way in ("left", "right"))

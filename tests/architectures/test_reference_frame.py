@@ -1,4 +1,6 @@
-"""The steered shift and the diagonals of a field are the same transformation: exactly as couplings, to a fraction of a sample as fields."""
+"""The steered shift and the diagonals of a field are the same transformation: exactly as couplings, to a
+fraction of a sample as fields.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ from deodar.errors import ParameterError
 
 
 def test_as_couplings_they_are_the_same_numbers() -> None:
-    """Any pattern, any gaze on the grid: the product of pattern and gaze, summed along diagonals, is the pattern moved by the gaze."""
+    """Any pattern, any gaze on the grid: the product of pattern and gaze, summed along diagonals, is the
+    pattern moved by the gaze.
+    """
     rng = np.random.default_rng(0)
     wide = dd.Axis(RETINA.name, BODY.lower, BODY.upper, BODY.samples, unit=RETINA.unit)
     for gaze in (-30.0, -7.0, 0.0, 13.0, 30.0):
@@ -32,9 +36,15 @@ def test_as_couplings_they_are_the_same_numbers() -> None:
         expanded >> both
         model.connect(place >> model.add(Project([RETINA, GAZE], name="gaze expands")), "both.factor")
         both >> model.add(DiagonalSum([BODY], name="diagonal"))
-        pattern >> model.add(Resample([wide], name="wide")) >> model.add(SteeredShift([RETINA.name], name="steered"))
+        (
+            pattern
+            >> model.add(Resample([wide], name="wide"))
+            >> model.add(SteeredShift([RETINA.name], name="steered"))
+        )
         model.connect(number, "steered.by")
-        data = dd.simulate(model, 0, record=["diagonal.output", "steered.output"], precision="float64").isel(time=0)
+        data = dd.simulate(model, 0, record=["diagonal.output", "steered.output"], precision="float64").isel(
+            time=0
+        )
         assert np.abs(data["diagonal.output"].values).max() > 1
         assert data["diagonal.output"].values == pytest.approx(data["steered.output"].values, abs=1e-12)
 
@@ -46,10 +56,18 @@ def test_a_peak_stands_at_the_sum_of_place_and_gaze(form: str) -> None:
     gaze >> model["gaze"]
     model.add(dd.GaussianStimulus("object", [RETINA], center=0.0, sigma=3, amplitude=6)) >> model["retina"]
     places, gazes = [-15.0, -3.5, 0.0, 8.0, 20.0], [-20.0, -6.25, 0.0, 11.0, 20.0]
-    found = dd.simulate(model, 400, record=["body.activation"], every=400, sweep={"object.center": places, "at.amplitude": gazes})
+    found = dd.simulate(
+        model,
+        400,
+        record=["body.activation"],
+        every=400,
+        sweep={"object.center": places, "at.amplitude": gazes},
+    )
     for x in places:
         for g in gazes:
-            (peak,) = peaks(found["body.activation"].isel(time=-1).sel({"object.center": x, "at.amplitude": g}))
+            (peak,) = peaks(
+                found["body.activation"].isel(time=-1).sel({"object.center": x, "at.amplitude": g})
+            )
             assert peak.position[0] == pytest.approx(x + g, abs=0.5), (x, g)
 
 
@@ -58,10 +76,19 @@ def test_several_objects_are_carried_over_together(form: str) -> None:
     model = reference_frame(form)
     model.add(Boost("at", [], amplitude=10.0)) >> model["gaze"]
     for place in (-20.0, 0.0, 20.0):
-        model.add(dd.GaussianStimulus(f"object at {place:g}", [RETINA], center=place, sigma=3, amplitude=6.5)) >> model["retina"]
-    found = dd.simulate(model, 500, record=["body.activation"], every=500, trials=5)["body.activation"].isel(time=-1)
+        (
+            model.add(
+                dd.GaussianStimulus(f"object at {place:g}", [RETINA], center=place, sigma=3, amplitude=6.5)
+            )
+            >> model["retina"]
+        )
+    found = dd.simulate(model, 500, record=["body.activation"], every=500, trials=5)["body.activation"].isel(
+        time=-1
+    )
     for trial in range(5):
-        assert sorted(p.position[0] for p in peaks(found.isel(trial=trial))) == pytest.approx([-10, 10, 30], abs=0.6)
+        assert sorted(p.position[0] for p in peaks(found.isel(trial=trial))) == pytest.approx(
+            [-10, 10, 30], abs=0.6
+        )
 
 
 @pytest.mark.parametrize("form", ["diagonal", "steered"])

@@ -20,7 +20,13 @@ def test_it_is_a_document_that_names_no_file(tmp_path: Path) -> None:
 
 
 def test_the_ridge_has_the_strength_that_its_constant_states() -> None:
-    data = dd.simulate(saliency(hue=100.0), CUE_AT + 1000, record=["ridge.output", "colour.activation"], every=500, world=Picture.example())
+    data = dd.simulate(
+        saliency(hue=100.0),
+        CUE_AT + 1000,
+        record=["ridge.output", "colour.activation"],
+        every=500,
+        world=Picture.example(),
+    )
     ridge = data["ridge.output"].values
     assert ridge[1].max() < 0.05 and 3.6 < ridge[-1].max() < 4.0
     assert abs(data["hue"].values[ridge[-1].argmax()] - 100) <= 12

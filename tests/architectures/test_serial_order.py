@@ -1,4 +1,6 @@
-"""The chain learns and produces sequences; its transitions come in the order of the theory, and its state keeps for as long as it has to."""
+"""The chain learns and produces sequences; its transitions come in the order of the theory, and its state
+keeps for as long as it has to.
+"""
 
 from __future__ import annotations
 
@@ -23,18 +25,26 @@ def assert_right(found: list[Transition], sequence: list[float]) -> None:
     assert [t.place for t in found] == pytest.approx(sequence, abs=1.5)
 
 
-@pytest.mark.parametrize("sequence", [[54.0, 6.0], [30.0, 6.0, 6.0, 54.0, 30.0, 18.0, 42.0, 42.0, 42.0, 6.0]], ids=["two", "ten"])
+@pytest.mark.parametrize(
+    "sequence", [[54.0, 6.0], [30.0, 6.0, 6.0, 54.0, 30.0, 18.0, 42.0, 42.0, 42.0, 6.0]], ids=["two", "ten"]
+)
 def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]) -> None:
     n = len(sequence)
-    runs = dd.simulate(lesson(sequence, PLACES), lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=8)
+    runs = dd.simulate(
+        lesson(sequence, PLACES), lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=8
+    )
     for trial in range(8):
         data = runs.isel(trial=trial)
-        learned, produced = cascade(data, 0.0, production_start(n)), cascade(data, production_start(n) + RELEASED)
+        learned, produced = (
+            cascade(data, 0.0, production_start(n)),
+            cascade(data, production_start(n) + RELEASED),
+        )
         assert_right(learned, sequence)
         assert_right(produced, sequence)
         assert all(t.in_order for t in produced)
         assert np.isnan(produced[-1].next_on) and not any(np.isnan(t.next_action) for t in produced[:-1])
-        # in learning the action outlasts its node until it is no longer shown, and the next one is called for after that
+        # in learning the action outlasts its node until it is no longer shown, and the next one is called for
+        # after that
         assert all(t.satisfied < t.off < t.action_off < t.released < t.next_on for t in learned[:-1])
 
 
@@ -48,7 +58,10 @@ def test_the_order_of_what_is_perceived_does_not_matter() -> None:
 def test_an_action_waits_for_its_own_condition_of_satisfaction() -> None:
     data = dd.simulate(lesson([30.0, 6.0], [18.0, 42.0]), lesson_end(2, 2), record=cascade_paths(2))
     assert cascade(data, production_start(2) + RELEASED) == []
-    assert float(data["item 1.node.activation"][-1]) > 0 and float(data["satisfaction.activation"].sel(time=slice(4000, None)).max()) < 0
+    assert (
+        float(data["item 1.node.activation"][-1]) > 0
+        and float(data["satisfaction.activation"].sel(time=slice(4000, None)).max()) < 0
+    )
 
 
 def test_state_keeps_over_pauses_of_one_to_a_thousand_seconds() -> None:
@@ -57,19 +70,29 @@ def test_state_keeps_over_pauses_of_one_to_a_thousand_seconds() -> None:
     begin = production_start(4)
     moments = begin + 400.0 + np.cumsum(np.array(pauses) + 500.0)
     for k, place in enumerate(sorted(set(sequence)), 1):
-        model.set(f"seen {k}.windows", [Window(t, t + 200.0) for t, p in zip(moments, sequence, strict=True) if p == place])
+        model.set(
+            f"seen {k}.windows",
+            [Window(t, t + 200.0) for t, p in zip(moments, sequence, strict=True) if p == place],
+        )
     session = dd.Session(model, dt=5, seed=1)
     session.run(begin + 500.0)
     weights = [_weights(session, model, k) for k in range(1, 5)]
     for k, (place, moment) in enumerate(zip(sequence, moments, strict=True), 1):
         session.run(moment - session.time)
-        assert [session.read(f"item {j}.node.activation") > 0 for j in range(1, 5)] == [j == k for j in range(1, 5)], f"after {pauses[k - 1]} ms"
+        assert [session.read(f"item {j}.node.activation") > 0 for j in range(1, 5)] == [
+            j == k for j in range(1, 5)
+        ], f"after {pauses[k - 1]} ms"
         u = session.read("action.activation")
-        assert abs(np.mean(np.flatnonzero(u > 0)) - place) < 2.5 and session.read("satisfaction.activation").max() < 0
+        assert (
+            abs(np.mean(np.flatnonzero(u > 0)) - place) < 2.5
+            and session.read("satisfaction.activation").max() < 0
+        )
         session.run(400.0)
     assert not any(session.read(f"item {j}.node.activation") > 0 for j in range(1, 5))
     for k, before in enumerate(weights, 1):
-        assert np.array_equal(_weights(session, model, k), before), "weights that do not learn stay the same bits"
+        assert np.array_equal(_weights(session, model, k), before), (
+            "weights that do not learn stay the same bits"
+        )
 
 
 def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
@@ -110,8 +133,15 @@ def test_a_sequence_must_fit_into_its_chain() -> None:
 
 def test_another_order_is_told() -> None:
     good = Transition(1, 30.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0)
-    assert good.in_order and not dc.replace(good, action_off=11.0).in_order and not dc.replace(good, released=np.nan).in_order
-    assert dc.replace(good, next_on=np.nan, next_action=np.nan).in_order and not dc.replace(good, next_action=np.nan).in_order
+    assert (
+        good.in_order
+        and not dc.replace(good, action_off=11.0).in_order
+        and not dc.replace(good, released=np.nan).in_order
+    )
+    assert (
+        dc.replace(good, next_on=np.nan, next_action=np.nan).in_order
+        and not dc.replace(good, next_action=np.nan).in_order
+    )
 
 
 def _weights(session: dd.Session, model: dd.Model, k: int) -> np.ndarray:

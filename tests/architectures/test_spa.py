@@ -17,7 +17,9 @@ INTENDED = [f"{name}.strongest.output" for name in DIRECTIONS]
 
 
 def run(arena: Arena, steps: int, *more: str) -> xarray.Dataset:
-    return dd.simulate(spa(arena), steps, record=["pose.output", *INTENDED, *more], world=arena, progress=False)
+    return dd.simulate(
+        spa(arena), steps, record=["pose.output", *INTENDED, *more], world=arena, progress=False
+    )
 
 
 def test_the_numbers_of_the_published_fields() -> None:
@@ -41,9 +43,13 @@ def test_it_is_a_document_with_one_knob_for_four_behaviours(tmp_path: Path) -> N
 def test_the_map_is_the_published_one_before_and_behind_the_walls() -> None:
     data = run(maze("z", noise="none"), 1, "occupied.output")
     occupied = data["occupied.output"].values[-1]
-    assert occupied[:5].all() and occupied[-6:].all() and occupied[:, :6].all() and occupied[:, -5:].all(), "the margin"
+    assert occupied[:5].all() and occupied[-6:].all() and occupied[:, :6].all() and occupied[:, -5:].all(), (
+        "the margin"
+    )
     x, y = (data[name].values for name in ("x", "y"))
-    assert not occupied[np.ix_(np.isin(x, [-45, -65]), np.isin(y, [55, 65]))].any(), "start and goal of case 3"
+    assert not occupied[np.ix_(np.isin(x, [-45, -65]), np.isin(y, [55, 65]))].any(), (
+        "start and goal of case 3"
+    )
     assert 0.25 < occupied.mean() < 0.4
 
 
@@ -57,7 +63,9 @@ def test_an_arena_in_metres_is_the_same() -> None:
 
 
 def test_case_3_plans_for_about_210_steps_and_goes_round_by_the_north() -> None:
-    """Section 5.2 and figure 10: the wave passes west of the start near 150, the plan is complete near 210, and the robot leaves."""
+    """Section 5.2 and figure 10: the wave passes west of the start near 150, the plan is complete near 210,
+    and the robot leaves.
+    """
     data = run(maze("z"), 400, "west.motivation.activation")
     pose = data["pose.output"].values
     moved = np.linalg.norm(pose[:, :2] - pose[0, :2], axis=1)
@@ -82,5 +90,10 @@ def test_it_arrives(noise: str) -> None:
 
 
 def test_what_there_is_not() -> None:
-    refused(lambda: maze("z", noise="lo"), dd.errors.ParameterError, "no level of noise 'lo'", "Did you mean 'low'")
+    refused(
+        lambda: maze("z", noise="lo"),
+        dd.errors.ParameterError,
+        "no level of noise 'lo'",
+        "Did you mean 'low'",
+    )
     refused(lambda: maze("y"), dd.errors.WorldError, "no arena")

@@ -1,4 +1,6 @@
-"""The two-layer field: its equations, and the one-layer field and the pool that it comes together with as inhibition is made faster."""
+"""The two-layer field: its equations, and the one-layer field and the pool that it comes together with as
+inhibition is made faster.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +18,31 @@ TAU, H = 20.0, -5.0
 
 def test_the_steps_are_those_of_the_equations():
     model = dd.Model("steps", dt=0.5)
-    kernels = [dd.Gaussian(10, 4, normalized=True)], [dd.Gaussian(-6, 9, normalized=True)], [dd.Gaussian(8, 3, normalized=True)]
-    model.insert(two_layer_field([RING], kernels[0], kernels[1], 0.2, kernels[2], 12.0, 7.0, -3.0, -6.0, dd.Logistic(3), dd.Logistic(1)), "two")
+    kernels = (
+        [dd.Gaussian(10, 4, normalized=True)],
+        [dd.Gaussian(-6, 9, normalized=True)],
+        [dd.Gaussian(8, 3, normalized=True)],
+    )
+    model.insert(
+        two_layer_field(
+            [RING],
+            kernels[0],
+            kernels[1],
+            0.2,
+            kernels[2],
+            12.0,
+            7.0,
+            -3.0,
+            -6.0,
+            dd.Logistic(3),
+            dd.Logistic(1),
+        ),
+        "two",
+    )
     model.add(dd.GaussianStimulus("s", [RING], center=30, sigma=6, amplitude=5)) >> model["two.excitatory"]
-    data = dd.simulate(model, 60, record=["two.excitatory.activation", "two.inhibitory.activation"], precision="float64")
+    data = dd.simulate(
+        model, 60, record=["two.excitatory.activation", "two.inhibitory.activation"], precision="float64"
+    )
 
     def ring(kernel):
         d = RING.points[:, None] - RING.points
@@ -42,25 +65,40 @@ def test_the_steps_are_those_of_the_equations():
 
 
 def selection(axis, inhibition, global_inhibition, pool):
-    """One layer, two layers, and where asked the pool behind a low-pass filter, all of the same parameters, between two inputs."""
+    """One layer, two layers, and where asked the pool behind a low-pass filter, all of the same parameters,
+    between two inputs.
+    """
     kernel = [dd.Gaussian(12, 5, normalized=True)]
     model = dd.Model("three", dt=0.5)
-    model.add(dd.Field("one", [axis], TAU, H, kernel=[*kernel, *inhibition], global_inhibition=global_inhibition))
+    model.add(
+        dd.Field("one", [axis], TAU, H, kernel=[*kernel, *inhibition], global_inhibition=global_inhibition)
+    )
     layers = two_layer_field(
-        [axis], kernel, inhibition, global_inhibition, tau=TAU, resting_level=H, resting_inhibition=0, sigmoid_inhibition=Linear()
+        [axis],
+        kernel,
+        inhibition,
+        global_inhibition,
+        tau=TAU,
+        resting_level=H,
+        resting_inhibition=0,
+        sigmoid_inhibition=Linear(),
     )
     model.insert(layers, "two")
     targets = [model["one"], model["two.excitatory"]]
     model.parameter("tau_v", 1.0)
     model.link("two.inhibitory.tau", "tau_v")
     if pool:
-        units = SoftWinnerTakeAll("pool", [axis], TAU, 1.0, 0.0, kernel, global_inhibition, 1.0, -H, sigmoid=dd.Logistic())
+        units = SoftWinnerTakeAll(
+            "pool", [axis], TAU, 1.0, 0.0, kernel, global_inhibition, 1.0, -H, sigmoid=dd.Logistic()
+        )
         slow = model.add(dd.Field("slow", [axis], TAU, 0.0, Linear()))
         slow >> model.add(units)
         model.link("pool.tau_inhibition", "tau_v")
         targets.append(slow)
     for name, place, strength in (("left", 30, 7.0), ("right", 70, 6.0)):
-        stimulus = model.add(dd.GaussianStimulus(name, [axis], center=place, sigma=5, amplitude=strength, windows=[(20, 250)]))
+        stimulus = model.add(
+            dd.GaussianStimulus(name, [axis], center=place, sigma=5, amplitude=strength, windows=[(20, 250)])
+        )
         for target in targets:
             stimulus >> target
     return model
@@ -79,7 +117,9 @@ def falls_in_proportion(distance):
 def test_faster_inhibition_brings_the_three_together():
     model = selection(X, (), 0.6, pool=True)
     record = ["one.activation", "two.excitatory.activation", "pool.interaction", "slow.activation"]
-    data = dd.simulate(model, 300, record=record, sweep={"tau_v": list(TAU * RATIOS)}, every=1, precision="float64")
+    data = dd.simulate(
+        model, 300, record=record, sweep={"tau_v": list(TAU * RATIOS)}, every=1, precision="float64"
+    )
     one, two = data["one.activation"].values, data["two.excitatory.activation"].values
     pool = (data["pool.interaction"] + data["slow.activation"] + H).values
     left, right = one[0, 240, 15], one[0, 240, 35]
@@ -90,11 +130,17 @@ def test_faster_inhibition_brings_the_three_together():
 
 
 def test_with_local_inhibition_too():
-    """Mexican-hat interaction: the inhibitory layer's kernel is the negative part of the one-layer field's."""
+    """Mexican-hat interaction: the inhibitory layer's kernel is the negative part of the one-layer
+    field's.
+    """
     model = selection(RING, (dd.Gaussian(-9, 12, normalized=True),), 0.2, pool=False)
     record = ["one.activation", "two.excitatory.activation"]
-    data = dd.simulate(model, 300, record=record, sweep={"tau_v": list(TAU * RATIOS)}, every=1, precision="float64")
-    falls_in_proportion(np.abs(data["two.excitatory.activation"] - data["one.activation"]).max(("time", "x")).values)
+    data = dd.simulate(
+        model, 300, record=record, sweep={"tau_v": list(TAU * RATIOS)}, every=1, precision="float64"
+    )
+    falls_in_proportion(
+        np.abs(data["two.excitatory.activation"] - data["one.activation"]).max(("time", "x")).values
+    )
 
 
 def test_slow_inhibition_is_another_dynamics():
@@ -103,7 +149,11 @@ def test_slow_inhibition_is_another_dynamics():
     model.set("tau_v", 4 * TAU)
     u = dd.simulate(model, 250, record=["one.activation", "two.excitatory.activation"], every=1)
     assert float(u["two.excitatory.activation"].sel(x=30, time=slice(80, 100)).min()) > 0
-    assert float(u["two.excitatory.activation"].sel(time=slice(200, 240)).max("x").min()) < 0 < float(u["one.activation"].sel(x=30, time=220))
+    assert (
+        float(u["two.excitatory.activation"].sel(time=slice(200, 240)).max("x").min())
+        < 0
+        < float(u["one.activation"].sel(x=30, time=220))
+    )
 
 
 @pytest.mark.parametrize("drive", [(), (dd.Gaussian(1, 3, normalized=True),)])

@@ -1,4 +1,6 @@
-"""`deodar studio` that counts what it holds: on SIGUSR1 it writes the numbers to the file that the environment variable COUNTS names."""
+"""`deodar studio` that counts what it holds: on SIGUSR1 it writes the numbers to the file that the
+environment variable COUNTS names.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Mutated documents: each is read as a document, or refused with an error of deodar that says why. Nothing else may happen."""
+"""Mutated documents: each is read as a document, or refused with an error of deodar that says why.
+
+Nothing else may happen.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +18,51 @@ from deodar.model.check import problems
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 STRANGE: tuple[Any, ...] = (
-    None, True, False, 0, -1, 1, 0.5, -0.0, 1e308, -1e308, 1e-308, 2**31, 2**63, 10**200, "", "x", "u.output", "..", "\0", "é" * 300, "a" * 5000,
-    [], {}, [[]], [None], {"": None}, {"kind": "Field"}, {"kind": "Gaussian", "sigma": 0}, [1, "2", None], {"array": "weights"}, "nan", "__class__",
-)  # fmt: skip
-BROKEN = ("NaN", "Infinity", "-Infinity", "1e999", '"\\ud800"', "[" * 5000 + "]" * 5000, "{", "", "\0", '{"a":1,"a":2}')
+    None,
+    True,
+    False,
+    0,
+    -1,
+    1,
+    0.5,
+    -0.0,
+    1e308,
+    -1e308,
+    1e-308,
+    2**31,
+    2**63,
+    10**200,
+    "",
+    "x",
+    "u.output",
+    "..",
+    "\0",
+    "é" * 300,
+    "a" * 5000,
+    [],
+    {},
+    [[]],
+    [None],
+    {"": None},
+    {"kind": "Field"},
+    {"kind": "Gaussian", "sigma": 0},
+    [1, "2", None],
+    {"array": "weights"},
+    "nan",
+    "__class__",
+)
+BROKEN = (
+    "NaN",
+    "Infinity",
+    "-Infinity",
+    "1e999",
+    '"\\ud800"',
+    "[" * 5000 + "]" * 5000,
+    "{",
+    "",
+    "\0",
+    '{"a":1,"a":2}',
+)
 
 
 @dc.dataclass

@@ -1,7 +1,9 @@
-"""Pages that edit one document at once: what the studio made of it must equal the accepted edits, one after the other.
+"""Pages that edit one document at once: what the studio made of it must equal the accepted edits, one after
+the other.
 
-Each page draws random edits and sends several of them without waiting. Every answer names the version of the document that holds the edit; the
-accepted edits in the order of their versions are made again on a `History` of this process, which knows neither the server nor its lock.
+Each page draws random edits and sends several of them without waiting. Every answer names the version of the
+document that holds the edit; the accepted edits in the order of their versions are made again on a `History`
+of this process, which knows neither the server nor its lock.
 """
 
 from __future__ import annotations
@@ -28,11 +30,28 @@ from deodar.server import view
 from tests.server.page import Page, page, studio
 
 KNOBS = ("gain", "tempo", "level")
-LEAVES = (("u", "tau"), ("u", "resting_level"), ("v", "tau"), ("v", "resting_level"), ("g", "factor"), ("s", "amplitude"))
+LEAVES = (
+    ("u", "tau"),
+    ("u", "resting_level"),
+    ("v", "tau"),
+    ("v", "resting_level"),
+    ("g", "factor"),
+    ("s", "amplitude"),
+)
 WEIGHTS = {
-    "set": 40, "knob": 10, "add_knob": 5, "link": 5, "unlink": 4, "remove_knob": 3, "describe": 4, "arrange": 8, "preset": 2, "shape": 2,
-    "undo": 12, "redo": 7,
-}  # fmt: skip
+    "set": 40,
+    "knob": 10,
+    "add_knob": 5,
+    "link": 5,
+    "unlink": 4,
+    "remove_knob": 3,
+    "describe": 4,
+    "arrange": 8,
+    "preset": 2,
+    "shape": 2,
+    "undo": 12,
+    "redo": 7,
+}
 AT_ONCE = 4
 """Requests that a page sends before it reads the first answer."""
 
@@ -108,7 +127,11 @@ def drawn(random: random.Random, ids: dict[str, str], preset: str) -> dict[str, 
         case "describe":
             return {"type": "describe", random.choice(("name", "notes")): f"text {number}"}
         case "arrange":
-            return {"type": "arrange", "layout": {random.choice("abc"): random.choice((number, None))}, "undoable": random.random() < 0.5}
+            return {
+                "type": "arrange",
+                "layout": {random.choice("abc"): random.choice((number, None))},
+                "undoable": random.random() < 0.5,
+            }
         case "shape":  # another structure: compiled beside the run
             kind = random.choice(("Logistic", "Absolute", "Linear"))
             return {"type": "set", "element": ids["u"], "parameter": "sigmoid", "value": {"kind": kind}}
@@ -143,7 +166,9 @@ def again(state: State, page: int, m: dict[str, Any]) -> State:
         case "undo":
             return state if state.past is None else State(state.past[0], state.past[1], (doc, state.future))
         case "redo":
-            return state if state.future is None else State(state.future[0], (doc, state.past), state.future[1])
+            return (
+                state if state.future is None else State(state.future[0], (doc, state.past), state.future[1])
+            )
         case "arrange":
             new = edit.arrange(doc, {k: v for k, v in {**doc.layout, **m["layout"]}.items() if v is not None})
             return state.commit(new) if m["undoable"] else state.amend(new)
@@ -152,7 +177,11 @@ def again(state: State, page: int, m: dict[str, Any]) -> State:
             mine = (page, m["gesture"]) if m.get("gesture") else None
             if new == doc:
                 return state
-            return state.amend(new, mine) if mine is not None and mine == state.gesture else state.commit(new, mine)
+            return (
+                state.amend(new, mine)
+                if mine is not None and mine == state.gesture
+                else state.commit(new, mine)
+            )
 
 
 def _other(doc: Document, m: dict[str, Any]) -> Document:
@@ -178,7 +207,9 @@ def _other(doc: Document, m: dict[str, Any]) -> Document:
 
 
 async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
-    """Let pages edit the document of a studio at once, and compare the end with the edits one after the other."""
+    """Let pages edit the document of a studio at once, and compare the end with the edits one after the
+    other.
+    """
     async with contextlib.AsyncExitStack() as stack:
         editors = [await stack.enter_async_context(page(address, kind=Editor)) for _ in range(pages)]
         for one in editors:  # the first edits are made while the document is compiled
@@ -187,7 +218,12 @@ async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
         preset = small()
         preset.set({"u.tau": 33.0, "g.factor": 7.0})
         text = preset.to_json()
-        logs = await asyncio.gather(*(_edit(one, random.Random(f"{seed} {k}"), edits // pages, ids, text) for k, one in enumerate(editors)))
+        logs = await asyncio.gather(
+            *(
+                _edit(one, random.Random(f"{seed} {k}"), edits // pages, ids, text)
+                for k, one in enumerate(editors)
+            )
+        )
         done = [(k, m, answer) for k, log in enumerate(logs) for m, answer in log]
         last = max(answer["version"] for _, _, answer in done)
         for one in editors:
@@ -211,7 +247,9 @@ async def _running(one: Page, stimulus: str) -> float:
     return float(one.frames[1][1])
 
 
-async def _edit(one: Page, random: random.Random, n: int, ids: dict[str, str], preset: str) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+async def _edit(
+    one: Page, random: random.Random, n: int, ids: dict[str, str], preset: str
+) -> list[tuple[dict[str, Any], dict[str, Any]]]:
     """Send edits, a few at once, in the order in which they are drawn."""
     log: list[tuple[dict[str, Any], dict[str, Any]]] = []
     while len(log) < n:
@@ -220,7 +258,9 @@ async def _edit(one: Page, random: random.Random, n: int, ids: dict[str, str], p
     return log
 
 
-def _outcome(done: list[tuple[int, dict[str, Any], dict[str, Any]]], documents: list[dict[str, Any]], last: int) -> Outcome:
+def _outcome(
+    done: list[tuple[int, dict[str, Any], dict[str, Any]]], documents: list[dict[str, Any]], last: int
+) -> Outcome:
     problems = [p["what"] for _, _, answer in done for p in answer["problems"]]
     versions: dict[int, list[tuple[int, dict[str, Any]]]] = {}
     for k, m, answer in done:
@@ -235,14 +275,28 @@ def _outcome(done: list[tuple[int, dict[str, Any], dict[str, Any]]], documents: 
         state = after
     differ += [f"page {k} differs from page 0" for k, seen in enumerate(documents) if seen != documents[0]]
     undo, redo = _length(state.past), _length(state.future)
-    wanted = json.loads(msgspec.json.encode(view.document(state.document, "edits.json", documents[0]["unsaved"], undo, redo)))
-    differ += [f"{key} is {documents[0][key]!r}, and one after the other {wanted[key]!r}" for key in wanted if documents[0][key] != wanted[key]]
+    wanted = json.loads(
+        msgspec.json.encode(view.document(state.document, "edits.json", documents[0]["unsaved"], undo, redo))
+    )
+    differ += [
+        f"{key} is {documents[0][key]!r}, and one after the other {wanted[key]!r}"
+        for key in wanted
+        if documents[0][key] != wanted[key]
+    ]
     accepted = sum(map(len, versions.values()))
-    return Outcome(accepted, len(done) - accepted, last, [what for what in problems if "error of deodar itself" in what], differ)
+    return Outcome(
+        accepted,
+        len(done) - accepted,
+        last,
+        [what for what in problems if "error of deodar itself" in what],
+        differ,
+    )
 
 
 def _one_version(state: State, edits: list[tuple[int, dict[str, Any]]]) -> State | None:
-    """The state after the edits that ended at one version: the first changes something, and the others then change nothing. None: impossible."""
+    """The state after the edits that ended at one version: the first changes something, and the others then
+    change nothing. None: impossible.
+    """
     for k, m in edits:
         try:
             after = again(state, k, m)

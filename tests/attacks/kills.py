@@ -1,4 +1,6 @@
-"""A studio that is killed while pages edit and save: the file is whole, and edits that were kept are offered at the next start."""
+"""A studio that is killed while pages edit and save: the file is whole, and edits that were kept are offered
+at the next start.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ def stop(process: subprocess.Popen[str]) -> None:
 
 
 async def edit_and_save(address: str, process: subprocess.Popen[str], after: int, outcome: Outcome) -> float:
-    """Save without a pause, and kill the process while a save is under way; the value that was answered as saved last."""
+    """Save without a pause, and kill the process while a save is under way; the value that was answered as
+    saved last.
+    """
     saved = 0.0
     async with page(address) as one:
         await one.until(lambda: one.document)

@@ -19,12 +19,63 @@ from tests.attacks.edits import small
 from tests.server.page import Page, page, studio
 
 STRANGE: tuple[Any, ...] = (
-    None, True, 0, -1, 1, 7, 0.5, 1e308, -1e308, 2**31, 2**53, 2**63, 10**40, "", "u", "a" * 4097, "a" * 64, "../x", "/etc/passwd", "x\0y",
-    "gone.json", "pipe.json", "loop.json", "m.json", "tau", "kernel", "kernel.0.sigma", "resting_level", "output", "__class__", "é\ud83d",
-    [], {}, [0, 1e300], {"a": 1}, {"kind": "Gaussian"}, [{"kind": "Gaussian", "sigma": -1}], "Picture", "Arena", "gain", {"panels": None},
+    None,
+    True,
+    0,
+    -1,
+    1,
+    7,
+    0.5,
+    1e308,
+    -1e308,
+    2**31,
+    2**53,
+    2**63,
+    10**40,
+    "",
+    "u",
+    "a" * 4097,
+    "a" * 64,
+    "../x",
+    "/etc/passwd",
+    "x\0y",
+    "gone.json",
+    "pipe.json",
+    "loop.json",
+    "m.json",
+    "tau",
+    "kernel",
+    "kernel.0.sigma",
+    "resting_level",
+    "output",
+    "__class__",
+    "é\ud83d",
+    [],
+    {},
+    [0, 1e300],
+    {"a": 1},
+    {"kind": "Gaussian"},
+    [{"kind": "Gaussian", "sigma": -1}],
+    "Picture",
+    "Arena",
+    "gain",
+    {"panels": None},
     [[[[[]]]]],
-)  # fmt: skip
-RAW = ("", "{", "[]", "null", "7", '"text"', "[" * 20000, '{"type": "set"}', '{"type": null}', '{"type": "undo", "extra": 1}', "\0", "x" * 100_000)
+)
+RAW = (
+    "",
+    "{",
+    "[]",
+    "null",
+    "7",
+    '"text"',
+    "[" * 20000,
+    '{"type": "set"}',
+    '{"type": null}',
+    '{"type": "undo", "extra": 1}',
+    "\0",
+    "x" * 100_000,
+)
 
 
 @dc.dataclass
@@ -39,7 +90,9 @@ class Outcome:
 
 def kinds() -> dict[str, tuple[str, ...]]:
     """The fields of every request that a page may send, by tag."""
-    found = [kind for kind in typing.get_args(ToServer) if issubclass(kind, Request) and kind is not Drawn]  # that has no answer
+    found = [
+        kind for kind in typing.get_args(ToServer) if issubclass(kind, Request) and kind is not Drawn
+    ]  # that has no answer
     return {str(kind.__struct_config__.tag): kind.__struct_fields__ for kind in found}
 
 
@@ -60,7 +113,9 @@ def drawn(random: random.Random, known: dict[str, tuple[str, ...]], ids: list[st
 
 
 async def attack(address: str, count: int, seed: int) -> Outcome:
-    """Send hostile messages, reconnecting where one ends the connection; a second page stays connected and edits between them."""
+    """Send hostile messages, reconnecting where one ends the connection; a second page stays connected and
+    edits between them.
+    """
     random_, outcome, known = random.Random(seed), Outcome(), kinds()
     async with page(address) as other:
         await other.until(lambda: other.document)
@@ -76,7 +131,14 @@ async def attack(address: str, count: int, seed: int) -> Outcome:
     return outcome
 
 
-async def _one_connection(one: Page, random: random.Random, outcome: Outcome, known: dict[str, tuple[str, ...]], ids: list[str], count: int) -> None:
+async def _one_connection(
+    one: Page,
+    random: random.Random,
+    outcome: Outcome,
+    known: dict[str, tuple[str, ...]],
+    ids: list[str],
+    count: int,
+) -> None:
     malformed = 0
     while outcome.sent < count and malformed < MOST_MALFORMED - 1:
         outcome.sent += 1

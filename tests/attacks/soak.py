@@ -1,6 +1,8 @@
-"""A studio under load for a long time: pages come, watch, edit and go while the model runs, and the process holds no more than before.
+"""A studio under load for a long time: pages come, watch, edit and go while the model runs, and the process
+holds no more than before.
 
-What it holds is counted while no page is connected and a document was just opened: then it owes nothing to any page, and nothing to any edit.
+What it holds is counted while no page is connected and a document was just opened: then it owes nothing to
+any page, and nothing to any edit.
 """
 
 from __future__ import annotations
@@ -101,16 +103,24 @@ def held(process: subprocess.Popen[str], counts: Path) -> Held:
         time.sleep(0.02)
     there = psutil.Process(process.pid)
     with there.oneshot():
-        return Held(there.memory_info().rss / 2**20, len(there.open_files()) + len(there.net_connections()), **json.loads(counts.read_text()))
+        return Held(
+            there.memory_info().rss / 2**20,
+            len(there.open_files()) + len(there.net_connections()),
+            **json.loads(counts.read_text()),
+        )
 
 
-def settled(process: subprocess.Popen[str], counts: Path, before: Held | None, visits: int) -> tuple[Held, list[str]]:
-    """What a process holds once what belonged to pages is gone, and the limits that it still exceeds after some time.
+def settled(
+    process: subprocess.Popen[str], counts: Path, before: Held | None, visits: int
+) -> tuple[Held, list[str]]:
+    """What a process holds once what belonged to pages is gone, and the limits that it still exceeds after
+    some time.
 
     Args:
         process: the studio.
         counts: the file of its numbers.
-        before: what it held before the visits; None: there were none before, and its number of tasks must have stopped to fall.
+        before: what it held before the visits; None: there were none before, and its number of tasks must
+            have stopped to fall.
         visits: pages that came and went.
     """
     end, last = time.monotonic() + PATIENCE, held(process, counts)

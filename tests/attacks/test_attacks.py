@@ -34,10 +34,21 @@ def test_pages_that_come_and_go_leave_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("more", "visits"),
-    [({"mebibytes": 60.0}, 100), ({"files": 1}, 1), ({"objects": 30_000}, 1000), ({"tasks": 1}, 1), ({"threads": 9}, 1), ({"sessions": 1}, 1)],
+    [
+        ({"mebibytes": 60.0}, 100),
+        ({"files": 1}, 1),
+        ({"objects": 30_000}, 1000),
+        ({"tasks": 1}, 1),
+        ({"threads": 9}, 1),
+        ({"sessions": 1}, 1),
+    ],
 )
 def test_a_studio_that_keeps_what_pages_left_is_found_out(more: dict[str, float], visits: int) -> None:
     early = soak.Held(500, 10, 300_000, 8, 20, 1, 0)
-    (error,) = soak.beyond(early, dc.replace(early, **{name: getattr(early, name) + value for name, value in more.items()}), visits)
+    (error,) = soak.beyond(
+        early,
+        dc.replace(early, **{name: getattr(early, name) + value for name, value in more.items()}),
+        visits,
+    )
     assert next(iter(more)) in error and f"after {visits} visits" in error
     assert soak.beyond(early, early, visits) == []

@@ -21,7 +21,10 @@ def test_of_two_pages_that_edit_at_once_both_edits_stay(tmp_path: Path) -> None:
             await b.runs()
             u, v = a.element("u"), a.element("v")
             for k in range(rounds):
-                await asyncio.gather(a.do("set", element=u, parameter="tau", value=30 + k), b.do("set", element=v, parameter="tau", value=60 + k))
+                await asyncio.gather(
+                    a.do("set", element=u, parameter="tau", value=30 + k),
+                    b.do("set", element=v, parameter="tau", value=60 + k),
+                )
             await a.do("save")
             assert a.document["undo"] == 0 or a.document["undo"] == 2 * rounds
 
@@ -46,7 +49,10 @@ def test_an_edit_that_is_meant_for_another_document_is_refused(tmp_path: Path) -
             await a.runs()
             session, u = a.said["opened"]["session"], a.element("u")
             await b.open("open_file", path="other.json")
-            wanted: list[dict[str, Any]] = [{"type": "set", "element": u, "parameter": "tau", "value": 77}, {"type": "undo"}]
+            wanted: list[dict[str, Any]] = [
+                {"type": "set", "element": u, "parameter": "tau", "value": 77},
+                {"type": "undo"},
+            ]
             for edit in [*wanted, {"type": "save", "path": "third"}]:
                 refused = await a.ask(**edit, session=session)
                 assert "another document" in refused["problems"][0]["what"]

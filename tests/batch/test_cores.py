@@ -20,8 +20,12 @@ def told(code: str, nproc: str | None = None) -> dict[str, object]:
     environment = {k: v for k, v in os.environ.items() if k != "NPROC"} | ({"NPROC": nproc} if nproc else {})
     code = "import json, os, sys, deodar as dd; from deodar.compiler.device import cores; found = {}\n" + code
     code += "\nprint('FOUND', json.dumps({'nproc': os.environ.get('NPROC'), 'cores': cores()} | found))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
-    return json.loads(next(line for line in done.stdout.splitlines() if line.startswith("FOUND")).removeprefix("FOUND "))
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True
+    )
+    return json.loads(
+        next(line for line in done.stdout.splitlines() if line.startswith("FOUND")).removeprefix("FOUND ")
+    )
 
 
 def test_it_is_said_before_the_first_run_and_not_after() -> None:
@@ -45,7 +49,10 @@ def test_the_number_reaches_the_pool_of_threads() -> None:
     if not os.path.isdir("/proc/self/task"):  # told by Linux only; elsewhere the number is at least kept
         assert told("dd.use_cores(2)")["nproc"] == "2"
         return
-    code = "import jax; dd.use_cores({}); before = len(os.listdir('/proc/self/task')); jax.devices(); x = jax.numpy.ones(3) + 1\n"
+    code = (
+        "import jax; dd.use_cores({}); before = len(os.listdir('/proc/self/task')); jax.devices(); x ="
+        " jax.numpy.ones(3) + 1\n"
+    )
     code += "found['threads'] = len(os.listdir('/proc/self/task')) - before"
     few, many = (int(str(told(code.format(n))["threads"])) for n in (1, 8))
     assert many - few >= 7
@@ -56,11 +63,17 @@ def test_importing_sets_nothing() -> None:
 
 
 def test_the_command_line_takes_one_unless_told_otherwise() -> None:
-    run = "from deodar.cli import main; main(['elements', '--json']); from deodar.cli import _options; _options.use_cores({})"
+    run = (
+        "from deodar.cli import main; main(['elements', '--json']); from deodar.cli import _options;"
+        " _options.use_cores({})"
+    )
     assert told(run.format("None"))["nproc"] == "1"
     assert told(run.format("None"), nproc="2")["nproc"] == "2"
     assert told(run.format("3"))["cores"] == 3
-    assert told("import jax; jax.devices(); from deodar.cli import _options; _options.use_cores(None)")["nproc"] is None
+    assert (
+        told("import jax; jax.devices(); from deodar.cli import _options; _options.use_cores(None)")["nproc"]
+        is None
+    )
 
 
 @pytest.mark.parametrize("wrong", [0, -1, True, 1.5, "2", None])

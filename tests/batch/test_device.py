@@ -55,13 +55,18 @@ def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize("name", ["gpu:99", "cpu:1000", "cpu:x", "cpu:", "quantum", "", 3])
 def test_one_that_is_not_there_is_an_error_that_says_which_are(name: str) -> None:
     for call in (lambda: dd.simulate(model(), 10, device=name), lambda: dd.Session(model(), device=name)):
-        with pytest.raises(dd.errors.DeviceError, match=r"there is: .*cpu:0" if isinstance(name, str) else "named by a text"):
+        with pytest.raises(
+            dd.errors.DeviceError, match=r"there is: .*cpu:0" if isinstance(name, str) else "named by a text"
+        ):
             call()
 
 
 def test_how_to_get_one_is_said_where_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(device, "_of", lambda kind: jax.devices("cpu") if kind == "cpu" else [])
-    with pytest.raises(dd.errors.DeviceError, match=r"there is no device 'gpu' here; there is: cpu:0\. .*pip install 'jax\[cuda12\]'"):
+    with pytest.raises(
+        dd.errors.DeviceError,
+        match=r"there is no device 'gpu' here; there is: cpu:0\. .*pip install 'jax\[cuda12\]'",
+    ):
         device.find("gpu")
 
 
@@ -86,12 +91,19 @@ def test_products_take_all_digits(precision: str, monkeypatch: pytest.MonkeyPatc
     texts: list[str] = []
     compile_ = cache.compile
 
-    def listen(lowered: jax.stages.Lowered, options: dict[str, object] | None, place: object) -> tuple[object, bool]:
+    def listen(
+        lowered: jax.stages.Lowered, options: dict[str, object] | None, place: object
+    ) -> tuple[object, bool]:
         texts.append(lowered.as_text())
         return compile_(lowered, options, place)
 
     monkeypatch.setattr(cache, "compile", listen)
     dd.simulate(model(), 5, precision=precision, trials=3)
-    products = [line for text in texts for line in text.splitlines() if "dot_general" in line or "stablehlo.convolution" in line]
+    products = [
+        line
+        for text in texts
+        for line in text.splitlines()
+        if "dot_general" in line or "stablehlo.convolution" in line
+    ]
     assert products and all("HIGHEST" in line and "DEFAULT" not in line for line in products)
     assert jax.config.jax_default_matmul_precision is None  # said for our programs alone

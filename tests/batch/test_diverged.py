@@ -1,4 +1,6 @@
-"""A copy of a batch that diverges is NaN with its reason, and the others are what they would be without it."""
+"""A copy of a batch that diverges is NaN with its reason, and the others are what they would be without
+it.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ RECORD = ["u.activation", "v.activation"]
 
 
 def model() -> Model:
-    """A field that a loop through a gain makes grow without bound where the gain is large, and one beside it that it does not touch."""
+    """A field that a loop through a gain makes grow without bound where the gain is large, and one beside it
+    that it does not touch.
+    """
     made = dd.Model("runaway")
     u = made.add(dd.Field("u", [X], tau=10, sigmoid=dd.Logistic(beta=1), noise=0.1, resting_level=1.0))
     u["activation"] >> made.add(dd.Gain(1.0, name="g")) >> u
@@ -35,13 +39,19 @@ def run(gains: list[float], steps: int = 60, **others: object) -> object:
 
 
 def test_the_point_is_nan_with_its_reason_and_the_others_are_kept() -> None:
-    says = "1 of 3 copies are NaN; the coordinate 'diverged' gives the reasons, the first is: g became infinite"
+    says = (
+        "1 of 3 copies are NaN; the coordinate 'diverged' gives the reasons, the first is: g became infinite"
+    )
     with pytest.warns(RunWarning, match=says) as told:
         data = run([0.1, 1e6, 0.3])
     assert len(told) == 1 and told[0].filename == __file__
     assert [bool(text) for text in data["diverged"].values] == [False, True, False]
     reason = data["diverged"].sel({"g.factor": 1e6}).item()
-    assert reason.startswith("g became infinite or undefined in step ") and "dt 1)" in reason and "diverged" in repr(data)
+    assert (
+        reason.startswith("g became infinite or undefined in step ")
+        and "dt 1)" in reason
+        and "diverged" in repr(data)
+    )
     good = run([0.1, 0.2, 0.3])
     for path in RECORD:
         assert np.isnan(data[path].values[1]).all(), "at all times, and in elements that it does not reach"
@@ -69,8 +79,16 @@ def test_points_times_trials_in_pieces_and_workers(batch: dict[str, int]) -> Non
     with pytest.warns(RunWarning, match="4 of 8 copies"):
         data = run([0.1, 1e6, 0.3, 1e7], trials=[3, 1], **batch)
     assert data["diverged"].dims == ("g.factor", "trial")
-    assert [[bool(text) for text in row] for row in data["diverged"].values] == [[False] * 2, [True] * 2, [False] * 2, [True] * 2]
-    assert np.isfinite(data["u.activation"].values[[0, 2]]).all() and np.isnan(data["u.activation"].values[[1, 3]]).all()
+    assert [[bool(text) for text in row] for row in data["diverged"].values] == [
+        [False] * 2,
+        [True] * 2,
+        [False] * 2,
+        [True] * 2,
+    ]
+    assert (
+        np.isfinite(data["u.activation"].values[[0, 2]]).all()
+        and np.isnan(data["u.activation"].values[[1, 3]]).all()
+    )
 
 
 def test_a_coupling_that_is_not_finite_while_all_states_are() -> None:
@@ -97,7 +115,10 @@ def test_it_is_kept_in_files_and_repeated(tmp_path: Path, name: str) -> None:
         data = run([0.1, 1e6])
     files.save_record(data, tmp_path / name)
     read = files.load_record(tmp_path / name)
-    assert read["diverged"].values.tolist() == data["diverged"].values.tolist() and read.attrs["diverged"] == data.attrs["diverged"]
+    assert (
+        read["diverged"].values.tolist() == data["diverged"].values.tolist()
+        and read.attrs["diverged"] == data.attrs["diverged"]
+    )
     with pytest.warns(RunWarning):
         done = repeat(read, dd.simulate)
     assert done.same_bits and all(gap == 0 for gap in done.largest.values())

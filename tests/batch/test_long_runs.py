@@ -24,7 +24,13 @@ def stop(done: int) -> None:
 
 def test_a_step_that_is_much_too_small_is_announced() -> None:
     with (
-        pytest.warns(RunWarning, match=r"1e\+10 steps of dt = 1e-09: a smaller number may be meant; the noise .* after 4.29e\+09 steps") as told,
+        pytest.warns(
+            RunWarning,
+            match=(
+                r"1e\+10 steps of dt = 1e-09: a smaller number may be meant; the noise .* after 4.29e\+09"
+                r" steps"
+            ),
+        ) as told,
         pytest.raises(Interrupted),
     ):
         dd.simulate(small(), 10, dt=1e-9, progress=stop)
@@ -37,7 +43,9 @@ def test_a_night_of_steps_begins_without_a_word() -> None:
         dd.simulate(small(), 10**9 - 1, progress=stop)
 
 
-def test_away_from_a_terminal_progress_is_lines(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_away_from_a_terminal_progress_is_lines(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(module, "LONG_STEPS", 500)
     monkeypatch.setattr(progress, "LINE_AFTER", 0.0)
     with pytest.warns(RunWarning, match="500 steps"):

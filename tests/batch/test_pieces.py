@@ -16,7 +16,10 @@ from deodar.recording.provenance import KEY
 SIZES = [1, 2, 7, 100]
 
 
-@pytest.mark.parametrize(("trials", "points", "workers", "batch"), list(itertools.product(SIZES, SIZES, [1, 2, 3, 16], [None, 1, 5, 10_000])))
+@pytest.mark.parametrize(
+    ("trials", "points", "workers", "batch"),
+    list(itertools.product(SIZES, SIZES, [1, 2, 3, 16], [None, 1, 5, 10_000])),
+)
 def test_every_copy_is_in_one_piece(trials: int, points: int, workers: int, batch: int | None) -> None:
     pieces = cut({"trial": trials, "a": points}, 2**20, workers, batch)
     jobs = pieces.settings(range(trials), {"a": [float(k) for k in range(points)]})
@@ -52,21 +55,34 @@ def part(trials: list[int], times: int, whole: bool) -> Part:
 
 def test_pieces_that_are_complete_become_one_record() -> None:
     pieces = Pieces("trial", 6, 2, 1)
-    data = joined(pieces, [part([0, 1], 3, True), part([2, 3], 3, True), part([4, 5], 3, True)], {"trials": [*range(6)]})
+    data = joined(
+        pieces, [part([0, 1], 3, True), part([2, 3], 3, True), part([4, 5], 3, True)], {"trials": [*range(6)]}
+    )
     assert data["trial"].values.tolist() == [*range(6)] and np.array_equal(data["u"].values[:, 2], range(6))
     assert json.loads(data.attrs[KEY]) == {"trials": [*range(6)], "dt": 1.0, "batch": 2, "complete": True}
 
 
 def test_of_a_run_that_was_stopped_the_complete_pieces_stay() -> None:
-    some = joined(Pieces("trial", 6, 2, 1), [part([0, 1], 3, True), part([2, 3], 2, False), None], {"trials": [*range(6)]})
+    some = joined(
+        Pieces("trial", 6, 2, 1),
+        [part([0, 1], 3, True), part([2, 3], 2, False), None],
+        {"trials": [*range(6)]},
+    )
     assert some["trial"].values.tolist() == [0, 1] and json.loads(some.attrs[KEY])["complete"] is False
 
 
-@pytest.mark.parametrize(("times", "trials", "kept"), [((5, 4, 0), [0, 1, 2, 3], 4), ((9, 2, 1), [0, 1], 9), ((4, 3, 3), [0, 1, 2, 3, 4, 5], 3)])
+@pytest.mark.parametrize(
+    ("times", "trials", "kept"),
+    [((5, 4, 0), [0, 1, 2, 3], 4), ((9, 2, 1), [0, 1], 9), ((4, 3, 3), [0, 1, 2, 3, 4, 5], 3)],
+)
 def test_where_none_is_complete_most_is_kept(times: tuple[int, ...], trials: list[int], kept: int) -> None:
     parts = [part([2 * k, 2 * k + 1], n, False) for k, n in enumerate(times)]
     data = joined(Pieces("trial", 6, 2, 1), parts, {})
-    assert data["trial"].values.tolist() == trials and data.sizes["time"] == kept and json.loads(data.attrs[KEY])["complete"] is False
+    assert (
+        data["trial"].values.tolist() == trials
+        and data.sizes["time"] == kept
+        and json.loads(data.attrs[KEY])["complete"] is False
+    )
 
 
 def test_where_nothing_was_begun_the_record_is_empty() -> None:

@@ -19,7 +19,9 @@ dd.simulate(model, 2000, record=["u.activation"], every=10{progress})
 def on_a_terminal(progress: str) -> str:
     ours, theirs = pty.openpty()
     environment = os.environ | {"TERM": "xterm", "COLUMNS": "80"}
-    process = subprocess.Popen([sys.executable, "-c", CODE.format(progress=progress)], stderr=theirs, env=environment)
+    process = subprocess.Popen(
+        [sys.executable, "-c", CODE.format(progress=progress)], stderr=theirs, env=environment
+    )
     os.close(theirs)
     seen = b""
     while True:
@@ -42,5 +44,7 @@ def test_a_terminal_sees_a_bar() -> None:
 
 def test_it_can_be_switched_off_and_a_file_sees_nothing() -> None:
     assert on_a_terminal(", progress=False") == ""
-    done = subprocess.run([sys.executable, "-c", CODE.format(progress="")], stderr=subprocess.PIPE, text=True, timeout=600)
+    done = subprocess.run(
+        [sys.executable, "-c", CODE.format(progress="")], stderr=subprocess.PIPE, text=True, timeout=600
+    )
     assert done.returncode == 0 and done.stderr == ""

@@ -1,4 +1,6 @@
-"""Worker processes: the same noise, the same results, whatever the split; what goes wrong in them is told here."""
+"""Worker processes: the same noise, the same results, whatever the split; what goes wrong in them is told
+here.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,16 @@ RECORD = ["u.activation", "u.output", "xi.output"]
 
 def small() -> dd.Model:
     model = dd.Model("small")
-    u = model.add(dd.Field("u", [dd.Axis("x", 0, 60, samples=31)], tau=10, kernel=[dd.Gaussian(1.0, 4)], global_inhibition=0.1, noise=0.3))
+    u = model.add(
+        dd.Field(
+            "u",
+            [dd.Axis("x", 0, 60, samples=31)],
+            tau=10,
+            kernel=[dd.Gaussian(1.0, 4)],
+            global_inhibition=0.1,
+            noise=0.3,
+        )
+    )
     model.add(dd.GaussianStimulus("s", u.element.axes, center=30, sigma=4, amplitude=8)) >> u
     model.add(Noise("xi", u.element.axes, amplitude=0.2), ticks=2) >> u
     return model
@@ -48,15 +59,22 @@ def test_the_same_results_whatever_the_split() -> None:
 
     def run(**split: int) -> dict[str, np.ndarray]:
         data = dd.simulate(model, 60, record=RECORD, every=20, seed=4, trials=5, precision="float64", **split)
-        assert data.sizes["trial"] == 5 and about(data)["complete"] and about(data)["trials"] == [0, 1, 2, 3, 4]
+        assert (
+            data.sizes["trial"] == 5 and about(data)["complete"] and about(data)["trials"] == [0, 1, 2, 3, 4]
+        )
         return {path: data[path].values for path in RECORD}
 
     whole = run()
     for split in ({"batch": 2}, {"workers": 2}):
         other = run(**split)
         for path in RECORD:
-            assert np.abs(other[path] - whole[path]).max() <= 1e-10 * max(1.0, np.abs(whole[path]).max()), (split, path)
-        assert np.array_equal(other["xi.output"], whole["xi.output"]), split  # the same noise, to the last bit
+            assert np.abs(other[path] - whole[path]).max() <= 1e-10 * max(1.0, np.abs(whole[path]).max()), (
+                split,
+                path,
+            )
+        assert np.array_equal(other["xi.output"], whole["xi.output"]), (
+            split
+        )  # the same noise, to the last bit
     assert np.abs(whole["u.activation"][0] - whole["u.activation"][1]).max() > 0.1
     assert not children()
 
@@ -65,7 +83,9 @@ def test_a_sweep_is_split_along_its_longest_entry_and_repeated_to_the_bit() -> N
     model, sweep = small(), {"s.amplitude": [4.0, 8.0], "u.tau": [10.0, 15.0, 20.0]}
     whole = dd.simulate(model, 40, sweep=sweep, trials=[3, 1])
     split = dd.simulate(model, 40, sweep=sweep, trials=[3, 1], workers=2)
-    assert split["u.activation"].dims == whole["u.activation"].dims and split.drop_attrs().coords.identical(whole.drop_attrs().coords)
+    assert split["u.activation"].dims == whole["u.activation"].dims and split.drop_attrs().coords.identical(
+        whole.drop_attrs().coords
+    )
     assert np.abs(split["u.activation"] - whole["u.activation"]).max() <= 1e-4
     made = about(split)
     assert made["batch"] == 8 and made["sweep"] == sweep  # pieces of 2 values and of 1, times 4
@@ -93,12 +113,17 @@ print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
 """
     script = tmp_path / "script.py"
     script.write_text(code)
-    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=600, cwd=tmp_path)
+    done = subprocess.run(
+        [sys.executable, str(script)], capture_output=True, text=True, timeout=600, cwd=tmp_path
+    )
     assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["begun", "2"], "")
 
 
 def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
-    model, before = small(), signal.getsignal(signal.SIGINT)  # a shell that starts the tests behind it ignores the signal
+    model, before = (
+        small(),
+        signal.getsignal(signal.SIGINT),
+    )  # a shell that starts the tests behind it ignores the signal
 
     def press() -> None:
         seen.wait()
@@ -109,14 +134,29 @@ def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
     steps, most = 20_000, 400
 
     def told(done: int) -> None:
-        if done >= steps:  # at least two of the pieces are more than half way, so the first of them soon complete
+        if (
+            done >= steps
+        ):  # at least two of the pieces are more than half way, so the first of them soon complete
             seen.set()
 
     with pytest.raises(dd.errors.Interrupted, match="pieces of the batch were complete") as caught:
-        dd.simulate(model, steps, trials=most, record=["u.activation"], every=steps // 10, workers=2, batch=1, progress=told)
+        dd.simulate(
+            model,
+            steps,
+            trials=most,
+            record=["u.activation"],
+            every=steps // 10,
+            workers=2,
+            batch=1,
+            progress=told,
+        )
     presser.join()
     data = caught.value.data
-    assert 1 <= data.sizes["trial"] < most and about(data)["complete"] is False and about(data)["trials"] == [*range(most)]
+    assert (
+        1 <= data.sizes["trial"] < most
+        and about(data)["complete"] is False
+        and about(data)["trials"] == [*range(most)]
+    )
     assert not children() and signal.getsignal(signal.SIGINT) is before
 
 
@@ -134,7 +174,9 @@ def test_a_second_ctrl_c_ends_them_at_once() -> None:
 
 @pytest.mark.parametrize("how", ["stops", "fails", "dies"])
 def test_nothing_of_the_pool_outlives_the_call(how: str) -> None:
-    """No thread and no process is left, whichever way it ends: there is nothing that could read a pipe that is closed."""
+    """No thread and no process is left, whichever way it ends: there is nothing that could read a pipe that
+    is closed.
+    """
     before, seen = set(threading.enumerate()), []
 
     def told(done: int) -> None:
@@ -145,7 +187,9 @@ def test_nothing_of_the_pool_outlives_the_call(how: str) -> None:
             raise ValueError("enough")
         seen[0].kill()
 
-    with pytest.raises({"stops": dd.errors.Interrupted, "fails": ValueError, "dies": dd.errors.WorkerError}[how]):
+    with pytest.raises(
+        {"stops": dd.errors.Interrupted, "fails": ValueError, "dies": dd.errors.WorkerError}[how]
+    ):
         dd.simulate(small(), 50_000_000, trials=2, workers=2, progress=told)
     assert len({child.pid for child in seen}) == 2 and not children() and set(threading.enumerate()) == before
 
@@ -200,7 +244,9 @@ def test_what_cannot_be_handed_over_is_refused(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_kinds_of_other_modules_are_imported_there(tmp_path: Path) -> None:
-    """An element of one's own, from a module beside the script; the same in the script itself is refused by its name."""
+    """An element of one's own, from a module beside the script; the same in the script itself is refused by
+    its name.
+    """
     element = """
 import dataclasses
 from deodar.elements.boost import Boost
@@ -224,7 +270,13 @@ except dd.errors.WorkerError as error:
     (tmp_path / "apart.py").write_text("from own import Lift\n" + script)
     (tmp_path / "inside.py").write_text(element + script)
     for name, says in (("apart", "2\n"), ("inside", "Lift is written in the script itself")):
-        done = subprocess.run([sys.executable, str(tmp_path / f"{name}.py")], capture_output=True, text=True, timeout=600, cwd=tmp_path)
+        done = subprocess.run(
+            [sys.executable, str(tmp_path / f"{name}.py")],
+            capture_output=True,
+            text=True,
+            timeout=600,
+            cwd=tmp_path,
+        )
         assert done.stdout.startswith(says), done.stdout + done.stderr
 
 

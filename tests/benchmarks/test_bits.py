@@ -1,4 +1,6 @@
-"""Bits depend on the width of a batch alone: a few random combinations of those that `benchmarks/bits.py` draws a thousand of."""
+"""Bits depend on the width of a batch alone: a few random combinations of those that `benchmarks/bits.py`
+draws a thousand of.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ def test_the_last_piece_is_as_wide_as_the_others() -> None:
 
     np.testing.assert_array_equal(run(trials=[0, 1, 2, 3], batch=3)[3], run(trials=[3, 5, 7], batch=3)[0])
     sweep = {"s.amplitude": [2.0, 4.0, 6.0, 8.0]}
-    np.testing.assert_array_equal(run(sweep=sweep, batch=3)[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, batch=3)[0])
+    np.testing.assert_array_equal(
+        run(sweep=sweep, batch=3)[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, batch=3)[0]
+    )
     both = run(sweep=sweep, trials=2, batch=6)
     assert both.shape[:2] == (4, 2)
     np.testing.assert_array_equal(both[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, trials=2, batch=6)[0])
@@ -44,4 +48,6 @@ def test_the_last_piece_is_as_wide_as_the_others() -> None:
 def test_a_batch_of_one_has_the_bits_of_a_single_run() -> None:
     model = bits.MODELS["a plane, a line and a node"](1)
     alone = dd.simulate(model, 20, record=["u0.activation"])["u0.activation"].values
-    np.testing.assert_array_equal(dd.simulate(model, 20, record=["u0.activation"], trials=2, batch=1)["u0.activation"].values[0], alone)
+    np.testing.assert_array_equal(
+        dd.simulate(model, 20, record=["u0.activation"], trials=2, batch=1)["u0.activation"].values[0], alone
+    )

@@ -1,4 +1,6 @@
-"""Files with errors in them open, or are refused with problems; the long form is `python benchmarks/mutations.py`."""
+"""Files with errors in them open, or are refused with problems; the long form is `python
+benchmarks/mutations.py`.
+"""
 
 from __future__ import annotations
 
@@ -29,14 +31,19 @@ def test_files_with_errors_open_or_are_refused(name: str, tmp_path: Path) -> Non
     assert any(model is None for model in found)
 
 
-@pytest.mark.parametrize("content", [{"simulator": {"nElements": 0, "elements": []}}, {"deodar": 1, "name": "empty", "elements": {}}])
+@pytest.mark.parametrize(
+    "content",
+    [{"simulator": {"nElements": 0, "elements": []}}, {"deodar": 1, "name": "empty", "elements": {}}],
+)
 def test_a_file_that_says_that_it_is_empty_is_not_broken(content: dict[str, object], tmp_path: Path) -> None:
     model = mutations.opened(json.dumps(content).encode(), tmp_path)
     assert model is not None and not model.document.entries
 
 
 def test_what_ends_otherwise_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The harness itself: it tells a wrong exception, an error that says nothing, and a model that is empty without a word."""
+    """The harness itself: it tells a wrong exception, an error that says nothing, and a model that is empty
+    without a word.
+    """
     content = json.dumps({"deodar": 1, "name": "m", "elements": {}}).encode()
 
     def wrong(*_: object) -> dd.Model:

@@ -1,4 +1,6 @@
-"""Thresholds of a memory and where it stays, on a grid of 5 samples a kernel width, against a finer grid and against theory."""
+"""Thresholds of a memory and where it stays, on a grid of 5 samples a kernel width, against a finer grid and
+against theory.
+"""
 
 from __future__ import annotations
 
@@ -19,16 +21,22 @@ def test_forgetting_of_the_logistic_is_that_of_a_finer_grid() -> None:
     fine = resolution.forgetting(1, 401, g, "point")
     assert abs(resolution.forgetting(1, 101, g, "cell") / fine - 1) < 0.005
     assert abs(resolution.forgetting(1, 51, g, "cell") / fine - 1) < 0.02
-    assert abs(resolution.forgetting(1, 101, g, "point") / fine - 1) > 0.04, "the sum over points has no error to mend"
+    assert abs(resolution.forgetting(1, 101, g, "point") / fine - 1) > 0.04, (
+        "the sum over points has no error to mend"
+    )
 
 
 def test_forgetting_of_the_step_is_that_of_amari() -> None:
     assert abs(resolution.forgetting(1, 101, Step(), "cell") / resolution.amari() - 1) < 0.01
     assert abs(resolution.forgetting(1, 51, Step(), "cell") / resolution.amari() - 1) < 0.02
-    assert abs(resolution.forgetting(1, 101, Step(), "point") / resolution.amari() - 1) > 0.5, "the sum over points has no error to mend"
+    assert abs(resolution.forgetting(1, 101, Step(), "point") / resolution.amari() - 1) > 0.5, (
+        "the sum over points has no error to mend"
+    )
 
 
 @pytest.mark.parametrize(("dimensions", "samples"), [(1, 101), (2, 61)])
 def test_a_memory_stays_where_it_was_made(dimensions: int, samples: int) -> None:
     assert resolution.motion(dimensions, samples, dd.Logistic(4.0), "cell") < 0.1
-    assert resolution.motion(dimensions, samples, dd.Logistic(4.0), "point") > 0.1, "memories do not stick to the grid"
+    assert resolution.motion(dimensions, samples, dd.Logistic(4.0), "point") > 0.1, (
+        "memories do not stick to the grid"
+    )

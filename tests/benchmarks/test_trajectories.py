@@ -16,7 +16,13 @@ import trajectories
 from trajectory_models import Scene, Table, scenes, tables
 
 SCENES = scenes()
-SOME = ("example selection", "example timed_stimuli", "contract Interaction", "contract SteeredShift", "imported presetOneLayerField_memory")
+SOME = (
+    "example selection",
+    "example timed_stimuli",
+    "contract Interaction",
+    "contract SteeredShift",
+    "imported presetOneLayerField_memory",
+)
 """Models that compile fast."""
 
 
@@ -51,7 +57,9 @@ def changed(path: str, value: float) -> Scene:
 def test_a_parameter_changed_by_a_millionth_is_reported(stored: trajectories.Stored) -> None:
     name = "example selection"
     scene = changed("u.tau", dd.load("example:selection").get("u.tau") * (1 + 1e-6))
-    problems = trajectories.compare(name, scene, stored.models[name], stored.values[name], ["float64"]).problems
+    problems = trajectories.compare(
+        name, scene, stored.models[name], stored.values[name], ["float64"]
+    ).problems
     assert any("another document" in p for p in problems) and any("above 1e-10" in p for p in problems)
 
 
@@ -75,7 +83,10 @@ def test_a_text_chooses_models_and_a_name_only_its_model(stored: trajectories.St
     assert trajectories.stored_names(stored, ["example projection"]) == ["example projection"]
     assert trajectories.stored_names(stored, ["projection to"]) == ["example projection to the end"]
     other = dc.replace(stored, models={"example older": {}, "example projection": {}})
-    assert trajectories.stored_names(other, ["example older"]) == ["example older"] and len(trajectories.stored_names(other, [])) == 2
+    assert (
+        trajectories.stored_names(other, ["example older"]) == ["example older"]
+        and len(trajectories.stored_names(other, [])) == 2
+    )
 
 
 def test_a_difference_is_relative_to_the_port_and_a_missing_value_is_infinite() -> None:
@@ -88,9 +99,14 @@ def test_a_difference_is_relative_to_the_port_and_a_missing_value_is_infinite() 
 def test_values_are_read_with_the_bits_that_were_written(tmp_path: Path) -> None:
     double = np.random.default_rng(0).normal(size=(3, 5))
     values = {
-        "m": {"float64": {"u mean": double, "n": double[0]}, "float32": {"u mean": (double * (1 + 1e-7)).astype("f4"), "n": -double[0].astype("f4")}}
+        "m": {
+            "float64": {"u mean": double, "n": double[0]},
+            "float32": {"u mean": (double * (1 + 1e-7)).astype("f4"), "n": -double[0].astype("f4")},
+        }
     }
-    written = trajectories.Stored({"models": 1}, {"m": {"name": "m"}, "t": {"name": "t", "numbers": {}}}, values)
+    written = trajectories.Stored(
+        {"models": 1}, {"m": {"name": "m"}, "t": {"name": "t", "numbers": {}}}, values
+    )
     written.write(tmp_path)
     again = trajectories.Stored.read(tmp_path)
     assert again.models == written.models and again.about == written.about
@@ -103,6 +119,15 @@ def test_values_are_read_with_the_bits_that_were_written(tmp_path: Path) -> None
 def test_every_stored_model_states_its_versions_and_can_be_run(stored: trajectories.Stored) -> None:
     for body in stored.models.values():
         maker = stored.about["made_by"][body["made_by"]]
-        assert {"commit", "deodar", "jax", "jaxlib", "numpy", "python", "machine", "cores"} <= maker.keys() and "changes" not in maker["commit"]
+        assert {
+            "commit",
+            "deodar",
+            "jax",
+            "jaxlib",
+            "numpy",
+            "python",
+            "machine",
+            "cores",
+        } <= maker.keys() and "changes" not in maker["commit"]
     assert sum(p.stat().st_size for p in trajectories.FOLDER.iterdir()) < 3e6
     assert stored.models.keys() <= {*SCENES, *tables()}, "every stored model can be run"

@@ -1,4 +1,6 @@
-"""What the benchmarks time: the yardstick in C follows its equation and ours, its noise is normal, and the models are what they are called."""
+"""What the benchmarks time: the yardstick in C follows its equation and ours, its noise is normal, and the
+models are what they are called.
+"""
 
 from __future__ import annotations
 
@@ -20,11 +22,20 @@ import steps
 import workloads
 
 COMPILERS = [found for found in [steps.compiler()] if found]
-SHAPES = [((100,), (5, 10), 2), ((37,), (2, 4), 1), ((50, 50), (3, 6), 1), ((20, 33), (3, 6), 2), ((9, 130), (3, 2), 1), ((12, 20, 30), (3, 6), 1)]
+SHAPES = [
+    ((100,), (5, 10), 2),
+    ((37,), (2, 4), 1),
+    ((50, 50), (3, 6), 1),
+    ((20, 33), (3, 6), 2),
+    ((9, 130), (3, 2), 1),
+    ((12, 20, 30), (3, 6), 1),
+]
 
 
 def reference(shape: Sequence[int], sigmas: Sequence[int], count: int) -> np.ndarray:
-    """The activation after so many steps without noise; kernels cut at 2.5 sigma, convolution by Fourier transform, double precision."""
+    """The activation after so many steps without noise; kernels cut at 2.5 sigma, convolution by Fourier
+    transform, double precision.
+    """
     stimulus, spectrum = np.array(6.0), np.zeros(shape, complex)
     for n in shape:
         stimulus = np.multiply.outer(stimulus, np.exp(-0.5 * ((np.arange(n) - n // 2) / 3) ** 2))
@@ -46,7 +57,9 @@ def reference(shape: Sequence[int], sigmas: Sequence[int], count: int) -> np.nda
 
 
 def answer(program: Path, what: str, count: int) -> np.ndarray:
-    return np.frombuffer(subprocess.run([program, what, str(count)], check=True, capture_output=True).stdout, np.float32)
+    return np.frombuffer(
+        subprocess.run([program, what, str(count)], check=True, capture_output=True).stdout, np.float32
+    )
 
 
 def test_the_yardstick_follows_its_equation(tmp_path: Path) -> None:
@@ -65,7 +78,10 @@ def test_the_noise_of_the_yardstick_is_normal(tmp_path: Path) -> None:
         z = answer(program, "normals", 2000).astype(float)
         root = math.sqrt(z.size)
         assert abs(z.mean()) < 4 / root and abs(z.var() - 1) < 4 * math.sqrt(2) / root
-        assert abs((z**3).mean()) < 4 * math.sqrt(15) / root and abs((z**4).mean() - 3) < 4 * math.sqrt(96) / root
+        assert (
+            abs((z**3).mean()) < 4 * math.sqrt(15) / root
+            and abs((z**4).mean() - 3) < 4 * math.sqrt(96) / root
+        )
         assert (np.abs(z) > 3).mean() == pytest.approx(0.0027, rel=0.1)
         both = z.reshape(-1, 2, 16)
         assert abs((both[:, 0] * both[:, 1]).mean()) < 4 * math.sqrt(2) / root
@@ -81,7 +97,9 @@ def test_the_model_is_what_the_yardstick_computes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("name", "fields", "nodes", "couplings"), [("W4a", 20, 20, 20), ("W4b", 16, 0, 16)])
-def test_architectures_and_their_shuffled_kin_are_equal_in_size(name: str, fields: int, nodes: int, couplings: int) -> None:
+def test_architectures_and_their_shuffled_kin_are_equal_in_size(
+    name: str, fields: int, nodes: int, couplings: int
+) -> None:
     sizes, edges = [], []
     for which in (name, name + "_shuffled"):
         model = workloads.WORKLOADS[which].model()

@@ -15,7 +15,11 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 def _good(path: Path) -> Path:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4)) >> dd.Gain(2) >> model.add(dd.Field("u", [X]))
+    (
+        model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4))
+        >> dd.Gain(2)
+        >> model.add(dd.Field("u", [X]))
+    )
     dd.save(model, path)
     return path
 
@@ -40,7 +44,10 @@ def test_a_document_with_problems_lists_them_all(tmp_path: Path, capsys: pytest.
     lines = out.splitlines()
     assert len(lines) == 2 and not err
     assert lines[0].startswith("v: u.output [x 0..10, 11 samples] does not fit v.input [y 0..1, 3 samples]")
-    assert "Write: u >> Weights(w, [y]) >> v" in lines[0] and "u >> Project([y]) >> v loses the signal" in lines[0]
+    assert (
+        "Write: u >> Weights(w, [y]) >> v" in lines[0]
+        and "u >> Project([y]) >> v loses the signal" in lines[0]
+    )
     assert lines[1].startswith("loose: nothing is connected to loose.input")
 
 
@@ -56,7 +63,9 @@ def test_json_of_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert all(set(p) == {"severity", "where", "what", "fix"} and p["fix"] for p in found)
 
 
-def test_json_of_a_file_that_cannot_be_read_lists_its_problems_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_a_file_that_cannot_be_read_lists_its_problems_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "m.json"
     path.write_text('{"deodar": 1, "elements": {"u": {"kind": "Field", "tua": 1}, "v": {"kind": "Feild"}}}')
     assert cli.main(["check", str(path), "--json"]) == 1
@@ -74,16 +83,23 @@ def test_checking_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[s
 
 def _doubtful(path: Path) -> Path:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(dd.Field("u", [X]))
+    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(
+        dd.Field("u", [X])
+    )
     dd.save(model, path)
     return path
 
 
-def test_warnings_are_listed_and_leave_the_status_at_0(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_warnings_are_listed_and_leave_the_status_at_0(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = _doubtful(tmp_path / "m.json")
     assert cli.main(["check", str(path)]) == 0
     first, last = capsys.readouterr().out.splitlines()
-    assert first.startswith("warning: left: ") and last == f"{path}: no problem, 1 warning. 2 elements, 1 connections."
+    assert (
+        first.startswith("warning: left: ")
+        and last == f"{path}: no problem, 1 warning. 2 elements, 1 connections."
+    )
 
 
 def test_strict_counts_warnings_as_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,19 +11,28 @@ import pytest
 from deodar.cli import main
 
 
-def test_it_tells_versions_device_and_folder(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_it_tells_versions_device_and_folder(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     (tmp_path / "kept").write_bytes(b"x" * 2**20)
     monkeypatch.setenv("DEODAR_CACHE", str(tmp_path))
     assert main(["doctor", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["packages"]["jax"] == importlib.metadata.version("jax") and found["missing"] == []
-    assert found["device"].startswith("cpu") and found["compiled_programs"] == {"folder": str(tmp_path), "count": 1, "mib": 1.0, "writable": True}
+    assert found["device"].startswith("cpu") and found["compiled_programs"] == {
+        "folder": str(tmp_path),
+        "count": 1,
+        "mib": 1.0,
+        "writable": True,
+    }
     assert main(["doctor"]) == 0
     page = capsys.readouterr().out
     assert "1 compiled programs" in page and "extra      test: installed" in page
 
 
-def test_what_is_missing_comes_with_the_line_to_type(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_missing_comes_with_the_line_to_type(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     version = importlib.metadata.version
 
     def without(name: str) -> str:
@@ -35,4 +44,8 @@ def test_what_is_missing_comes_with_the_line_to_type(capsys: pytest.CaptureFixtu
     monkeypatch.setenv("DEODAR_CACHE", "off")
     assert main(["doctor"]) == 1
     page = capsys.readouterr().out
-    assert "MISSING    scipy. Type: pip install" in page and "pip install 'deodar[docs]'" in page and "DEODAR_CACHE=off" in page
+    assert (
+        "MISSING    scipy. Type: pip install" in page
+        and "pip install 'deodar[docs]'" in page
+        and "DEODAR_CACHE=off" in page
+    )

@@ -21,18 +21,28 @@ def here(tmp_path, monkeypatch):
 
 
 def test_it_writes_and_says_where(here, capsys):
-    assert main(["draw", "node.json"]) == 0 and (here / "node-architecture-001.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert main(["draw", "node.json"]) == 0 and (here / "node-architecture-001.svg").read_text(
+        encoding="utf-8"
+    ).startswith("<svg")
     assert main(["draw", "node.json", "-o", "a.pdf", "--width", "3.5"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].startswith("Drew node.json into node-architecture-001.svg, ") and lines[1].startswith("Drew node.json into a.pdf, 3.5 x ")
+    assert lines[0].startswith("Drew node.json into node-architecture-001.svg, ") and lines[1].startswith(
+        "Drew node.json into a.pdf, 3.5 x "
+    )
     assert main(["draw", "node.json", "-o", "b.svg", "--no-legend", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
-    assert said["out"] == "b.svg" and len(said["inches"]) == 2 and "inhibition" not in (here / "b.svg").read_text(encoding="utf-8")
+    assert (
+        said["out"] == "b.svg"
+        and len(said["inches"]) == 2
+        and "inhibition" not in (here / "b.svg").read_text(encoding="utf-8")
+    )
 
 
 def test_it_replaces_nothing_and_explains(here, capsys):
     assert main(["draw", "node.json", "-o", "a.svg"]) == 0
     assert main(["draw", "node.json", "-o", "a.svg"]) == 1 and "exists already" in capsys.readouterr().err
     assert main(["draw", "node.json", "-o", "a.svg", "--force"]) == 0
-    assert main(["draw", "node.json", "-o", "a.gif"]) == 1 and "no format of pictures" in capsys.readouterr().err
+    assert (
+        main(["draw", "node.json", "-o", "a.gif"]) == 1 and "no format of pictures" in capsys.readouterr().err
+    )
     assert main(["draw", "nothing.json"]) == 1

@@ -17,7 +17,13 @@ def test_the_list_names_everything_by_room(capsys: pytest.CaptureFixture[str]) -
     out, err = capsys.readouterr()
     assert not err
     lines = out.splitlines()
-    assert [line for line in lines if not line.startswith(" ")] == ["sigmoids", "kernels", "elements", "couplings", "worlds"]
+    assert [line for line in lines if not line.startswith(" ")] == [
+        "sigmoids",
+        "kernels",
+        "elements",
+        "couplings",
+        "worlds",
+    ]
     assert sorted(line.split()[0] for line in lines if line.startswith("  ")) == sorted(KINDS)
     assert all(line.rstrip().endswith(".") for line in lines if line.startswith("  "))
 
@@ -38,7 +44,9 @@ def test_one_page_for_each(kind: str, capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_page_shows_default_range_and_unit_of_every_parameter(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_page_shows_default_range_and_unit_of_every_parameter(
+    kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     cls = registry.kind(kind)
     if not issubclass(cls, Part):
         return
@@ -74,4 +82,7 @@ def test_an_unknown_kind(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["elements", "Feild"]) == 1
     out, err = capsys.readouterr()
     assert not out
-    assert err == "deodar elements: no element, coupling, kernel or sigmoid is called 'Feild'. Did you mean 'Field'?\n"
+    assert (
+        err == "deodar elements: no element, coupling, kernel or sigmoid is called 'Feild'. Did you mean"
+        " 'Field'?\n"
+    )

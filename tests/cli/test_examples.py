@@ -44,7 +44,9 @@ def test_the_list_is_read_by_programs(capsys: pytest.CaptureFixture[str]) -> Non
     listed = json.loads(capsys.readouterr().out)["examples"]
     assert [e["name"] for e in listed] == [*examples.names(), *examples.scripts()]
     selection = next(e for e in listed if e["name"] == "selection")
-    assert selection["kind"] == "document" and selection["duration"] == 600 and Path(selection["file"]).is_file()
+    assert (
+        selection["kind"] == "document" and selection["duration"] == 600 and Path(selection["file"]).is_file()
+    )
     assert {e["kind"] for e in listed} == {"document", "script"}
 
 
@@ -87,14 +89,20 @@ def test_a_copy_does_not_replace_what_is_there(here: Path, capsys: pytest.Captur
         (["check", "example:selektion"], 2, "Did you mean 'selection'?"),
         (["check", "example:"], 2, "deodar examples"),
         (["run", "selection"], 1, "there is no such file. Did you mean 'example:selection'?"),
-        (["run", "selection.json", "--duration", "5"], 1, "there is no such file. Did you mean 'example:selection'?"),
+        (
+            ["run", "selection.json", "--duration", "5"],
+            1,
+            "there is no such file. Did you mean 'example:selection'?",
+        ),
         (["run", "selektion"], 1, "there is no such file. Did you mean 'example:selection'?"),
         (["check", "selection"], 1, "there is no such file. Did you mean 'example:selection'?"),
         (["studio", "nope.json", "--no-browser"], 1, "nope.json: there is no such file"),
         (["studio", "selection", "--no-browser"], 1, "Did you mean 'example:selection'?"),
     ],
 )
-def test_wrong_names_are_answered_with_what_to_type(words: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_names_are_answered_with_what_to_type(
+    words: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     try:
         found = main(words)
     except SystemExit as stopped:
@@ -102,13 +110,17 @@ def test_wrong_names_are_answered_with_what_to_type(words: list[str], status: in
     assert (found, says in told(capsys)) == (status, True)
 
 
-def test_a_file_of_the_folder_is_suggested_before_an_example(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_of_the_folder_is_suggested_before_an_example(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     dd.save(dd.Model("m"), here / "selections.json")
     assert main(["run", "selektions.json", "--duration", "5"]) == 1
     assert "Did you mean 'selections.json'?" in told(capsys)
 
 
-def test_an_example_runs_by_its_name_as_long_as_its_notes_say(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_example_runs_by_its_name_as_long_as_its_notes_say(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["run", "example:selection", "--every", "100", "--record", "u.activation", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["out"] == "selection-001"
@@ -116,7 +128,10 @@ def test_an_example_runs_by_its_name_as_long_as_its_notes_say(here: Path, capsys
     assert main(["run", "example:selection", "--duration", "20", "--out", "short"]) == 0
 
 
-@pytest.mark.parametrize("words", [["check", "example:node"], ["run", "example:node", "--duration", "5", "--live", "--speed", "max"]])
+@pytest.mark.parametrize(
+    "words",
+    [["check", "example:node"], ["run", "example:node", "--duration", "5", "--live", "--speed", "max"]],
+)
 def test_a_name_stands_wherever_a_file_does(words: list[str]) -> None:
     assert main(words) == 0
 
@@ -134,7 +149,9 @@ def test_every_command_with_a_model_takes_names(command: str) -> None:
     assert _options.document("example:node") == examples.file("node")
 
 
-def test_the_studio_opens_an_example_as_a_copy_without_a_file(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_studio_opens_an_example_as_a_copy_without_a_file(
+    here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The studio writes below the working folder, never into the folder of the examples."""
     monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
     given: list[Any] = []
@@ -153,5 +170,12 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(here: Path, monkey
 
 def test_a_missing_document_is_reported_before_a_port_is_taken(here: Path) -> None:
     command = [sys.executable, "-m", "deodar", "studio", "nope.json", "--no-browser", "--port", "0"]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=here, env=os.environ | {"DEODAR_STATE": str(here)}, timeout=600)
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        cwd=here,
+        env=os.environ | {"DEODAR_STATE": str(here)},
+        timeout=600,
+    )
     assert done.returncode == 1 and not done.stdout and "nope.json: there is no such file" in done.stderr

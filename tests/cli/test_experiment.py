@@ -1,4 +1,6 @@
-"""`deodar experiment`: the table is written, a stop is gone on with, and what is wrong is told before anything runs."""
+"""`deodar experiment`: the table is written, a stop is gone on with, and what is wrong is told before
+anything runs.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +26,13 @@ from tests.experiments.robots import decider
 def file(tmp_path, monkeypatch):
     """Trials of a node that noise takes over its threshold, in the working folder."""
     monkeypatch.chdir(tmp_path)
-    conditions = [Crosses("decided", "u.activation"), Crosses("low", "u.activation", -3.0, "below", ends=False)]
-    Experiment("when", decider(), 400, 8, conditions, factors=[Factor("noise", [2.0, 4.0], "u.noise")]).save("when.json")
+    conditions = [
+        Crosses("decided", "u.activation"),
+        Crosses("low", "u.activation", -3.0, "below", ends=False),
+    ]
+    Experiment("when", decider(), 400, 8, conditions, factors=[Factor("noise", [2.0, 4.0], "u.noise")]).save(
+        "when.json"
+    )
     return tmp_path / "when.json"
 
 
@@ -37,8 +44,18 @@ def call(*args):
 def test_a_table_a_dataset_and_what_made_them(file, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
-    assert "noise 2: 8 trials" in out and "16 trials: decided" in out and "Written to when-001: experiment.json" in out
-    assert {p.name for p in (tmp_path / "when-001").iterdir()} == {"experiment.json", "model.json", "trials.csv", "trials.jsonl", "trials.nc"}
+    assert (
+        "noise 2: 8 trials" in out
+        and "16 trials: decided" in out
+        and "Written to when-001: experiment.json" in out
+    )
+    assert {p.name for p in (tmp_path / "when-001").iterdir()} == {
+        "experiment.json",
+        "model.json",
+        "trials.csv",
+        "trials.jsonl",
+        "trials.nc",
+    }
     lines = (tmp_path / "when-001" / "trials.csv").read_text().splitlines()
     assert lines[0] == "trial,noise,outcome,awaited,duration,decided,low" and len(lines) == 17
     assert call("--out", "when-001") == 0  # nothing is left to be run
@@ -48,7 +65,12 @@ def test_a_table_a_dataset_and_what_made_them(file, capsys, tmp_path):
 
 def test_the_model_may_be_an_example(file, capsys, tmp_path):
     data = json.loads((tmp_path / "when.json").read_text())
-    data |= {"model": "example:node", "limit": 20, "factors": {}, "conditions": {"decided": {"kind": "Crosses", "of": "u.activation"}}}
+    data |= {
+        "model": "example:node",
+        "limit": 20,
+        "factors": {},
+        "conditions": {"decided": {"kind": "Crosses", "of": "u.activation"}},
+    }
     (tmp_path / "when.json").write_text(json.dumps(data))
     assert call("--trials", "2", "--json") == 0
     assert json.loads(capsys.readouterr().out)["trials"] == 2
@@ -102,7 +124,10 @@ def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
     data["conditions"]["decided"]["of"] = "v.activation"
     file.write_text(json.dumps(data))
     assert call("--out", "none") == 1
-    assert "conditions.decided: nothing is called 'v.activation'. Did you mean 'u.activation'?" in capsys.readouterr().err
+    assert (
+        "conditions.decided: nothing is called 'v.activation'. Did you mean 'u.activation'?"
+        in capsys.readouterr().err
+    )
     assert not (tmp_path / "none").exists()
     assert cli.main(["experiment", "wen.json"]) == 1
     assert "there is no such file. Did you mean 'when.json'?" in capsys.readouterr().err
@@ -116,7 +141,10 @@ def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     assert call("--out", "out") == 1 and not (tmp_path / "out").exists()
     told = capsys.readouterr().err.replace("\n", " ")
-    assert re.search(r"deodar experiment: 16 trials of at most 400 steps of dt = 1 take about \S+ \w+ on this machine", told)
+    assert re.search(
+        r"deodar experiment: 16 trials of at most 400 steps of dt = 1 take about \S+ \w+ on this machine",
+        told,
+    )
     assert "nobody can be asked" in told and "--yes" in told
     assert call("--out", "out", "--yes") == 0
     assert "16 trials of at most 400 steps" in capsys.readouterr().err
@@ -130,10 +158,21 @@ def test_a_disk_that_fills_keeps_what_is_done_and_says_how_to_go_on(file, capsys
 
     with monkeypatch.context() as patch:
         patch.setattr(
-            output, "sync", lambda path: (_ for _ in ()).throw(OSError(errno.ENOSPC, "No space left on device")) if path.suffix == ".csv" else None
+            output,
+            "sync",
+            lambda path: (
+                (_ for _ in ()).throw(OSError(errno.ENOSPC, "No space left on device"))
+                if path.suffix == ".csv"
+                else None
+            ),
         )
         assert call("--out", "out") == 1
     told = capsys.readouterr().err
-    assert "trials.csv: cannot be written: No space left on device" in told and "Go on with: deodar experiment when.json --out out" in told
-    assert not (tmp_path / "out" / "trials.csv").exists() and load_results(tmp_path / "out").sizes["trial"] == 16
+    assert (
+        "trials.csv: cannot be written: No space left on device" in told
+        and "Go on with: deodar experiment when.json --out out" in told
+    )
+    assert (
+        not (tmp_path / "out" / "trials.csv").exists() and load_results(tmp_path / "out").sizes["trial"] == 16
+    )
     assert call("--out", "out") == 0 and (tmp_path / "out" / "trials.csv").is_file()

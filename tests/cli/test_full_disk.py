@@ -48,10 +48,24 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-RUN = ["run", "small.json", "--duration", "20", "--every", "5", "--record", "u.activation", "--out", "result", "--no-progress"]
+RUN = [
+    "run",
+    "small.json",
+    "--duration",
+    "20",
+    "--every",
+    "5",
+    "--record",
+    "u.activation",
+    "--out",
+    "result",
+    "--no-progress",
+]
 
 
-def test_without_a_terminal_the_result_goes_where_data_of_the_user_go(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_a_terminal_the_result_goes_where_data_of_the_user_go(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(RUN) == 1
     told = capsys.readouterr()
     assert "No space left on device" in told.err and not told.out
@@ -79,7 +93,9 @@ def test_the_temporary_folder_comes_next(here: Path, capsys: pytest.CaptureFixtu
 def test_a_person_is_asked_for_a_folder_until_one_can_be_written(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(sys, "stdin", Terminal(f"{here}\n{here.parent / 'nowhere'}\n{here.parent / 'second'}\n"))
+    monkeypatch.setattr(
+        sys, "stdin", Terminal(f"{here}\n{here.parent / 'nowhere'}\n{here.parent / 'second'}\n")
+    )
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     assert main(RUN) == 1
     told = capsys.readouterr().err
@@ -94,7 +110,9 @@ def test_an_empty_answer_takes_the_places_of_the_user(here: Path, monkeypatch: p
     assert len(list((here.parent / "data").rglob("record.zarr"))) == 1
 
 
-def test_where_nothing_can_be_written_every_place_is_named(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_where_nothing_can_be_written_every_place_is_named(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     (here.parent / "data" / "deodar").write_text("in the way")
     monkeypatch.setattr("tempfile.tempdir", str(here))
     assert main(RUN) == 1
@@ -112,9 +130,17 @@ def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
     assert files.load_record(here / "result-001" / "record.zarr").sizes["time"] == 5
 
 
-def test_a_demo_is_kept_in_a_second_place(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_demo_is_kept_in_a_second_place(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     claims = [Claim("arrives", 1, "1", True, "required", n=1, origin="ours")]
-    found = (claims, {}, "spa.png", "The robot arrived.", lambda folder: (folder / "results.json").write_text("{}"))
+    found = (
+        claims,
+        {},
+        "spa.png",
+        "The robot arrived.",
+        lambda folder: (folder / "results.json").write_text("{}"),
+    )
     monkeypatch.setattr(_demo_spa, "run", lambda args: found)
     assert main(["demo", "spa", "--out", "planned"]) == 1
     told = capsys.readouterr()

@@ -25,7 +25,9 @@ DOCUMENT = """{"deodar": 1, "axes": {"x": {"lower": 0, "upper": 9, "samples": 10
 
 
 def call(here: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "deodar", *arguments], cwd=here, capture_output=True, text=True, timeout=600)
+    return subprocess.run(
+        [sys.executable, "-m", "deodar", *arguments], cwd=here, capture_output=True, text=True, timeout=600
+    )
 
 
 def test_an_element_of_ones_own_runs_from_the_shell(tmp_path: Path) -> None:
@@ -34,7 +36,21 @@ def test_an_element_of_ones_own_runs_from_the_shell(tmp_path: Path) -> None:
     unknown = call(tmp_path, "check", "model.json")
     assert unknown.returncode == 1 and "--import MODULE" in unknown.stderr + unknown.stdout
     assert call(tmp_path, "--import", "own", "check", "model.json").returncode == 0
-    done = call(tmp_path, "--import", "own", "run", "model.json", "--duration", "2", "--record", "d.output", "--format", "csv", "--out", "out")
+    done = call(
+        tmp_path,
+        "--import",
+        "own",
+        "run",
+        "model.json",
+        "--duration",
+        "2",
+        "--record",
+        "d.output",
+        "--format",
+        "csv",
+        "--out",
+        "out",
+    )
     assert done.returncode == 0, done.stderr
     assert "3.0" in (tmp_path / "out" / "record.csv").read_text()
     assert "Twice the input" in call(tmp_path, "--import", "own", "elements", "Doubling").stdout

@@ -16,7 +16,12 @@ def test_a_document_is_written_and_the_report_shown(tmp_path, capsys):
     out = tmp_path / "model.json"
     assert main(["import", str(SAMPLE), "-o", str(out)]) == 0
     shown = capsys.readouterr().out
-    assert "field u" in shown and "LateralInteractions1D" in shown and "0 dropped" in shown and "Written:" in shown
+    assert (
+        "field u" in shown
+        and "LateralInteractions1D" in shown
+        and "0 dropped" in shown
+        and "Written:" in shown
+    )
     assert dd.load(out).document == dd.load(SAMPLE).document
     assert main(["import", str(SAMPLE), "-o", str(out)]) == 1
     assert "exists already" in capsys.readouterr().err
@@ -39,7 +44,13 @@ def test_json_holds_every_line(capsys):
 
 def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):
     out = tmp_path / "model.json"
-    lossy = written(tmp_path, [element("c", "CameraGrabber", {"deviceNumber": 1, "size": [3, 4]}), element("u", "NeuralField", FIELD)])
+    lossy = written(
+        tmp_path,
+        [
+            element("c", "CameraGrabber", {"deviceNumber": 1, "size": [3, 4]}),
+            element("u", "NeuralField", FIELD),
+        ],
+    )
     assert main(["import", str(lossy), "-o", str(out), "--strict"]) == 1 and not out.exists()
     assert "reads a camera" in capsys.readouterr().out
     assert main(["import", str(lossy), "-o", str(out)]) == 0 and out.exists()
@@ -48,7 +59,15 @@ def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):
 
 
 def test_bugs_are_reproduced_where_asked(tmp_path, capsys):
-    param = {"size": [1, 9], "sigma": 1, "amplitude": 3, "position": 4, "circular": 1, "normalized": 1, "onTimes": [[0, 9]]}
+    param = {
+        "size": [1, 9],
+        "sigma": 1,
+        "amplitude": 3,
+        "position": 4,
+        "circular": 1,
+        "normalized": 1,
+        "onTimes": [[0, 9]],
+    }
     path = written(tmp_path, [element("s", "TimedGaussStimulus1D", param)])
     assert main(["import", str(path)]) == 0 and "corrected" in capsys.readouterr().out
     assert main(["import", str(path), "--bugs"]) == 0 and "reproduced" in capsys.readouterr().out

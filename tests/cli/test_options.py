@@ -29,7 +29,13 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def run(*arguments: str) -> tuple[int, str]:
     """Status and errors of a command in a process of its own."""
     environment = {k: v for k, v in os.environ.items() if k != "NPROC"}
-    done = subprocess.run([sys.executable, "-m", "deodar", *arguments], capture_output=True, text=True, timeout=600, env=environment)
+    done = subprocess.run(
+        [sys.executable, "-m", "deodar", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=600,
+        env=environment,
+    )
     return done.returncode, done.stderr
 
 
@@ -37,14 +43,33 @@ def test_a_run_takes_one_core_unless_told_and_a_repetition_as_many_as_the_record
     assert run("run", "small.json", "--duration", "5", "--out", "one") == (0, "")
     assert run("run", "small.json", "--duration", "5", "--out", "two", "--cores", "2") == (0, "")
     assert run("run", "two", "--out", "again") == (0, "")
-    assert [about(files.load_record(here / name))["made_by"]["cores"] for name in ("one", "two", "again")] == ["1", "2", "2"]
+    assert [
+        about(files.load_record(here / name))["made_by"]["cores"] for name in ("one", "two", "again")
+    ] == ["1", "2", "2"]
     status, says = run("run", "two", "--out", "less", "--cores", "1")
     assert status == 0 and "cores: 2 then, 1 now" in says
     assert main(["run", "small.json", "--duration", "5", "--cores", "0"]) == 1
 
 
 def test_workers_share_trials(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "small.json", "--duration", "5", "--trials", "4", "--workers", "2", "--out", "shared", "--json"]) == 0
+    assert (
+        main(
+            [
+                "run",
+                "small.json",
+                "--duration",
+                "5",
+                "--trials",
+                "4",
+                "--workers",
+                "2",
+                "--out",
+                "shared",
+                "--json",
+            ]
+        )
+        == 0
+    )
     assert json.loads(capsys.readouterr().out)["variables"]["u.activation"]["trial"] == 4
     assert about(files.load_record(here / "shared"))["workers"] == 2
     with pytest.raises(SystemExit):
@@ -52,7 +77,9 @@ def test_workers_share_trials(here: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "--workers cannot be given" in capsys.readouterr().err
 
 
-def test_a_device_is_named_and_one_that_is_not_there_refused(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_device_is_named_and_one_that_is_not_there_refused(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["run", "small.json", "--duration", "5", "--device", "cpu:0", "--out", "named"]) == 0
     assert about(files.load_record(here / "named"))["device"] == "cpu:0"
     assert main(["run", "small.json", "--duration", "5", "--device", "quantum"]) == 1

@@ -37,7 +37,9 @@ def test_a_document_is_packed_and_unpacked(here: Path, capsys: pytest.CaptureFix
         (["pack", "example:node", "--out", "there.deodar"], 1, "exists already"),
     ],
 )
-def test_wrong_calls(words: list[str], status: int, says: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_calls(
+    words: list[str], status: int, says: str, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (here / "there.deodar").write_bytes(b"mine")
     try:
         found = main(words)

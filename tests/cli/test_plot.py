@@ -51,7 +51,10 @@ def test_vector_graphics_hold_real_text_and_units(here: Path) -> None:
     assert main(["plot", "small.zarr", "-o", "all.svg"]) == 0
     text = (here / "all.svg").read_text()
     assert "time (ms)" in text and "x (deg)" in text and "activation" in text
-    assert main(["plot", "small.zarr", "-o", "all.svg"]) == 1 and main(["plot", "small.zarr", "-o", "all.svg", "--force"]) == 0
+    assert (
+        main(["plot", "small.zarr", "-o", "all.svg"]) == 1
+        and main(["plot", "small.zarr", "-o", "all.svg", "--force"]) == 0
+    )
 
 
 def test_the_same_record_gives_the_same_file(here: Path) -> None:
@@ -87,7 +90,22 @@ def test_a_path_is_drawn_in_its_arena_and_as_a_film(here: Path, capsys: pytest.C
     assert "drive.gif" in capsys.readouterr().out
     with Image.open("drive.gif") as film, Image.open("drive.png") as figure:
         assert getattr(film, "n_frames", 1) == 41 and figure.width > figure.height
-    assert main(["plot", "drive.zarr", "pose.output", "--gif", "drive.gif", "--force", "--json", "--out", "again.png"]) == 0
+    assert (
+        main(
+            [
+                "plot",
+                "drive.zarr",
+                "pose.output",
+                "--gif",
+                "drive.gif",
+                "--force",
+                "--json",
+                "--out",
+                "again.png",
+            ]
+        )
+        == 0
+    )
     assert json.loads(capsys.readouterr().out)["gif"] == "drive.gif"
     assert main(["plot", "small.zarr", "--gif", "no.gif"]) == 1
     assert "a film shows one variable" in capsys.readouterr().err

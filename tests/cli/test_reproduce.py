@@ -35,7 +35,9 @@ def toy(monkeypatch, tmp_path):
 
     def report(rows, quick):
         claims = [
-            Claim("trials", len(rows), f">= {paper.least}", len(rows) >= paper.least, n=len(rows), origin="ours"),
+            Claim(
+                "trials", len(rows), f">= {paper.least}", len(rows) >= paper.least, n=len(rows), origin="ours"
+            ),
             Claim("heard", None, "?", None, "reported", origin="printed", assumes="the start", inferred=True),
         ]
         return Report(claims, {"nothing": Figure((1, 1))}, {"table": "| a |\n"})
@@ -55,11 +57,22 @@ def call(*args):
 def test_it_runs_writes_and_says_what_holds(toy, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
-    assert "yes trials -> 6 (wanted >= 6, ours; n 6)" in out and "6 of 6 runs. Of 1 required claims 1 hold" in out
+    assert (
+        "yes trials -> 6 (wanted >= 6, ours; n 6)" in out
+        and "6 of 6 runs. Of 1 required claims 1 hold" in out
+    )
     assert "?   heard -> nothing yet (wanted ?, printed; n 1; no evidence, it assumes the start)" in out
-    assert {p.name for p in (tmp_path / "toy-001").iterdir()} == {"runs.jsonl", "results.json", "table.md", "nothing.png"}
+    assert {p.name for p in (tmp_path / "toy-001").iterdir()} == {
+        "runs.jsonl",
+        "results.json",
+        "table.md",
+        "nothing.png",
+    }
     found = json.loads((tmp_path / "toy-001" / "results.json").read_text())
-    assert found["settings"] == {"paper": "toy", "quick": False, "runs": 6, "of": 6} and found["claims"][0]["holds"] is True
+    assert (
+        found["settings"] == {"paper": "toy", "quick": False, "runs": 6, "of": 6}
+        and found["claims"][0]["holds"] is True
+    )
     call()
     assert (tmp_path / "toy-002").is_dir()
 
@@ -171,7 +184,11 @@ def test_runs_that_find_no_room_end_it_and_those_before_are_kept(toy, monkeypatc
     monkeypatch.setattr("deodar.experiments.rows.os.fsync", full)
     assert call("--out", "part") == 1
     told = capsys.readouterr().err
-    assert "No space left on device" in told and "3 runs are kept" in told and "Go on with: deodar reproduce toy --out part" in told
+    assert (
+        "No space left on device" in told
+        and "3 runs are kept" in told
+        and "Go on with: deodar reproduce toy --out part" in told
+    )
     room.extend([None] * 99)
     toy.ran = []
     assert call("--out", "part") == 0 and toy.ran == [3, 4, 5]

@@ -32,7 +32,24 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "small.json", "--duration", "20", "--every", "5", "--record", "u.activation", "n.activation", "--seed", "3"]) == 0
+    assert (
+        main(
+            [
+                "run",
+                "small.json",
+                "--duration",
+                "20",
+                "--every",
+                "5",
+                "--record",
+                "u.activation",
+                "n.activation",
+                "--seed",
+                "3",
+            ]
+        )
+        == 0
+    )
     assert "deodar plot small-001" in capsys.readouterr().out.splitlines()[-1]
     data = files.load_record(here / "small-001")
     assert data["u.activation"].shape == (5, 11) and about(data)["seed"] == 3
@@ -42,7 +59,9 @@ def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "5"]) == 0 and (here / "small-002").is_dir()
 
 
-def test_warnings_of_the_check_are_printed_and_stop_no_run(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_warnings_of_the_check_are_printed_and_stop_no_run(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     lonely, x = dd.Model("lonely"), dd.Axis("x", 0, 10, 11)
     fields = [lonely.add(dd.Field(name, [x])) for name in "abcd"]
     lonely.add(dd.GaussianStimulus("left", [x], center=5, sigma=2, amplitude=3)) >> fields[0]
@@ -54,11 +73,28 @@ def test_warnings_of_the_check_are_printed_and_stop_no_run(here: Path, capsys: p
 
 
 def test_settings(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call = ["run", "small.json", "--duration", "4", "--dt", "0.5", "--trials", "2", "--sweep", "s.amplitude=1,2,3", "--set", "u.tau=7"]
+    call = [
+        "run",
+        "small.json",
+        "--duration",
+        "4",
+        "--dt",
+        "0.5",
+        "--trials",
+        "2",
+        "--sweep",
+        "s.amplitude=1,2,3",
+        "--set",
+        "u.tau=7",
+    ]
     assert main([*call, "--precision", "float64", "--format", "netcdf", "--out", "out", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     data = files.load_record(here / "out" / "record.nc")
-    assert data["u.activation"].dtype == np.float64 and data.sizes["trial"] == 2 and data.sizes["s.amplitude"] == 3
+    assert (
+        data["u.activation"].dtype == np.float64
+        and data.sizes["trial"] == 2
+        and data.sizes["s.amplitude"] == 3
+    )
     assert dd.load(here / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
 
 
@@ -66,7 +102,11 @@ def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "20", "--every", "5", "--out", "first"]) == 0
     assert main(["run", "first", "--out", "second"]) == 0
     assert "same bits" in capsys.readouterr().out
-    assert files.load_record(here / "first").drop_attrs().identical(files.load_record(here / "second").drop_attrs())
+    assert (
+        files.load_record(here / "first")
+        .drop_attrs()
+        .identical(files.load_record(here / "second").drop_attrs())
+    )
     assert main(["run", "first/record.zarr", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["repetition"]["same_bits"] is True
 
@@ -86,7 +126,9 @@ def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["small.json", "--duration", "5", "--out", "a/b"], 1, "no folder"),
     ],
 )
-def test_bad_calls(here: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_calls(
+    here: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     before = sorted(here.iterdir())
     try:
         code = main(["run", *arguments])
@@ -105,7 +147,9 @@ def test_force_replaces_only_what_a_run_wrote(here: Path, capsys: pytest.Capture
     assert main([*call, "--force"]) == 0 and (here / "out" / "notes.txt").read_text() == "mine"
 
 
-def test_ctrl_c_writes_what_was_recorded(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_ctrl_c_writes_what_was_recorded(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     chunk, calls = Run._chunk, []
 
     def pressed(self: Run, *args: object) -> object:
@@ -115,24 +159,51 @@ def test_ctrl_c_writes_what_was_recorded(here: Path, monkeypatch: pytest.MonkeyP
         return chunk(self, *args)  # type: ignore[arg-type]
 
     monkeypatch.setattr(Run, "_chunk", pressed)
-    call = ["run", "small.json", "--duration", "100000000", "--record", "n.activation", "--every", "100000", "--out", "cut"]
+    call = [
+        "run",
+        "small.json",
+        "--duration",
+        "100000000",
+        "--record",
+        "n.activation",
+        "--every",
+        "100000",
+        "--out",
+        "cut",
+    ]
     assert main(call) == 1 and len(calls) == 3
     assert "incomplete" in capsys.readouterr().err
     data = files.load_record(here / "cut")
-    assert about(data)["complete"] is False and 1 <= data.sizes["time"] < 1001 and np.isfinite(data["n.activation"].values).all()
+    assert (
+        about(data)["complete"] is False
+        and 1 <= data.sizes["time"] < 1001
+        and np.isfinite(data["n.activation"].values).all()
+    )
 
 
-def test_a_live_run_keeps_to_the_wall_and_prints_its_meter(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_live_run_keeps_to_the_wall_and_prints_its_meter(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     began = time.perf_counter()
     assert main(["run", "small.json", "--live", "--duration", "100", "--speed", "0.5", "--json"]) == 0
     meter = json.loads(capsys.readouterr().out)["meter"]
-    assert time.perf_counter() - began > 0.2 and meter["wall"] >= 0.2 and meter["time"] == 100 and meter["factor"] <= 0.5
-    assert main(["run", "small.json", "--live", "--duration", "100", "--speed", "max", "--longest-step", "2"]) == 0
+    assert (
+        time.perf_counter() - began > 0.2
+        and meter["wall"] >= 0.2
+        and meter["time"] == 100
+        and meter["factor"] <= 0.5
+    )
+    assert (
+        main(["run", "small.json", "--live", "--duration", "100", "--speed", "max", "--longest-step", "2"])
+        == 0
+    )
     assert "as fast as possible" in capsys.readouterr().out
     assert sorted(p.name for p in here.iterdir()) == ["small.json"], "nothing is recorded"
 
 
-def test_ctrl_c_ends_a_live_run_with_its_meter(here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_ends_a_live_run_with_its_meter(
+    here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     due, calls = Pace.due, iter(range(20))
 
     def pressed(self: Pace, session: dd.Session) -> int:
@@ -166,7 +237,9 @@ def test_the_cost_of_elements(here: Path, capsys: pytest.CaptureFixture[str]) ->
         (["--live", "--duration", "10", "--longest-step", "0.1"], 1, "not below the planned step"),
     ],
 )
-def test_what_a_live_run_cannot_do(here: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str) -> None:
+def test_what_a_live_run_cannot_do(
+    here: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str
+) -> None:
     try:
         got = main(["run", "small.json", *arguments])
     except SystemExit as end:
@@ -188,13 +261,19 @@ def test_a_very_long_run_is_asked_about(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["run", "small.json", "--duration", "40", "--no-progress", "--out", "out"]) == status
     told = capsys.readouterr().err
-    assert re.search(r"40 steps of dt = 1 take about \S+ \w+ on this machine", told) and "Begin? [y/N]" in told and "RunWarning" not in told
+    assert (
+        re.search(r"40 steps of dt = 1 take about \S+ \w+ on this machine", told)
+        and "Begin? [y/N]" in told
+        and "RunWarning" not in told
+    )
     assert (here / "out").is_dir() == (status == 0) and ("not begun" in told) == (status == 1)
     assert main(["run", "small.json", "--duration", "39", "--out", "shorter"]) == 0
     assert "on this machine" not in capsys.readouterr().err
 
 
-def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(simulate, "LONG_STEPS", 40)
     monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
@@ -205,14 +284,35 @@ def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(here: Path, monkeyp
     assert "steps of dt = 1 take about" in capsys.readouterr().err
 
 
-def test_a_very_long_record_is_not_repeated_without_yes(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "small.json", "--duration", "40", "--record", "u.activation", "--trials", "2", "--out", "first"]) == 0
+def test_a_very_long_record_is_not_repeated_without_yes(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert (
+        main(
+            [
+                "run",
+                "small.json",
+                "--duration",
+                "40",
+                "--record",
+                "u.activation",
+                "--trials",
+                "2",
+                "--out",
+                "first",
+            ]
+        )
+        == 0
+    )
     monkeypatch.setattr(simulate, "LONG_STEPS", 40)
     monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     capsys.readouterr()
     assert main(["run", "first", "--out", "second"]) == 1 and not (here / "second").exists()
-    assert re.search("40 steps of dt = 1 take about .* nobody can be asked .* --yes", capsys.readouterr().err.replace("\n", " "))
+    assert re.search(
+        "40 steps of dt = 1 take about .* nobody can be asked .* --yes",
+        capsys.readouterr().err.replace("\n", " "),
+    )
     assert main(["run", "first", "--out", "second", "--yes"]) == 0
     told = capsys.readouterr()
     assert "same bits" in told.out and "deodar run: 40 steps of dt = 1 take about" in told.err
@@ -220,10 +320,18 @@ def test_a_very_long_record_is_not_repeated_without_yes(here: Path, monkeypatch:
 
 def test_a_wall_time_in_words() -> None:
     seconds = [3.2, 90, 7200, 86400 * 3.25, 86400 * 365 * 4000]
-    assert [_long.duration(s) for s in seconds] == ["3 seconds", "1.5 minutes", "2 hours", "3.2 days", "4,000 years"]
+    assert [_long.duration(s) for s in seconds] == [
+        "3 seconds",
+        "1.5 minutes",
+        "2 hours",
+        "3.2 days",
+        "4,000 years",
+    ]
 
 
-def test_a_point_of_a_sweep_that_diverges_is_said_once(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_point_of_a_sweep_that_diverges_is_said_once(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     made = model()
     made["u"]["activation"] >> made.add(dd.Gain(0.0, name="g")) >> made["u"]
     dd.save(made, "loop.json")

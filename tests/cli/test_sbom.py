@@ -33,7 +33,10 @@ def test_it_is_printed_as_cyclonedx(capsys: pytest.CaptureFixture[str]) -> None:
 def test_every_component_has_what_the_specification_asks_for(bill: dict) -> None:
     for component in [bill["metadata"]["component"], *bill["components"]]:
         assert set(component) <= {"type", "bom-ref", "name", "version", "purl", "scope", "licenses"}
-        assert component["type"] in ("library", "application") and component["scope"] in ("required", "optional")
+        assert component["type"] in ("library", "application") and component["scope"] in (
+            "required",
+            "optional",
+        )
         assert PURL.fullmatch(component["purl"]) and component["bom-ref"] == component["purl"]
         licences = component.get("licenses", [])
         assert len(licences) == 1 or all("license" in entry for entry in licences)
@@ -48,10 +51,21 @@ def test_references_are_unique_and_lead_to_components(bill: dict) -> None:
 
 
 def test_it_holds_what_deodar_requires_directly_and_through_others(bill: dict) -> None:
-    found = {c["purl"].split("/")[1].split("@")[0]: c for c in bill["components"] if c["purl"].startswith("pkg:pypi/")}
-    direct = {re.split(r"[^\w.-]", r)[0].lower() for r in importlib.metadata.requires("deodar") or () if "extra ==" not in r}
+    found = {
+        c["purl"].split("/")[1].split("@")[0]: c
+        for c in bill["components"]
+        if c["purl"].startswith("pkg:pypi/")
+    }
+    direct = {
+        re.split(r"[^\w.-]", r)[0].lower()
+        for r in importlib.metadata.requires("deodar") or ()
+        if "extra ==" not in r
+    }
     assert direct <= set(found) and {"jaxlib", "pandas", "packaging"} <= set(found)
-    assert all(found[name]["scope"] == "required" and found[name]["version"] == importlib.metadata.version(name) for name in (*direct, "jaxlib"))
+    assert all(
+        found[name]["scope"] == "required" and found[name]["version"] == importlib.metadata.version(name)
+        for name in (*direct, "jaxlib")
+    )
     assert found["pytest"]["scope"] == "optional"
     unknown = [name for name in direct if not found[name].get("licenses")]
     assert not unknown, f"no licence is known of {unknown}"
@@ -61,7 +75,9 @@ def test_it_holds_the_libraries_of_the_page(bill: dict) -> None:
     page = {c["name"]: c for c in bill["components"] if c["purl"].startswith("pkg:npm/")}
     text = (app.STATIC / "licences.txt").read_text(encoding="utf-8")
     assert {"react", "@mantine/core", "katex"} <= set(page)
-    assert all(f"{name} {c['version']} ({c['licenses'][0]['expression']})" in text for name, c in page.items())
+    assert all(
+        f"{name} {c['version']} ({c['licenses'][0]['expression']})" in text for name, c in page.items()
+    )
     assert page["@mantine/core"]["purl"].startswith("pkg:npm/%40mantine/core@")
 
 

@@ -27,7 +27,9 @@ def fetch(address: str) -> tuple[int, bytes]:
     connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=600)
     try:
         there = urlsplit(address)
-        connection.request("GET", "/", headers={"Cookie": f"deodar_token_{there.port}={there.query.removeprefix('token=')}"})
+        connection.request(
+            "GET", "/", headers={"Cookie": f"deodar_token_{there.port}={there.query.removeprefix('token=')}"}
+        )
         answer = connection.getresponse()
         return answer.status, answer.read()
     finally:
@@ -38,7 +40,9 @@ def start(folder: Path, *words: str) -> tuple[subprocess.Popen[str], str]:
     """A studio in a process of its own, and the address it prints."""
     environment = os.environ | {"DEODAR_STATE": str(folder / "state")}
     command = [sys.executable, "-m", "deodar", "studio", "--no-browser", "--port", "0", *words]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder, env=environment)
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder, env=environment
+    )
     assert process.stdout is not None
     return process, process.stdout.readline().split()[-1]
 
@@ -88,7 +92,9 @@ class FakeServer:
         self.ended()
 
 
-def opened_at(address: str, browser: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, opens: Callable[[str], None]) -> list[str]:
+def opened_at(
+    address: str, browser: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, opens: Callable[[str], None]
+) -> list[str]:
     """Start a studio that answers at an address; the addresses that it prints."""
     said: list[str] = []
     monkeypatch.setattr(serve.webbrowser, "open", opens)
@@ -104,7 +110,9 @@ def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytes
     assert opened == ["http://here/"]
 
 
-def test_the_token_is_not_in_the_command_line_of_the_browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_token_is_not_in_the_command_line_of_the_browser(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Other users of the machine can read it there."""
     files: list[Path] = []
 
@@ -126,19 +134,29 @@ def test_without_room_for_a_temporary_file_no_browser_is_opened(
 ) -> None:
     opened: list[str] = []
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
-    assert opened_at("http://here/?token=secret", True, tmp_path, monkeypatch, opened.append) == ["http://here/?token=secret"]
+    assert opened_at("http://here/?token=secret", True, tmp_path, monkeypatch, opened.append) == [
+        "http://here/?token=secret"
+    ]
     assert opened == [] and "the browser is not opened" in caplog.text
 
 
 def test_the_file_that_leads_to_the_studio_is_removed_when_the_studio_is_terminated(tmp_path: Path) -> None:
-    """A script plays the browser: it writes the argument that it was started with, and the content of the file."""
+    """A script plays the browser: it writes the argument that it was started with, and the content of the
+    file.
+    """
     browser = tmp_path / "browser"
     browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/told\ncat "${{1#file://}}" > {tmp_path}/page\n')
     browser.chmod(0o700)
     (tmp_path / "tmp").mkdir()
-    environment = os.environ | {"DEODAR_STATE": str(tmp_path / "state"), "TMPDIR": str(tmp_path / "tmp"), "BROWSER": str(browser)}
+    environment = os.environ | {
+        "DEODAR_STATE": str(tmp_path / "state"),
+        "TMPDIR": str(tmp_path / "tmp"),
+        "BROWSER": str(browser),
+    }
     command = [sys.executable, "-m", "deodar", "studio", "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=environment) as process:
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=environment
+    ) as process:
         assert process.stdout is not None
         address = process.stdout.readline().split()[-1]
         assert b"<title>" in fetch(address)[1]  # the browser is opened before the first request is answered
@@ -149,7 +167,9 @@ def test_the_file_that_leads_to_the_studio_is_removed_when_the_studio_is_termina
     assert list((tmp_path / "tmp").glob("deodar-studio-*")) == []
 
 
-def test_a_taken_port_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_taken_port_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))

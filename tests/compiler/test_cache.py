@@ -65,7 +65,9 @@ def test_damaged_files_are_replaced(place: Path) -> None:
     assert executable(pair()).compiled == 0
 
 
-def test_it_can_be_switched_off_and_a_folder_that_cannot_be_made_does_no_harm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_can_be_switched_off_and_a_folder_that_cannot_be_made_does_no_harm(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("DEODAR_CACHE", "off")
     assert cache.folder() is None and executable(pair()).compiled == 2
     (tmp_path / "file").write_text("")
@@ -87,6 +89,10 @@ def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.
 
 def test_it_stands_in_the_users_own_cache_folder() -> None:
     code = "from deodar.compiler.cache import folder; print(folder())"
-    environment = {k: v for k, v in os.environ.items() if k != "DEODAR_CACHE"} | {"XDG_CACHE_HOME": "/somewhere/else"}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=600)
+    environment = {k: v for k, v in os.environ.items() if k != "DEODAR_CACHE"} | {
+        "XDG_CACHE_HOME": "/somewhere/else"
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=600
+    )
     assert done.returncode == 0 and "deodar" in done.stdout and str(Path.cwd()) not in done.stdout

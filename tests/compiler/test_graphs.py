@@ -21,7 +21,11 @@ def counts(model: dd.Model) -> tuple[int, int]:
 
 
 def test_sixty_fields_and_three_hundred_couplings() -> None:
-    for model, most in ((graphs.line_fields(0), 2), (graphs.line_fields(100), 3), (graphs.mixed_fields(), 30)):
+    for model, most in (
+        (graphs.line_fields(0), 2),
+        (graphs.line_fields(100), 3),
+        (graphs.mixed_fields(), 30),
+    ):
         assert counts(model) == (60, 300)
         assert len(plan(model.document).groups) <= most
 

@@ -1,4 +1,6 @@
-"""Elements with thousands of inputs: the same sums as with few, and neither plan nor program grows with inputs times rows."""
+"""Elements with thousands of inputs: the same sums as with few, and neither plan nor program grows with
+inputs times rows.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,11 @@ def inputs(*counts: int) -> dd.Model:
 
 def entries(found: Plan) -> int:
     """Numbers in all tables."""
-    return sum(r.table.size + sum(rows.size + block.size for rows, block in r.more) for reads in found.reads.values() for r in reads)
+    return sum(
+        r.table.size + sum(rows.size + block.size for rows, block in r.more)
+        for reads in found.reads.values()
+        for r in reads
+    )
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
@@ -37,7 +43,11 @@ def test_rows_with_many_and_with_few_inputs_have_their_sums(precision: str) -> N
     seen = dd.simulate(model, 0, record=[f"u{n}.input" for n in range(len(counts))], precision=precision)
     amplitudes = np.array([model.get(f"b{k}.amplitude") for k in range(max(counts))])
     for n, count in enumerate(counts):
-        np.testing.assert_allclose(seen[f"u{n}.input"].item(), amplitudes[:count].sum(), atol=1e-12 if precision == "float64" else 1e-4)
+        np.testing.assert_allclose(
+            seen[f"u{n}.input"].item(),
+            amplitudes[:count].sum(),
+            atol=1e-12 if precision == "float64" else 1e-4,
+        )
 
 
 def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
@@ -46,7 +56,10 @@ def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
 
     def summed(found: Plan) -> float:
         [read] = next(reads for (g, port), reads in found.reads.items() if port == "input" and reads)
-        source, row = found.groups[read.source[0]], found.row[next(n.id for g in found.groups for n in g.nodes if n.path == "u0")][1]
+        source, row = (
+            found.groups[read.source[0]],
+            found.row[next(n.id for g in found.groups for n in g.nodes if n.path == "u0")][1],
+        )
         ordered = np.array([values[int(n.path[1:])] for n in source.nodes], np.float32)
         return float(gather(jnp.asarray(ordered), read)[row])
 
@@ -58,7 +71,11 @@ def test_neither_tables_nor_programs_grow_with_rows_times_inputs() -> None:
     assert entries(found) < 4 * 2200 + 201 * COLUMNS
 
     def equations(count: int) -> int:
-        [read] = next(reads for (g, port), reads in plan(inputs(count).document).reads.items() if port == "input" and reads)
+        [read] = next(
+            reads
+            for (g, port), reads in plan(inputs(count).document).reads.items()
+            if port == "input" and reads
+        )
         return len(str(jax.make_jaxpr(lambda x: gather(x, read))(jnp.zeros(count))).splitlines())
 
     assert equations(2000) <= equations(3 * COLUMNS) + 2

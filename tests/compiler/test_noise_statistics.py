@@ -1,4 +1,6 @@
-"""Noise as running models add it: moments, correlations, independence, and its scaling with steps and grids."""
+"""Noise as running models add it: moments, correlations, independence, and its scaling with steps and
+grids.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ def drawn():
 
 def within(value, expected, deviation):
     """Five standard errors: a sound generator fails one time in two million."""
-    assert abs(value - expected) < 5 * deviation, f"{value} is {abs(value - expected) / deviation:.1f} standard errors from {expected}"
+    assert abs(value - expected) < 5 * deviation, (
+        f"{value} is {abs(value - expected) / deviation:.1f} standard errors from {expected}"
+    )
 
 
 def test_moments(drawn):
@@ -83,7 +87,9 @@ def test_euler_increments_at_any_step(every):
     fed = dd.Field("fed", [LINE], tau=tau, resting_level=0)
     model.add(own, ticks=every)
     model.connect(model.add(Noise("n", [LINE], q), ticks=every), model.add(fed, ticks=every))
-    data = dd.simulate(model, steps * dt, dt=dt, every=every * dt, record=["own.activation", "fed.activation"])
+    data = dd.simulate(
+        model, steps * dt, dt=dt, every=every * dt, record=["own.activation", "fed.activation"]
+    )
     expected = q**2 * every * dt / tau**2 / LINE.step
     for name in ("own", "fed"):
         u = data[f"{name}.activation"].values.astype(float)
@@ -94,7 +100,9 @@ def test_euler_increments_at_any_step(every):
 
 
 def test_a_field_at_rest_wanders_as_theory_says():
-    """Without interaction the activation is an Ornstein-Uhlenbeck process: variance q^2 / (2 tau) a cell, for small steps."""
+    """Without interaction the activation is an Ornstein-Uhlenbeck process: variance q^2 / (2 tau) a cell, for
+    small steps.
+    """
     tau, q, dt = 10.0, 0.5, 0.5
     model = dd.Model("wander")
     model.add(dd.Field("u", [LINE], tau=tau, resting_level=-1, noise=q, sigmoid=dd.Logistic()))
@@ -125,7 +133,9 @@ ROUND = dd.Axis("x", 0, 40, 40, periodic=True)
 
 @pytest.mark.parametrize("axis", [SHORT, ROUND], ids=["line", "ring"])
 def test_correlated_noise(axis):
-    """The amplitude is the standard deviation at every point, borders included; the correlation is a Gaussian."""
+    """The amplitude is the standard deviation at every point, borders included; the correlation is a
+    Gaussian.
+    """
     length, q, steps = 3.0, 0.8, 20_000
     model = dd.Model("correlated")
     model.add(Noise("n", [axis], q, length=length))
@@ -145,7 +155,10 @@ def test_correlated_noise_of_a_field_is_that_of_the_source():
     axes = [dd.Axis("x", 0, 19, 20), dd.Axis("y", 0, 10, 10, periodic=True)]
     model = dd.Model("same")
     model.add(dd.Field("own", axes, tau=5, noise=0.6, noise_length=[2.5, 1.5], resting_level=0))
-    model.connect(model.add(Noise("n", axes, 0.6, length=[2.5, 1.5])), model.add(dd.Field("fed", axes, tau=5, resting_level=0)))
+    model.connect(
+        model.add(Noise("n", axes, 0.6, length=[2.5, 1.5])),
+        model.add(dd.Field("fed", axes, tau=5, resting_level=0)),
+    )
     data = dd.simulate(model, 8000, dt=0.5, every=0.5, record=["own.activation", "fed.activation"])
     for name in ("own", "fed"):
         u = data[f"{name}.activation"].values.astype(float)
@@ -153,5 +166,9 @@ def test_correlated_noise_of_a_field_is_that_of_the_source():
         n = len(increments)
         assert abs(increments.var(axis=0) - 1).max() < 5.5 * np.sqrt(2 / n)
         for d in (1, 2, 3):
-            assert abs((increments[:, 6, :] * increments[:, 6 + d, :]).mean() - np.exp(-(d**2) / (2 * 2.5**2))) < 5 / np.sqrt(n)
-            assert abs((increments[:, 6:14, 2] * increments[:, 6:14, 2 + d]).mean() - np.exp(-(d**2) / (2 * 1.5**2))) < 5 / np.sqrt(n)
+            assert abs(
+                (increments[:, 6, :] * increments[:, 6 + d, :]).mean() - np.exp(-(d**2) / (2 * 2.5**2))
+            ) < 5 / np.sqrt(n)
+            assert abs(
+                (increments[:, 6:14, 2] * increments[:, 6:14, 2 + d]).mean() - np.exp(-(d**2) / (2 * 1.5**2))
+            ) < 5 / np.sqrt(n)

@@ -20,7 +20,10 @@ x = dd.Axis("x", 0, 10, samples=11)
 
 def ring(n: int) -> dd.Model:
     model = dd.Model("ring")
-    fields = [model.add(dd.Field(f"u{k}", [x], tau=10 + k, kernel=[dd.Gaussian(1 + k, 2)], noise=0.1)) for k in range(n)]
+    fields = [
+        model.add(dd.Field(f"u{k}", [x], tau=10 + k, kernel=[dd.Gaussian(1 + k, 2)], noise=0.1))
+        for k in range(n)
+    ]
     for a, b in zip(fields, fields[1:] + fields[:1], strict=True):
         a >> dd.Gain(0.5) >> b
     return model
@@ -28,7 +31,9 @@ def ring(n: int) -> dd.Model:
 
 def test_equal_structure_is_one_group_whatever_the_number() -> None:
     small, large = plan(ring(3).document), plan(ring(40).document)
-    assert [type(g.like.element).__name__ for g in small.groups] == [type(g.like.element).__name__ for g in large.groups]
+    assert [type(g.like.element).__name__ for g in small.groups] == [
+        type(g.like.element).__name__ for g in large.groups
+    ]
     assert sorted(g.rows for g in large.groups) == [40, 40]
     assert len(large.calls) == len(small.calls) == 3
     assert sorted(large.row) == sorted(e.id for e in ring(40).document.entries)
@@ -40,7 +45,12 @@ def test_rows_stand_in_the_order_of_ids_and_tables_name_the_sources() -> None:
         assert [n.id for n in group.nodes] == sorted(n.id for n in group.nodes)
     for (g, port), reads in p.reads.items():
         for r, node in enumerate(p.groups[g].nodes):
-            named = [p.groups[read.source[0]].nodes[s].id for read in reads for s in read.table[r] if s < p.groups[read.source[0]].rows]
+            named = [
+                p.groups[read.source[0]].nodes[s].id
+                for read in reads
+                for s in read.table[r]
+                if s < p.groups[read.source[0]].rows
+            ]
             assert named == [slot[0] for slot in sorted(node.reads[port])]
 
 
@@ -54,7 +64,14 @@ def test_it_does_not_depend_on_the_order_of_declaration() -> None:
         for k in pieces:
             model.connect(fields[k], fields[(k + 3) % 8])
         p = plan(model.document)
-        seen.append((p.row, p.calls, [g.offset for g in p.groups], [[(r.source, r.table.tolist()) for r in rs] for rs in p.reads.values()]))
+        seen.append(
+            (
+                p.row,
+                p.calls,
+                [g.offset for g in p.groups],
+                [[(r.source, r.table.tolist()) for r in rs] for rs in p.reads.values()],
+            )
+        )
     assert seen[0] == seen[1]
 
 
@@ -116,13 +133,21 @@ def test_only_what_is_read_is_evaluated_for_a_record() -> None:
 def test_it_is_plain_data_without_jax_and_can_be_printed() -> None:
     text = plan(ring(6).document).describe()
     assert "6 x Field" in text and "6 x Gain" in text and "advance" in text
-    code = "import ast, deodar.compiler.plan as p; t = ast.parse(open(p.__file__).read()); names = [a.name for n in ast.walk(t) "
-    code += "if isinstance(n, ast.Import) for a in n.names]; assert not any(n.startswith('jax') for n in names), names"
+    code = (
+        "import ast, deodar.compiler.plan as p; t = ast.parse(open(p.__file__).read()); names = [a.name for n"
+        " in ast.walk(t) "
+    )
+    code += (
+        "if isinstance(n, ast.Import) for a in n.names]; assert not any(n.startswith('jax') for n in names),"
+        " names"
+    )
     assert subprocess.run([sys.executable, "-c", code], timeout=600).returncode == 0
 
 
 def test_uniform_weights_in_large_batches_are_finite() -> None:
-    """Weights are arguments of the program: as constants of it, uniform ones made XLA give NaN from batches of 64 on."""
+    """Weights are arguments of the program: as constants of it, uniform ones made XLA give NaN from batches
+    of 64 on.
+    """
     model = dd.Model("uniform")
     wide = dd.Axis("x", 0, 199, samples=200)
     u = model.add(dd.Field("u", [wide], kernel=[dd.Gaussian(1, 1e6)], global_inhibition=0.01, noise=0.1))

@@ -1,7 +1,8 @@
-"""Random graphs of fields and couplings against plain loops over time: whatever is planned, it stays near what the equations say.
+"""Random graphs of fields and couplings against plain loops over time: whatever is planned, it stays near
+what the equations say.
 
-A failure shrinks to a small graph, whose document is printed. `pytest tests/compiler/test_random_graphs.py --hypothesis-profile=thorough` draws
-200 graphs for each test in place of 5.
+A failure shrinks to a small graph, whose document is printed. `pytest tests/compiler/test_random_graphs.py
+--hypothesis-profile=thorough` draws 200 graphs for each test in place of 5.
 """
 
 from __future__ import annotations
@@ -59,7 +60,18 @@ class Graph:
         handles = [model.add(f, ticks=k) for f, k in zip(self.fields, self.every, strict=True)]
         for k, h in enumerate(handles):
             center = [a.lower + (0.2 + 0.15 * k) * (a.upper - a.lower) for a in self.axes]
-            model.add(dd.GaussianStimulus(f"s{k}", self.axes, center=center, sigma=[4 * a.step for a in self.axes], amplitude=2.5 + 0.5 * k)) >> h
+            (
+                model.add(
+                    dd.GaussianStimulus(
+                        f"s{k}",
+                        self.axes,
+                        center=center,
+                        sigma=[4 * a.step for a in self.axes],
+                        amplitude=2.5 + 0.5 * k,
+                    )
+                )
+                >> h
+            )
         paths: list[str] = []
         for k, link in enumerate(self.links):
             at = handles[link.source]
@@ -75,8 +87,15 @@ class Graph:
     def matrices(self) -> tuple[list[np.ndarray], list[np.ndarray]]:
         """Lateral weights of each field (global inhibition among them), and the weights of each link."""
         cells, volume = int(np.prod([a.samples for a in self.axes])), fields.volume(self.axes)
-        lateral = [weights(f.kernel, self.axes) - f.global_inhibition * volume * np.ones((cells, cells)) for f in self.fields]
-        links = [(weights(k.kernels, self.axes) if k.kernels else np.eye(cells)) * (1.0 if k.gain is None else k.gain) for k in self.links]
+        lateral = [
+            weights(f.kernel, self.axes) - f.global_inhibition * volume * np.ones((cells, cells))
+            for f in self.fields
+        ]
+        links = [
+            (weights(k.kernels, self.axes) if k.kernels else np.eye(cells))
+            * (1.0 if k.gain is None else k.gain)
+            for k in self.links
+        ]
         return lateral, links
 
     def contractive(self) -> Graph:
@@ -87,13 +106,21 @@ class Graph:
             total[link.target] += np.abs(m).sum(1).max()
         by = [0.79 / (SLOPE * t) if t > 0 else 1.0 for t in total]
         scaled = [
-            dc.replace(f, kernel=[dc.replace(k, **amplitudes(k, b)) for k in f.kernel], global_inhibition=f.global_inhibition * b)
+            dc.replace(
+                f,
+                kernel=[dc.replace(k, **amplitudes(k, b)) for k in f.kernel],
+                global_inhibition=f.global_inhibition * b,
+            )
             for f, b in zip(self.fields, by, strict=True)
         ]
         weaker = [
-            dc.replace(k, kernels=[dc.replace(w, **amplitudes(w, by[k.target])) for w in k.kernels], gain=k.gain)
-            if k.kernels
-            else dc.replace(k, gain=(k.gain or 1.0) * by[k.target])
+            (
+                dc.replace(
+                    k, kernels=[dc.replace(w, **amplitudes(w, by[k.target])) for w in k.kernels], gain=k.gain
+                )
+                if k.kernels
+                else dc.replace(k, gain=(k.gain or 1.0) * by[k.target])
+            )
             for k in self.links
         ]
         return Graph(self.axes, scaled, self.every, weaker)
@@ -102,13 +129,19 @@ class Graph:
         """Activations of all fields after so many steps, by the laws as they are written."""
         lateral, links = self.matrices()
         u = np.array([np.full(lateral[0].shape[0], f.resting_level) for f in self.fields])
-        s = [fields.stimulus(h.element, 0.0).ravel() for h in self.model()[0] if isinstance(h.element, dd.GaussianStimulus)]
+        s = [
+            fields.stimulus(h.element, 0.0).ravel()
+            for h in self.model()[0]
+            if isinstance(h.element, dd.GaussianStimulus)
+        ]
         held = u.copy()
         for tick in range(steps):
             g = 1 / (1 + np.exp(-2.0 * u))
             for k, f in enumerate(self.fields):
                 if tick % self.every[k] == 0:
-                    arriving = sum(m @ g[c.source] for c, m in zip(self.links, links, strict=True) if c.target == k)
+                    arriving = sum(
+                        m @ g[c.source] for c, m in zip(self.links, links, strict=True) if c.target == k
+                    )
                     drive = f.resting_level + s[k] + lateral[k] @ g[k] + arriving
                     held[k] = u[k] + self.every[k] / f.tau * (-u[k] + drive)
             for k in range(len(u)):
@@ -135,14 +168,29 @@ def parts(kernel: Any) -> list[tuple[float, Any]]:
         return [(kernel.amplitude, lambda d, b: Box(1.0, kernel.width[d], boundary=b))]
     if isinstance(kernel, MexicanHat):
         return [
-            (kernel.excitation, lambda d, b: dd.Gaussian(1.0, kernel.sigma_excitation[d], normalized=True, boundary=b)),
-            (-kernel.inhibition, lambda d, b: dd.Gaussian(1.0, kernel.sigma_inhibition[d], normalized=True, boundary=b)),
+            (
+                kernel.excitation,
+                lambda d, b: dd.Gaussian(1.0, kernel.sigma_excitation[d], normalized=True, boundary=b),
+            ),
+            (
+                -kernel.inhibition,
+                lambda d, b: dd.Gaussian(1.0, kernel.sigma_inhibition[d], normalized=True, boundary=b),
+            ),
         ]
-    return [(kernel.amplitude, lambda d, b: dd.Gaussian(1.0, kernel.sigma[d], normalized=kernel.normalized, boundary=b))]
+    return [
+        (
+            kernel.amplitude,
+            lambda d, b: dd.Gaussian(1.0, kernel.sigma[d], normalized=kernel.normalized, boundary=b),
+        )
+    ]
 
 
 def amplitudes(kernel: Any, by: float) -> dict[str, float]:
-    return {name: getattr(kernel, name) * by for name in ("amplitude", "excitation", "inhibition") if hasattr(kernel, name)}
+    return {
+        name: getattr(kernel, name) * by
+        for name in ("amplitude", "excitation", "inhibition")
+        if hasattr(kernel, name)
+    }
 
 
 @st.composite
@@ -155,7 +203,9 @@ def kernels(draw: Any, axes: list[dd.Axis], most: int) -> list[Any]:
         form = draw(st.sampled_from(["gaussian", "gaussian", "normalized", "hat", "box"]))
         if form == "hat":
             wide = [2 * w for w in width]
-            found.append(MexicanHat(abs(strength), width, 0.5 * abs(strength), wide, normalized=True, boundary=ends))
+            found.append(
+                MexicanHat(abs(strength), width, 0.5 * abs(strength), wide, normalized=True, boundary=ends)
+            )
         elif form == "box":
             found.append(Box(strength / fields.volume(axes) / 20, [4 * w for w in width], boundary=ends))
         else:
@@ -168,16 +218,24 @@ def kernels(draw: Any, axes: list[dd.Axis], most: int) -> list[Any]:
 def graphs(draw: Any) -> Graph:
     shape = draw(st.sampled_from([(40,), (130,), (64,), (24, 20), (33, 16)]))
     sizes = zip("xy", shape, strict=False)
-    axes = [dd.Axis(n, -1.0, draw(st.sampled_from([10.0, float(k)])), samples=k, periodic=draw(st.booleans())) for n, k in sizes]
+    axes = [
+        dd.Axis(n, -1.0, draw(st.sampled_from([10.0, float(k)])), samples=k, periodic=draw(st.booleans()))
+        for n, k in sizes
+    ]
     count = draw(st.integers(1, 4))
     rates = draw(st.sampled_from([[1, 1, 1, 1], [1, 2, 1, 2], [3, 1, 1, 2]]))[:count]
     made = [
         dd.Field(
-            f"u{k}", axes, tau=draw(st.sampled_from([10.0, 25.0])), resting_level=-1.0, sigmoid=dd.Logistic(2.0), kernel=draw(kernels(axes, 2)),
+            f"u{k}",
+            axes,
+            tau=draw(st.sampled_from([10.0, 25.0])),
+            resting_level=-1.0,
+            sigmoid=dd.Logistic(2.0),
+            kernel=draw(kernels(axes, 2)),
             global_inhibition=draw(st.sampled_from([0.0, 0.002])),
         )
         for k in range(count)
-    ]  # fmt: skip
+    ]
     links: list[Link] = []
     for _ in range(draw(st.integers(0, 5))):
         one = draw(kernels(axes, 1)) if draw(st.integers(0, 3)) else []
@@ -220,13 +278,18 @@ def test_every_planned_convolution_gives_what_its_matrix_gives(way: str, graph: 
             chosen = interaction.choices(given_kernels, axes, many)
 
             def convolve(y: Any, made: Any = given_kernels, axes: Any = axes, chosen: Any = chosen) -> Any:
-                mixture = interaction.mix(made, axes, interaction.prepare(made, axes, np.dtype("float32"), chosen))
+                mixture = interaction.mix(
+                    made, axes, interaction.prepare(made, axes, np.dtype("float32"), chosen)
+                )
                 return interaction.apply(mixture, axes, y, chosen)
 
             found = np.asarray(jax.jit(convolve)(y), float)
             each = [weights([k], graph.axes) for k in given_kernels]
             total = sum(np.abs(m).sum(1).max() for m in each)
-            assert np.abs(found.ravel() - sum(m @ y.ravel().astype(float) for m in each)).max() < 1e-5 * total + 1e-6
+            assert (
+                np.abs(found.ravel() - sum(m @ y.ravel().astype(float) for m in each)).max()
+                < 1e-5 * total + 1e-6
+            )
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -248,7 +311,9 @@ def test_double_precision_is_exact(graph: Graph) -> None:
     model, _ = graph.model()
     found, expected = dd.simulate(model, 20, precision="float64"), graph.plainly(20)
     for k, u in enumerate(expected):
-        assert np.abs(found[f"u{k}.activation"].values.ravel() - u).max() < 1e-9 * max(1.0, np.abs(expected).max())
+        assert np.abs(found[f"u{k}.activation"].values.ravel() - u).max() < 1e-9 * max(
+            1.0, np.abs(expected).max()
+        )
 
 
 @given(graph=graphs())
@@ -256,7 +321,9 @@ def test_what_couplings_show_is_the_same_however_it_travels(graph: Graph) -> Non
     """Inputs and outputs of couplings can be read although they travel as waves."""
     graph = graph.contractive()
     model, paths = graph.model()
-    record = [f"{p}.{port}" for p in paths if p for port in ("input", "output")] + [f"u{k}.input" for k in range(len(graph.fields))]
+    record = [f"{p}.{port}" for p in paths if p for port in ("input", "output")] + [
+        f"u{k}.input" for k in range(len(graph.fields))
+    ]
     exact = dd.simulate(model, 30, record=record, every=30, precision="float64")
     with dear("waves"):
         model, _ = graph.model()
@@ -266,14 +333,20 @@ def test_what_couplings_show_is_the_same_however_it_travels(graph: Graph) -> Non
 
 
 def test_waves_are_shared_where_fields_are_coupled() -> None:
-    """The ring of planes: one transform there and back for each field, couplings in between; with a border, and through a gain."""
+    """The ring of planes: one transform there and back for each field, couplings in between; with a border,
+    and through a gain.
+    """
     for periodic in (True, False):
         axes = [dd.Axis(n, 0, 50, samples=50, periodic=periodic) for n in "xy"]
         model = dd.Model("ring")
-        ring = [model.add(dd.Field(f"u{k}", axes, kernel=[dd.Gaussian(5, 3, normalized=True)])) for k in range(4)]
+        ring = [
+            model.add(dd.Field(f"u{k}", axes, kernel=[dd.Gaussian(5, 3, normalized=True)])) for k in range(4)
+        ]
         for k in range(4):
             ring[k] >> Convolve([dd.Gaussian(1, 3, normalized=True)]) >> dd.Gain(0.5) >> ring[(k + 1) % 4]
         made = plan(model.document)
         shares = {type(g.like.element).__name__ for g in made.groups if g.way.shared}
         assert shares == {"Field", "Convolve", "Gain"} and "waves shared" in made.describe()
-        assert executable(model, precision="float64").plan.describe().count("waves") == 0, "double precision is exact"
+        assert executable(model, precision="float64").plan.describe().count("waves") == 0, (
+            "double precision is exact"
+        )

@@ -1,4 +1,6 @@
-"""Executables shared among the models of a process: the same model built again compiles nothing, another one never gets them."""
+"""Executables shared among the models of a process: the same model built again compiles nothing, another one
+never gets them.
+"""
 
 from __future__ import annotations
 

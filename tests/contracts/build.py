@@ -1,7 +1,7 @@
 """A small model around one example of anything registered: what the contract tests run.
 
-Sources that fit are found by trying a few kinds of axes; a new element or coupling is covered without a word here as long as
-its example can be fed by one of them.
+Sources that fit are found by trying a few kinds of axes; a new element or coupling is covered without a word
+here as long as its example can be fed by one of them.
 """
 
 from __future__ import annotations
@@ -54,11 +54,15 @@ def source(name: str, axes: Axes, amplitude: float = 0.8, at: float = 0.4) -> El
     if not axes:
         return Boost(name, [], amplitude)
     center = [a.lower + at * a.range for a in axes]
-    return dd.GaussianStimulus(name, axes, center=center, sigma=[max(a.range / 6, a.step / 2) for a in axes], amplitude=amplitude)
+    return dd.GaussianStimulus(
+        name, axes, center=center, sigma=[max(a.range / 6, a.step / 2) for a in axes], amplitude=amplitude
+    )
 
 
 def around(element: Element, every: int = 1, noisy: bool = False) -> dd.Model:
-    """A model in which every input of the element has a source (called `to PORT`), under the element's own name."""
+    """A model in which every input of the element has a source (called `to PORT`), under the element's own
+    name.
+    """
     problems: list[Any] = []
     for axes in candidates(element):
         model = dd.Model("contract")
@@ -127,4 +131,17 @@ def changes(element: Element) -> list[tuple[str, Any]]:
     return out
 
 
-__all__ = ["KINDS", "PARTS", "Anything", "any_example", "around", "changes", "example", "node", "parameters", "record", "session", "source"]
+__all__ = [
+    "KINDS",
+    "PARTS",
+    "Anything",
+    "any_example",
+    "around",
+    "changes",
+    "example",
+    "node",
+    "parameters",
+    "record",
+    "session",
+    "source",
+]

@@ -1,4 +1,6 @@
-"""A model around the example of anything registered as a world: every sensor is read, every motor is driven."""
+"""A model around the example of anything registered as a world: every sensor is read, every motor is
+driven.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,11 @@ def everything(kind):
     for k, (motor, signal) in enumerate(world.motors.items()):
         axes = [Axis(f"a{d}", 0, n - 1, n) for d, n in enumerate(signal.shape or ())]
         name, strength = f"push {motor}", 300.0 + 100 * k
-        push = model.add(dd.GaussianStimulus(name, axes, center=0, sigma=1, amplitude=strength) if axes else Boost(name, [], strength))
+        push = model.add(
+            dd.GaussianStimulus(name, axes, center=0, sigma=1, amplitude=strength)
+            if axes
+            else Boost(name, [], strength)
+        )
         model.connect(push, model.add(Motor(f"move {motor}", axes, motor)))
     return model
 

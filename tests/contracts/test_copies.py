@@ -19,7 +19,10 @@ from tests.session.test_exchange import Tank, closed
 COPIES = {
     "copy": copy.copy,
     "deepcopy": copy.deepcopy,
-    **{f"pickle {n}": lambda value, n=n: pickle.loads(pickle.dumps(value, n)) for n in (0, 2, pickle.HIGHEST_PROTOCOL)},
+    **{
+        f"pickle {n}": lambda value, n=n: pickle.loads(pickle.dumps(value, n))
+        for n in (0, 2, pickle.HIGHEST_PROTOCOL)
+    },
 }
 
 
@@ -105,7 +108,9 @@ def test_a_copied_model_runs_to_the_same_bits():
     model = around(any_example("Field"), noisy=True)
     first = record(model, 20, ["example"], seed=3)["example.activation"].values
     for name in ("deepcopy", "pickle 5"):
-        assert np.array_equal(record(COPIES[name](model), 20, ["example"], seed=3)["example.activation"].values, first)
+        assert np.array_equal(
+            record(COPIES[name](model), 20, ["example"], seed=3)["example.activation"].values, first
+        )
 
 
 def test_a_session_goes_on_from_a_copied_snapshot_as_from_the_snapshot(again):
@@ -122,7 +127,9 @@ def test_a_session_goes_on_from_a_copied_snapshot_as_from_the_snapshot(again):
 
 
 def test_a_pickled_snapshot_holds_the_state_of_its_world():
-    """Two sessions of one model in a tank: the second one is restored from a pickle and goes on as the first."""
+    """Two sessions of one model in a tank: the second one is restored from a pickle and goes on as the
+    first.
+    """
     one, two = dd.Session(closed(True), world=Tank()), dd.Session(closed(True), world=Tank())
     one.step(9)
     kept = pickle.loads(pickle.dumps(one.snapshot()))
@@ -132,7 +139,7 @@ def test_a_pickled_snapshot_holds_the_state_of_its_world():
     assert one.read("level").any() and np.array_equal(one.read("level"), two.read("level"))
 
 
-# ------------------------------------------------------------------------------------------------ trust
+# ------------------------------------------------------------------------------------------------------ trust
 
 
 def foreign(tmp_path, trust):
@@ -173,11 +180,17 @@ def test_a_pickled_model_without_functions_takes_those_of_the_script():
 
 
 def test_reading_a_pickled_model_runs_none_of_the_functions_it_names(tmp_path):
-    """Another process reads the model, and does not import the module of its function before that is trusted."""
+    """Another process reads the model, and does not import the module of its function before that is
+    trusted.
+    """
     (tmp_path / "strange_functions.py").write_text("print('imported')\ndef twice(u):\n    return 2 * u\n")
     model = dd.Model("foreign")
-    model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)])) >> model.add(KINDS["Function"]("f", function="strange_functions:twice"))
+    model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)])) >> model.add(
+        KINDS["Function"]("f", function="strange_functions:twice")
+    )
     (tmp_path / "model.pickle").write_bytes(pickle.dumps(model))
     code = "import pickle; m = pickle.load(open('model.pickle', 'rb')); m.check(); print(m.trusted)"
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
     assert done.stdout.split() == ["False"]

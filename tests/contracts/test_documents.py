@@ -46,7 +46,9 @@ def test_a_document_from_a_file_runs_to_the_same_bits(kind, tmp_path):
     model = around(any_example(kind), noisy=True)
     dd.save(model, tmp_path / "a.json")
     back = dd.load(tmp_path / "a.json")
-    before, after = (record(m, 20, ["example.output"], seed=3)["example.output"].values for m in (model, back))
+    before, after = (
+        record(m, 20, ["example.output"], seed=3)["example.output"].values for m in (model, back)
+    )
     assert np.array_equal(before, after)
 
 

@@ -1,4 +1,6 @@
-"""Where values are recorded or read, the path of a field alone means its activation; of other elements the default output."""
+"""Where values are recorded or read, the path of a field alone means its activation; of other elements the
+default output.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,11 @@ X = dd.Axis("x", 0, 10, samples=11)
 def model() -> dd.Model:
     model = dd.Model("paths")
     u = model.add(dd.Field("u", [X], resting_level=-1.0), group="g")
-    model.add(dd.GaussianStimulus("s", [X], center=5.0, sigma=2.0, amplitude=3.0)) >> u >> model.add(dd.RateNode("n"))
+    (
+        model.add(dd.GaussianStimulus("s", [X], center=5.0, sigma=2.0, amplitude=3.0))
+        >> u
+        >> model.add(dd.RateNode("n"))
+    )
     return model
 
 
@@ -34,7 +40,9 @@ def test_a_session(model: dd.Model) -> None:
     assert session.read("g.u").min() < 0 < session.read("g.u.output").min()
 
 
-@pytest.mark.parametrize("run", [dd.run_trial, lambda *a, **k: dd.run_batch(*a, trials=[0], **k)[0]], ids=["trial", "batch"])
+@pytest.mark.parametrize(
+    "run", [dd.run_trial, lambda *a, **k: dd.run_batch(*a, trials=[0], **k)[0]], ids=["trial", "batch"]
+)
 def test_trials(model: dd.Model, run) -> None:
     course = run(model, 3, watch=["g.u", "g.u.activation"], measures=[dd.Measure("end", "g.u", "min")])
     np.testing.assert_array_equal(course.values["g.u"], course.values["g.u.activation"])
@@ -46,7 +54,10 @@ def test_the_command_line(model: dd.Model, tmp_path, monkeypatch) -> None:
 
     monkeypatch.chdir(tmp_path)
     dd.save(model, "m.json")
-    assert cli.main(["run", "m.json", "--duration", "3", "--record", "g.u", "--out", "out", "--no-progress"]) == 0
+    assert (
+        cli.main(["run", "m.json", "--duration", "3", "--record", "g.u", "--out", "out", "--no-progress"])
+        == 0
+    )
     assert list(dd.load_record(next((tmp_path / "out").glob("*.zarr"))).data_vars) == ["g.u.activation"]
 
 

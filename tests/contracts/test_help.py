@@ -1,4 +1,6 @@
-"""Signatures, help and completion of every kind come from the declarations and leave the methods of the contract out."""
+"""Signatures, help and completion of every kind come from the declarations and leave the methods of the
+contract out.
+"""
 
 from __future__ import annotations
 
@@ -36,10 +38,13 @@ def shown(cls: type[Any]) -> str:
 def test_a_signature_is_written_as_one_types_it() -> None:
     text = str(inspect.signature(dd.Field))
     assert text.startswith(
-        "(name: str = '', axes: Sequence[Axis] = (), tau: float = 20.0, resting_level: float = -5.0, sigmoid: SigmoidFunction = Logistic("
+        "(name: str = '', axes: Sequence[Axis] = (), tau: float = 20.0, resting_level: float = -5.0, sigmoid:"
+        " SigmoidFunction = Logistic("
     )
     assert "kernel: Sequence[Kernel] = ()" in text and "noise_length: float | Sequence[float] = 0.0" in text
-    assert str(inspect.signature(registry.kind("Pattern"))).startswith("(name: str = '', axes: Sequence[Axis] = required")
+    assert str(inspect.signature(registry.kind("Pattern"))).startswith(
+        "(name: str = '', axes: Sequence[Axis] = required"
+    )
     assert str(inspect.signature(dd.Gain)).endswith("*, name: str = '')")
     assert str(inspect.signature(dd.Experiment)).startswith(
         "(name: str, model: object, limit: float, trials: int = 1, conditions: Sequence[Event] = (), "
@@ -58,7 +63,11 @@ def test_a_signature_has_the_declared_parameters_in_their_order(cls: type[Any]) 
 def test_help_lists_every_parameter_with_unit_range_and_meaning(cls: type[Any]) -> None:
     text, documented = shown(cls), cls.__doc__ or ""
     assert "Annotated" not in text and "__dataclass_fields__" not in text
-    listed = text[text.index("Attributes:" if cls in TRIALS.values() else "Parameters:") :] if len(parameters(cls)) > 1 else text
+    listed = (
+        text[text.index("Attributes:" if cls in TRIALS.values() else "Parameters:") :]
+        if len(parameters(cls)) > 1
+        else text
+    )
     for p in parameters(cls):
         if p.name == "name" and "\n    name: " not in documented:
             continue
@@ -74,7 +83,18 @@ def test_help_lists_every_parameter_with_unit_range_and_meaning(cls: type[Any]) 
 
 @pytest.mark.parametrize("cls", KINDS_AND_PARTS.values(), ids=KINDS_AND_PARTS)
 def test_methods_of_the_contract_are_neither_in_help_nor_in_completion(cls: type[Any]) -> None:
-    methods = {"wants", "faults", "misfits", "settle", "prepare", "advance", "output", "init", "bounds", "polarity"}
+    methods = {
+        "wants",
+        "faults",
+        "misfits",
+        "settle",
+        "prepare",
+        "advance",
+        "output",
+        "init",
+        "bounds",
+        "polarity",
+    }
     instance = cls.example()
     assert not methods & set(dir(cls)) and not methods & set(dir(instance))
     assert {p.name for p in parameters(cls)} <= set(dir(instance))
@@ -98,7 +118,10 @@ def test_a_kind_of_ones_own_without_a_docstring_has_help_too() -> None:
 
 
 def test_the_docstring_of_the_source_is_kept() -> None:
-    assert "tau: time constant, in the document's time unit; > 0, and no shorter than the step.\n" in source_doc(dd.Field)
+    assert (
+        "tau: time constant, in the document's time unit; > 0, and no shorter than the step.\n"
+        in source_doc(dd.Field)
+    )
     assert dd.Field.__doc__ is not None and dd.Field.__doc__.startswith("A dynamic neural field")
     assert "no shorter than the step. [unit time; at least 1e-06]" in dd.Field.__doc__
 

@@ -1,4 +1,6 @@
-"""Couplings that say that they are linear superpose: what they make of a and b together is the sum of what they make of each."""
+"""Couplings that say that they are linear superpose: what they make of a and b together is the sum of what
+they make of each.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,10 @@ def three(kind: str) -> tuple[dd.Model, Axes]:
 
     axes = node(around(example(kind))).ins["input"]
     model = dd.Model("superposition")
-    a, b = (model.add(source(name, axes, amplitude, at)) for name, amplitude, at in (("a", 0.8, 0.3), ("b", -1.7, 0.6)))
+    a, b = (
+        model.add(source(name, axes, amplitude, at))
+        for name, amplitude, at in (("a", 0.8, 0.3), ("b", -1.7, 0.6))
+    )
     for name, sources in {"of a": [a], "of b": [b], "of both": [a, b]}.items():
         copy = model.add(dc.replace(example(kind), name=name))
         for s in sources:

@@ -1,4 +1,6 @@
-"""A change of a live parameter costs no tracing and no compiling, and does what the same value does from the start."""
+"""A change of a live parameter costs no tracing and no compiling, and does what the same value does from the
+start.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +67,17 @@ def test_live_parameters(kind):
     assert not EVENTS
     assert sum(program.traced for program in model.programs.values()) == traced
     assert all(np.isfinite(values).all() for values in second)
-    without = ("Sum", "Product", "Project", "Resample", "Sensor", "Motor", "Placeholder", "DiagonalSum", "DiagonalExpansion")
+    without = (
+        "Sum",
+        "Product",
+        "Project",
+        "Resample",
+        "Sensor",
+        "Motor",
+        "Placeholder",
+        "DiagonalSum",
+        "DiagonalExpansion",
+    )
     if kind not in without:  # these have no numbers
         assert changes(element), "no number to change"
     # the same values given from the start
@@ -75,7 +87,9 @@ def test_live_parameters(kind):
     for changed, given in zip(second, fresh, strict=True):
         np.testing.assert_array_equal(changed, given)
     if changes(element):
-        assert any(not np.array_equal(a, b) for a, b in zip(first, second, strict=True)), "the changes do nothing"
+        assert any(not np.array_equal(a, b) for a, b in zip(first, second, strict=True)), (
+            "the changes do nothing"
+        )
 
 
 @pytest.mark.parametrize("kind", KINDS)

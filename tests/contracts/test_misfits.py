@@ -25,7 +25,12 @@ def message(model: dd.Model) -> str:
 
 
 INTO = [(kind, port) for kind in KINDS for port, axes in node(around(any_example(kind))).ins.items() if axes]
-OUT_OF = [(kind, port) for kind in (*KINDS, *PARTS) for port, axes in node(around(any_example(kind))).outs.items() if axes]
+OUT_OF = [
+    (kind, port)
+    for kind in (*KINDS, *PARTS)
+    for port, axes in node(around(any_example(kind))).outs.items()
+    if axes
+]
 
 
 @pytest.mark.parametrize(("kind", "port"), INTO)
@@ -58,7 +63,14 @@ def misfit(kind: str, port: str) -> tuple[dd.Model, list[dd.Axis]]:
     model = dd.Model("misfit")
     handle = model.add(element)
     for other in element.ports():
-        model.connect(model.add(source(f"wrong {other}" if other == port else other, tuple(bad) if other == port else axes[other])), handle[other])
+        model.connect(
+            model.add(
+                source(
+                    f"wrong {other}" if other == port else other, tuple(bad) if other == port else axes[other]
+                )
+            ),
+            handle[other],
+        )
     return model, bad
 
 
@@ -67,7 +79,9 @@ ONLY = [(kind, port) for kind, port in INTO if check(misfit(kind, port)[0].docum
 
 
 def test_elements_with_axes_of_their_own_refuse_others():
-    assert {"Field", "Attractor", "PeakPosition", "Weighting", "Project", "ColorSpace"} <= {kind for kind, _ in ONLY}
+    assert {"Field", "Attractor", "PeakPosition", "Weighting", "Project", "ColorSpace"} <= {
+        kind for kind, _ in ONLY
+    }
 
 
 @pytest.mark.parametrize(("kind", "port"), ONLY)
@@ -77,6 +91,9 @@ def test_an_only_source_that_does_not_fit(kind, port):
     said = message(model)
     others = [other for other in any_example(kind).ports() if other != port]
     # where two ports must fit each other, either of them is the one that does not
-    assert any(f"{name}.output" in said and f"example.{end}" in said for name, end in [(f"wrong {port}", port), *zip(others, others, strict=True)])
+    assert any(
+        f"{name}.output" in said and f"example.{end}" in said
+        for name, end in [(f"wrong {port}", port), *zip(others, others, strict=True)]
+    )
     for part in (describe(bad), "rite: "):
         assert part in said, f"{part!r} is missing in: {said}"

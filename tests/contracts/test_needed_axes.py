@@ -18,7 +18,9 @@ from deodar.numerics.axes import Axis
 from deodar.parameters import parameters
 from tests.contracts.build import KINDS
 
-AXES = {(kind, p.name): p for kind, cls in KINDS.items() for p in parameters(cls) if p.form in ("axis", "axes")}
+AXES = {
+    (kind, p.name): p for kind, cls in KINDS.items() for p in parameters(cls) if p.form in ("axis", "axes")
+}
 NEEDED = [place for place, p in AXES.items() if isinstance(p.default, Needed)]
 SPACE = {"space": {"lower": 0, "upper": 100, "samples": 101}}
 
@@ -26,7 +28,9 @@ SPACE = {"space": {"lower": 0, "upper": 100, "samples": 101}}
 @pytest.mark.parametrize(("kind", "name"), AXES)
 def test_the_default_of_axes_is_none_at_all_or_a_node(kind: str, name: str) -> None:
     default = AXES[kind, name].default
-    assert isinstance(default, Needed) or default in ((), None), f"{kind} invents the axis {default}: declare it as needed(...)"
+    assert isinstance(default, Needed) or default in ((), None), (
+        f"{kind} invents the axis {default}: declare it as needed(...)"
+    )
 
 
 INFERRED = {("PeakPosition", "axis")}
@@ -49,9 +53,14 @@ def test_a_forgotten_axis_is_an_error_that_says_what_to_write(kind: str, name: s
 
 
 def test_the_call_that_an_error_proposes_has_every_value_in_its_place() -> None:
-    with pytest.raises(ParameterError, match=r"Pattern needs axes. Write: Pattern\(name, \[x\]\), where x is an Axis"):
+    with pytest.raises(
+        ParameterError, match=r"Pattern needs axes. Write: Pattern\(name, \[x\]\), where x is an Axis"
+    ):
         Pattern("p")
-    with pytest.raises(ParameterError, match=r"History needs slots. Write: History\(name, \[x\], slot\), where x and slot are each an Axis"):
+    with pytest.raises(
+        ParameterError,
+        match=r"History needs slots. Write: History\(name, \[x\], slot\), where x and slot are each an Axis",
+    ):
         History("h", [Axis("x", 0, 1, 2)])
 
 
@@ -74,7 +83,9 @@ def test_a_document_of_version_1_without_the_axes_keeps_its_meaning(kind: str, n
     doc = files.from_data({"deodar": 1, "axes": taken, "elements": {"e": body}}, {})
     [entry] = doc.entries
     found = getattr(entry.element, name)
-    assert (tuple(found) if isinstance(found, tuple) else (found,)) == tuple(Axis(**axis) for axis in DEFAULTS_OF_1[kind][name])
+    assert (tuple(found) if isinstance(found, tuple) else (found,)) == tuple(
+        Axis(**axis) for axis in DEFAULTS_OF_1[kind][name]
+    )
     again, arrays = files.to_data(doc)
     assert again["deodar"] == 3 and files.from_data(json.loads(json.dumps(again)), arrays) == doc
 
@@ -83,7 +94,12 @@ def test_a_document_of_version_1_runs_as_before() -> None:
     """A stimulus with the old axis drives a field on the same axis."""
     x = {"x": {"lower": 0, "upper": 20, "samples": 21}}
     rows = [{"source": "p", "target": "u"}]
-    data = {"deodar": 1, "axes": x, "elements": {"p": {"kind": "Pattern"}, "u": {"kind": "Field", "axes": ["x"]}}, "connections": rows}
+    data = {
+        "deodar": 1,
+        "axes": x,
+        "elements": {"p": {"kind": "Pattern"}, "u": {"kind": "Field", "axes": ["x"]}},
+        "connections": rows,
+    }
     model = dd.Model(document=files.from_data(data, {}))
     shown = dd.simulate(model, 1, record=["p"])["p.output"].values[-1]
     assert np.array_equal(shown, [float(k % 7 == 3) for k in range(21)])

@@ -1,4 +1,6 @@
-"""Everything that can stand in a model runs: finite for a long time, alone and in a batch, with the shapes it declares."""
+"""Everything that can stand in a model runs: finite for a long time, alone and in a batch, with the shapes it
+declares.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,12 @@ def test_finite_for_a_thousand_steps_from_init_also_in_a_hundred_trials(kind):
         alone = single.read(port)
         assert np.isfinite(alone).all()
         # trial 0 alone and in the batch: the same noise; other programs add in another order
-        np.testing.assert_allclose(data[port].sel(trial=0).isel(time=-1).values, alone, rtol=2e-3, atol=2e-3 * max(1.0, abs(alone).max()))
+        np.testing.assert_allclose(
+            data[port].sel(trial=0).isel(time=-1).values,
+            alone,
+            rtol=2e-3,
+            atol=2e-3 * max(1.0, abs(alone).max()),
+        )
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
@@ -64,11 +71,15 @@ def test_one_copy_gives_just_what_it_declares(kind, precision):
         state = element.init(at)
         constants = element.settle(at, element.prepare(at))
         out = jax.eval_shape(lambda: element.output(at, state, zeros, constants, time, noise))
-        assert {port: np.shape(v) for port, v in out.items()} == {port: shape(axes) for port, axes in here.outs.items()}
+        assert {port: np.shape(v) for port, v in out.items()} == {
+            port: shape(axes) for port, axes in here.outs.items()
+        }
         assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(here.outs, at.dtype)
         assert element.stateful == bool(state)
         new = jax.eval_shape(lambda: element.advance(at, state, zeros, constants, time, noise))
-        assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {k: (np.shape(v), v.dtype) for k, v in state.items()}
+        assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {
+            k: (np.shape(v), v.dtype) for k, v in state.items()
+        }
 
 
 @pytest.mark.parametrize("kind", KINDS)

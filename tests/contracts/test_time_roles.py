@@ -1,4 +1,6 @@
-"""Every parameter whose unit has time in it declares its role, and no Euler step is longer than a role allows, at check and at run."""
+"""Every parameter whose unit has time in it declares its role, and no Euler step is longer than a role
+allows, at check and at run.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ from deodar.session.run import require_step
 from tests.contracts.build import KINDS, PARTS, around, example
 from tests.house.test_docstrings import entries, sections
 
-LIMITED = {kind: {p.name: p.role for p in parameters(cls) if p.role in LIMITING} for kind, cls in KINDS.items()}
+LIMITED = {
+    kind: {p.name: p.role for p in parameters(cls) if p.role in LIMITING} for kind, cls in KINDS.items()
+}
 LIMITS = [(kind, name) for kind, found in LIMITED.items() for name in found]
 SPEAKS_OF_TIME = re.compile(r"document's time|document time|\bspeed of\b|how fast")
 OTHER_TIMES = {("MovingGaussian", "waypoints"), ("TurnLimit", "speed")}
@@ -76,14 +80,18 @@ def test_what_limits_the_step_is_this() -> None:
 
 @pytest.mark.parametrize("every", [1, 3])
 @pytest.mark.parametrize(("kind", "name"), LIMITS)
-def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(kind: str, name: str, every: int) -> None:
+def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(
+    kind: str, name: str, every: int
+) -> None:
     rate, step = LIMITED[kind][name] == "rate", 0.001
     said = f"1/{name} = " if rate else f"the {LIMITED[kind][name]} {name} = "
     for factor, fits in ((1.0, True), (0.99, False)):
         longest = factor * step * every
         model = around(replace(example(kind), name, 1 / longest if rate else longest), every=every)
         model.describe(dt=step)
-        found = [p for p in check(model.document) if p.where == "example" and p.what.startswith("the step of ")]
+        found = [
+            p for p in check(model.document) if p.where == "example" and p.what.startswith("the step of ")
+        ]
         if fits:
             assert not found
             require_step(model.document, step)
@@ -98,8 +106,14 @@ def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(kind: st
 def test_a_run_and_a_session_refuse_every_role() -> None:
     x = dd.Axis("x", 0, 10, samples=11)
     for element, said in (
-        (Attractor("e", x, tau=0.5), r"e: the step of 1 ms is longer than the time scale tau = 0\.5\. Take dt <= 0\.5"),
-        (Hebbian([x], rate=4.0, name="e"), r"e: the step of 1 ms is longer than 1/rate = 0\.25\. Take dt <= 0\.25, .* a smaller rate"),
+        (
+            Attractor("e", x, tau=0.5),
+            r"e: the step of 1 ms is longer than the time scale tau = 0\.5\. Take dt <= 0\.5",
+        ),
+        (
+            Hebbian([x], rate=4.0, name="e"),
+            r"e: the step of 1 ms is longer than 1/rate = 0\.25\. Take dt <= 0\.25, .* a smaller rate",
+        ),
     ):
         model = dd.Model("m")
         u = model.add(dd.Field("u", [x]))
@@ -123,7 +137,10 @@ def test_a_memory_trace_is_guarded_in_both_directions() -> None:
     for given in ({"tau_build": 0.4}, {"tau_decay": 0.4}):
         model = dd.Model("m")
         model.add(MemoryTrace("p", **given))
-        with pytest.raises(TimeError, match=rf"p: the step of 1 ms is longer than the time constant {next(iter(given))} = 0\.4"):
+        with pytest.raises(
+            TimeError,
+            match=rf"p: the step of 1 ms is longer than the time constant {next(iter(given))} = 0\.4",
+        ):
             dd.simulate(model, 10, record="p.output")
 
 
@@ -157,6 +174,16 @@ def test_a_sweep_below_the_step_is_refused_for_every_time_constant() -> None:
 
 
 def test_roles_do_not_depend_on_the_name() -> None:
-    declared = {p.name: p.role for kind in ("MemoryTrace", "DelayLine", "TimeSeries", "Attractor") for p in parameters(KINDS[kind])}
-    wanted = {"tau_build": "time constant", "delay": "duration", "times": "moment", "period": "duration", "tau": "time scale"}
+    declared = {
+        p.name: p.role
+        for kind in ("MemoryTrace", "DelayLine", "TimeSeries", "Attractor")
+        for p in parameters(KINDS[kind])
+    }
+    wanted = {
+        "tau_build": "time constant",
+        "delay": "duration",
+        "times": "moment",
+        "period": "duration",
+        "tau": "time scale",
+    }
     assert {name: declared[name] for name in wanted} == wanted

@@ -1,4 +1,6 @@
-"""Everything registered as a world: readings of the right shape, the same again after a reset, and clear refusals."""
+"""Everything registered as a world: readings of the right shape, the same again after a reset, and clear
+refusals.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +75,9 @@ def test_the_same_run_however_it_is_cut_and_again_after_a_reset(kind, precision)
     """The exchange is the world's: neither chunks nor looking at the model change anything."""
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
-    whole = dd.simulate(model, 24 * dt, dt=dt, record=paths, world=WORLDS[kind].example(), precision=precision)
+    whole = dd.simulate(
+        model, 24 * dt, dt=dt, record=paths, world=WORLDS[kind].example(), precision=precision
+    )
     cut = dd.Session(model, dt=dt, world=WORLDS[kind].example(), precision=precision)
     for _ in range(2):
         seen = {path: [cut.read(path)] for path in paths}

@@ -40,7 +40,9 @@ PIXELS = np.random.default_rng(4).random((12, 8, 3)) * np.random.default_rng(5).
 
 
 def test_shares_of_hues_as_counted():
-    np.testing.assert_allclose(shown(PIXELS, ColorHistogram([COLUMNS, HUE], name="h")), counted(PIXELS), atol=1e-12)
+    np.testing.assert_allclose(
+        shown(PIXELS, ColorHistogram([COLUMNS, HUE], name="h")), counted(PIXELS), atol=1e-12
+    )
     strict = ColorHistogram([COLUMNS, HUE], palest=0.7, darkest=0.6, name="h")
     np.testing.assert_allclose(shown(PIXELS, strict), counted(PIXELS, 0.7, 0.6), atol=1e-12)
 
@@ -84,9 +86,15 @@ def test_where_a_colour_is_and_which_colours_there_are():
     histogram >> model.add(Project([COLUMNS], "sum", name="where"))
     histogram >> model.add(Project([HUE], "max", name="which"))
     data = dd.simulate(model, 1, dt=1.0, record=["where.output", "which.output"])
-    np.testing.assert_allclose(data["where.output"].values[-1], np.repeat([0, 0.5, 0, 7 / 8, 0], [2, 2, 4, 3, 1]), atol=1e-6)
+    np.testing.assert_allclose(
+        data["where.output"].values[-1], np.repeat([0, 0.5, 0, 7 / 8, 0], [2, 2, 4, 3, 1]), atol=1e-6
+    )
     which = data["which.output"].values[-1]
-    assert which[0] == pytest.approx(0.5) and which[24] == pytest.approx(7 / 8) and np.count_nonzero(which > 1e-6) == 2
+    assert (
+        which[0] == pytest.approx(0.5)
+        and which[24] == pytest.approx(7 / 8)
+        and np.count_nonzero(which > 1e-6) == 2
+    )
 
 
 @pytest.mark.parametrize(

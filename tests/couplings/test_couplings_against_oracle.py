@@ -47,7 +47,10 @@ CASES = {
     ),
     "shift": (Shift([2.0, 80.0]), lambda y: plain.shift(y, [X, PHI], (2.0, 80.0))),
     "shift by parts of a cell": (Shift([-1.3, 415.0]), lambda y: plain.shift(y, [X, PHI], (-1.3, 415.0))),
-    "weights": (Weights(DENSE, [dd.Axis("a", 0, 1, 7), dd.Axis("b", 0, 1, 5)]), lambda y: plain.weights(y, [X, PHI], [X7, X5], DENSE)),
+    "weights": (
+        Weights(DENSE, [dd.Axis("a", 0, 1, 7), dd.Axis("b", 0, 1, 5)]),
+        lambda y: plain.weights(y, [X, PHI], [X7, X5], DENSE),
+    ),
     "weights to a number": (Weights(MASK / 40, []), lambda y: plain.weights(y, [X, PHI], [], MASK / 40)),
     "sigmoid": (Sigmoid(Absolute(5.0, 0.4)), lambda y: fields.sigmoid(Absolute(5.0, 0.4), y)),
     "threshold": (Threshold(0.3), lambda y: plain.threshold(y, 0.3)),
@@ -55,14 +58,26 @@ CASES = {
     "resample coarse": (Resample([COARSE, PHI]), lambda y: plain.resample(y, [X, PHI], [COARSE, PHI])),
     "resample fine": (Resample([FINE, PHI_FINE]), lambda y: plain.resample(y, [X, PHI], [FINE, PHI_FINE])),
     "resample another part": (Resample([PART, PHI]), lambda y: plain.resample(y, [X, PHI], [PART, PHI])),
-    "resample nearest": (Resample([PART, PHI_FINE], "nearest"), lambda y: plain.resample(y, [X, PHI], [PART, PHI_FINE], "nearest")),
+    "resample nearest": (
+        Resample([PART, PHI_FINE], "nearest"),
+        lambda y: plain.resample(y, [X, PHI], [PART, PHI_FINE], "nearest"),
+    ),
     **{
-        f"project {how} to {shown}": (p := dd.Project(axes, how), lambda y, p=p: plain.project(y, [X, PHI], p))
+        f"project {how} to {shown}": (
+            p := dd.Project(axes, how),
+            lambda y, p=p: plain.project(y, [X, PHI], p),
+        )
         for how in ("integral", "sum", "mean", "max", "min")
         for shown, axes in {"x": [X], "phi": [PHI], "a number": [], "phi and z": [PHI, Z]}.items()
     },
-    "project expand and reorder": (p := dd.Project([Z, PHI, X]), lambda y, p=p: plain.project(y, [X, PHI], p)),
-    "project rename": (p := dd.Project([PHI, PAN], rename={"x": "pan"}), lambda y, p=p: plain.project(y, [X, PHI], p)),
+    "project expand and reorder": (
+        p := dd.Project([Z, PHI, X]),
+        lambda y, p=p: plain.project(y, [X, PHI], p),
+    ),
+    "project rename": (
+        p := dd.Project([PHI, PAN], rename={"x": "pan"}),
+        lambda y, p=p: plain.project(y, [X, PHI], p),
+    ),
     "project rename and resample": (
         p := dd.Project([PANORAMA], "mean", {"x": "pan"}, "nearest"),
         lambda y, p=p: plain.project(y, [X, PHI], p),
@@ -75,15 +90,28 @@ KERNEL = dense(CASES["convolve"][0].kernel, (X, PHI), many=3)
 
 def drive():
     """A field whose output moves over time, and that output at each step."""
-    field = dd.Field("u", [X, PHI], tau=10, resting_level=-2, kernel=[dd.Gaussian(0.004, [2, 60])], sigmoid=dd.Logistic(1.5))
+    field = dd.Field(
+        "u",
+        [X, PHI],
+        tau=10,
+        resting_level=-2,
+        kernel=[dd.Gaussian(0.004, [2, 60])],
+        sigmoid=dd.Logistic(1.5),
+    )
     stimuli = [
-        dd.GaussianStimulus("early", [X, PHI], center=[4, 30], sigma=[2, 40], amplitude=6, windows=[(10, 90)]),
-        dd.GaussianStimulus("late", [X, PHI], center=[11, 250], sigma=[2, 40], amplitude=6, windows=[(70, 300)]),
+        dd.GaussianStimulus(
+            "early", [X, PHI], center=[4, 30], sigma=[2, 40], amplitude=6, windows=[(10, 90)]
+        ),
+        dd.GaussianStimulus(
+            "late", [X, PHI], center=[11, 250], sigma=[2, 40], amplitude=6, windows=[(70, 300)]
+        ),
     ]
     maps = [fields.stimulus(s, s.windows[0].start) for s in stimuli]
 
     def arriving(k):
-        return sum(m for m, s in zip(maps, stimuli, strict=True) if s.windows[0].start <= k < s.windows[0].stop)
+        return sum(
+            m for m, s in zip(maps, stimuli, strict=True) if s.windows[0].start <= k < s.windows[0].stop
+        )
 
     u = fields.run(field, arriving, STEPS, 1.0, many=3)
     model = dd.Model("couplings")
@@ -96,7 +124,11 @@ def drive():
 def close(found, reference, what):
     scale = abs(reference).max()
     assert scale > 1e-3, f"{what}: nothing arrives"
-    return [] if abs(found - reference).max() <= 1e-9 * scale else [f"{what}: off by {abs(found - reference).max() / scale:.1e}"]
+    return (
+        []
+        if abs(found - reference).max() <= 1e-9 * scale
+        else [f"{what}: off by {abs(found - reference).max() / scale:.1e}"]
+    )
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +143,9 @@ def run():
         v = dd.Field(f"v {name}", axes, tau=7, resting_level=-1)
         model.connect(c, model.add(v))
         expected[name] = v, np.array([formula(y) for y in g])
-    record = [f"{dd.quote(name)}.output" for name in expected] + [f"{dd.quote(v.name)}.activation" for v, _ in expected.values()]
+    record = [f"{dd.quote(name)}.output" for name in expected] + [
+        f"{dd.quote(v.name)}.activation" for v, _ in expected.values()
+    ]
     return dd.simulate(model, STEPS, record=record, every=EVERY, precision="float64"), expected
 
 
@@ -130,7 +164,11 @@ def test_couplings_with_two_inputs_and_with_memory():
     f = dd.GaussianStimulus("f", [X], center=8, sigma=3, amplitude=1.3)
     plane = dd.GaussianStimulus("plane", [X, PHI], center=[8, 90], sigma=[3, 60], amplitude=1.3)
     factor, other, number = model.add(f), model.add(plane), model.add(dd.Field("n", [], resting_level=0.4))
-    product, gated, held = model.add(Product(name="product")), model.add(Product(name="gated")), model.add(Delay([X, PHI], 0.7, name="held"))
+    product, gated, held = (
+        model.add(Product(name="product")),
+        model.add(Product(name="gated")),
+        model.add(Delay([X, PHI], 0.7, name="held")),
+    )
     both = model.add(Sum(name="both"))
     for target in (product, gated, held, both):
         model.connect(u, target)
@@ -149,12 +187,15 @@ def test_couplings_with_two_inputs_and_with_memory():
 
 def test_peak_position_on_a_line_and_on_a_ring():
     model, u, g = drive()
-    # half of the most, so that nothing is read out of the homogeneous activity before the first peak: it has no direction
+    # half of the most, so that nothing is read out of the homogeneous activity before the first peak: it has
+    # no direction
     most = g.sum((1, 2)).max() * 40
     ring, line = PeakPosition(PHI, most / 2, -7.0, name="ring"), PeakPosition(X, most / 2, -7.0, name="line")
     for read in (ring, line):
         model.connect(u, model.add(read))
-    data = dd.simulate(model, STEPS, record=["ring", "ring.strength", "line", "line.strength"], precision="float64")
+    data = dd.simulate(
+        model, STEPS, record=["ring", "ring.strength", "line", "line.strength"], precision="float64"
+    )
     for read, sums in ((ring, g.sum(1) * 1.0), (line, g.sum(2) * 40.0)):
         reference = np.array([plain.peak_position(f, read) for f in sums])
         assert (reference[:, 0] == -7.0).any() and (reference[:, 0] != -7.0).any()
@@ -184,13 +225,17 @@ def test_color_space_of_a_picture():
     }
     model = dd.Model("colours")
     eye = model.add(Sensor("eye", [x, y, channel]))
-    codes = [ColorSpace(axes, sigma, name=f"{name}, {sigma}") for name, axes in grids.items() for sigma in (0, 31)]
+    codes = [
+        ColorSpace(axes, sigma, name=f"{name}, {sigma}") for name, axes in grids.items() for sigma in (0, 31)
+    ]
     for code in codes:
         model.connect(eye, model.add(code))
     data = dd.simulate(model, 1, record=[dd.quote(c.name) for c in codes], precision="float64", world=Still())
     for code in codes:
         reference = plain.color_space(pixels, [x, y, channel], code)
-        np.testing.assert_allclose(data[f"{code.name}.output"].values[0], reference, rtol=1e-9, atol=1e-12, err_msg=code.name)
+        np.testing.assert_allclose(
+            data[f"{code.name}.output"].values[0], reference, rtol=1e-9, atol=1e-12, err_msg=code.name
+        )
 
 
 @pytest.mark.parametrize("sigma", [0, 31])
@@ -202,7 +247,9 @@ def test_the_integral_of_a_color_space_is_independent_of_the_sampling_of_hue(sig
     model = dd.Model("colours")
     picture = model.add(Pattern("picture", [x, y, channel], pixels))
     for samples in (12, 24, 48):
-        code = model.add(ColorSpace([x, y, dd.Axis("hue", 0, 360, samples, periodic=True)], sigma, name=f"code{samples}"))
+        code = model.add(
+            ColorSpace([x, y, dd.Axis("hue", 0, 360, samples, periodic=True)], sigma, name=f"code{samples}")
+        )
         model.connect(picture, code)
         model.connect(code, model.add(dd.Project([], name=f"total{samples}")))
     data = dd.simulate(model, 1, record=[f"total{n}.output" for n in (12, 24, 48)], precision="float64")

@@ -17,7 +17,11 @@ def late(delay, dt, slots=100, duration=60.0, precision="float64", smooth=False,
     """Time, what goes in, and what comes out."""
     model = dd.Model("late", dt=dt)
     t = np.arange(0, duration + dt, 1.0 if smooth else dt)
-    shown = np.sin(t / 9)[:, None] * [1.0, 2.0, -1.0] if smooth else np.random.default_rng(2).normal(size=(len(t), 3))
+    shown = (
+        np.sin(t / 9)[:, None] * [1.0, 2.0, -1.0]
+        if smooth
+        else np.random.default_rng(2).normal(size=(len(t), 3))
+    )
     source = model.add(TimeSeries("s", [X], t, shown))
     source >> model.add(DelayLine("line", [X], delay, slots, **values))
     data = dd.simulate(model, duration, record=["s.output", "line.output"], precision=precision)
@@ -25,7 +29,10 @@ def late(delay, dt, slots=100, duration=60.0, precision="float64", smooth=False,
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-@pytest.mark.parametrize(("delay", "dt", "slots"), [(1.0, 1.0, 1), (7.0, 1.0, 7), (7.0, 1.0, 100), (3.0, 0.1, 30), (0.3, 0.1, 100), (25.0, 0.5, 50)])
+@pytest.mark.parametrize(
+    ("delay", "dt", "slots"),
+    [(1.0, 1.0, 1), (7.0, 1.0, 7), (7.0, 1.0, 100), (3.0, 0.1, 30), (0.3, 0.1, 100), (25.0, 0.5, 50)],
+)
 def test_a_whole_number_of_steps_is_exact(delay, dt, slots, precision):
     _, s, y = late(delay, dt, slots, precision=precision, initial=0.7)
     n = round(delay / dt)
@@ -63,7 +70,9 @@ def test_a_delay_made_longer_while_it_runs():
     s.step(100)
     assert s.read("line.output") == pytest.approx(95)
     s.set("line.delay", 20.0)
-    assert s.read("line.output") == pytest.approx(80)  # 50 slots hold more than the five steps that were needed
+    assert s.read("line.output") == pytest.approx(
+        80
+    )  # 50 slots hold more than the five steps that were needed
     s.set("line.delay", 200.0)
     oldest = float(s.read("line.output"))
     s.step(250)

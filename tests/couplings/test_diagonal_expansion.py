@@ -19,7 +19,11 @@ def test_each_place_goes_to_its_diagonal():
 
 
 def test_what_does_not_fit_is_told():
-    for axes, says in (([X], "between two"), ([X, X], "two of its axes"), ([X, dd.Axis("y", 0, 1, 9)], "are 12")):
+    for axes, says in (
+        ([X], "between two"),
+        ([X, X], "two of its axes"),
+        ([X, dd.Axis("y", 0, 1, 9)], "are 12"),
+    ):
         model = dd.Model("misfit")
         model.add(dd.GaussianStimulus("in", [Z])) >> DiagonalExpansion(axes, name="out")
         assert any(says in p.what for p in model.check())

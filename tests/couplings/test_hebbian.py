@@ -1,4 +1,6 @@
-"""Associations: every rule against its closed form and a plain loop, and what they promise about gates, sampling, order and batches."""
+"""Associations: every rule against its closed form and a plain loop, and what they promise about gates,
+sampling, order and batches.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ def model(rule="outstar", pre=PRE, post=POST, x=X, z=Z, gate=None, **others):
 
 
 def weights(m, duration, **options):
-    return dd.simulate(m, duration, record=["w.weights"], precision="float64", every=duration, **options)["w.weights"].values[-1]
+    return dd.simulate(m, duration, record=["w.weights"], precision="float64", every=duration, **options)[
+        "w.weights"
+    ].values[-1]
 
 
 def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
@@ -36,8 +40,12 @@ def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
     here = (x > 0) | (z < 0) if rule in SOURCE_RULES else (z > 0) | (x < 0)
     for _ in range(steps):
         change = {
-            "outstar": x * (z - w), "hebb": x * z, "association": np.sign(x) * (np.sign(z) - w), "instar": z * (x - w), "oja": z * (x - z * w)
-        }[rule]  # fmt: skip
+            "outstar": x * (z - w),
+            "hebb": x * z,
+            "association": np.sign(x) * (np.sign(z) - w),
+            "instar": z * (x - w),
+            "oja": z * (x - z * w),
+        }[rule]
         new = np.minimum(w + dt * (rate * change - decay * w), most)
         w = np.where(here & (x.max() > 0) & (z.max() > 0), new, w)
     return w
@@ -57,7 +65,13 @@ def test_the_rules_step_by_step(rule):
 def test_courses_and_fixed_points_in_closed_form():
     n, dt, rate = 200, 0.5, 0.02
     x, z = np.array([0.8]), np.array([0.7])
-    one = {"pre": x, "post": z, "x": dd.Axis("x", 0, 1, 1, periodic=True), "z": dd.Axis("z", 0, 1, 1, periodic=True), "rate": rate}
+    one = {
+        "pre": x,
+        "post": z,
+        "x": dd.Axis("x", 0, 1, 1, periodic=True),
+        "z": dd.Axis("z", 0, 1, 1, periodic=True),
+        "rate": rate,
+    }
     course = {
         "outstar": (0.7 * (1 - (1 - dt * rate * 0.8) ** n), 0.7),
         "instar": (0.8 * (1 - (1 - dt * rate * 0.7) ** n), 0.8),
@@ -100,7 +114,9 @@ def test_between_arrays_of_any_dimension():
         wanted = post[(...,) + (None,) * pre.ndim] * (1 - (1 - 0.1 * pre) ** 3)
         np.testing.assert_allclose(data["w.weights"].values, wanted, atol=1e-12)
         cell = np.prod([a.step for a in pre_axes])
-        np.testing.assert_allclose(data["w.output"].values, cell * np.tensordot(wanted, pre, axes=pre.ndim), atol=1e-12)
+        np.testing.assert_allclose(
+            data["w.output"].values, cell * np.tensordot(wanted, pre, axes=pre.ndim), atol=1e-12
+        )
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -112,14 +128,22 @@ def test_closed_gates_and_silent_sides_leave_the_bits(rule):
     for path in ("gate.amplitude", "pre.amplitude", "post.amplitude"):
         m.set(path, 0.4 if path != "gate.amplitude" else 0.0)
         for trials in [None, 3] if rule in ("outstar", "oja") else [None]:
-            found = dd.simulate(m, 50, record=["w.weights"], precision="float64", trials=trials, every=50)["w.weights"].isel(time=-1).values
+            found = (
+                dd.simulate(m, 50, record=["w.weights"], precision="float64", trials=trials, every=50)[
+                    "w.weights"
+                ]
+                .isel(time=-1)
+                .values
+            )
             assert np.array_equal(found, np.broadcast_to(start, found.shape))
         m.set(path, 1.0)
 
 
 def test_a_source_without_an_answer_unlearns_nothing_and_is_read():
     start = np.array([[0.0, 2, 0, 0], [0, 1, 0, 0], [0, 3, 0, 0]])
-    data = dd.simulate(model(start=start, post=0 * POST, rate=1.0), 10, record=["w.output", "w.weights"], every=10).isel(time=-1)
+    data = dd.simulate(
+        model(start=start, post=0 * POST, rate=1.0), 10, record=["w.output", "w.weights"], every=10
+    ).isel(time=-1)
     np.testing.assert_allclose(data["w.output"], X.step * np.array([2, 1, 3]))
     np.testing.assert_array_equal(data["w.weights"], start)
 
@@ -130,7 +154,9 @@ def test_a_learned_map_does_not_depend_on_the_sampling(rule):
         x, z = dd.Axis("x", 0, 40, n, periodic=True), dd.Axis("z", -10, 10, n + 1)
         pre, post = np.exp(-((x.points - 17) ** 2) / 18), np.exp(-((z.points - 2) ** 2) / 8)
         m = model(rule, pre, post, x, z, rate=0.05, threshold=0.0, initial=0.1)
-        data = dd.simulate(m, 50, record=["w.weights", "w.output"], precision="float64", every=50).isel(time=-1)
+        data = dd.simulate(m, 50, record=["w.weights", "w.output"], precision="float64", every=50).isel(
+            time=-1
+        )
         return data["w.weights"].values, data["w.output"].values
 
     (coarse, drive), (fine, finer) = learned(40), learned(80)
@@ -163,9 +189,13 @@ def test_trials_rows_and_sweeps_are_what_they_are_alone(rule):
         m.connect(m.add(dd.Field(f"pre{k}", [X], noise=2.0, resting_level=0.5)), w["input"])
         m.connect(m.add(dd.Field(f"post{k}", [Z], noise=2.0, resting_level=0.2)), w["post"])
     names = ["w0.weights", "w1.weights"]
-    many = dd.simulate(m, 60, trials=4, sweep={"w1.rate": [0.05, 0.1]}, record=names, precision="float64", every=60).isel(time=-1)
+    many = dd.simulate(
+        m, 60, trials=4, sweep={"w1.rate": [0.05, 0.1]}, record=names, precision="float64", every=60
+    ).isel(time=-1)
     m.remove("w1")
-    alone = dd.simulate(m, 60, trials=[2], record=names[:1], precision="float64", every=60)["w0.weights"].values[0, -1]
+    alone = dd.simulate(m, 60, trials=[2], record=names[:1], precision="float64", every=60)[
+        "w0.weights"
+    ].values[0, -1]
     for rate in (0.05, 0.1):
         found = many["w0.weights"].sel(trial=2)
         found = found.sel({"w1.rate": rate}).values if "w1.rate" in found.dims else found.values
@@ -174,13 +204,22 @@ def test_trials_rows_and_sweeps_are_what_they_are_alone(rule):
     assert not np.allclose(other.sel({"w1.rate": 0.05}), other.sel({"w1.rate": 0.1}))
 
 
-# ------------------------------------------------------------------------------------------------ weights at the start
+# --------------------------------------------------------------------------------------- weights at the start
 
 
 def test_random_weights_are_one_map_at_any_sampling():
     def start(n, **others):
         x, z = dd.Axis("x", 0, 40, n, periodic=True), dd.Axis("z", -10, 10, n // 2 + 1)
-        m = model(pre=np.zeros(n), post=np.zeros(n // 2 + 1), x=x, z=z, random=True, initial=2.0, share=0.3, **others)
+        m = model(
+            pre=np.zeros(n),
+            post=np.zeros(n // 2 + 1),
+            x=x,
+            z=z,
+            random=True,
+            initial=2.0,
+            share=0.3,
+            **others,
+        )
         return dd.Session(m, precision="float64").read("w.weights")
 
     coarse, fine = start(64), start(128)
@@ -197,7 +236,9 @@ def test_sparse_weights_may_be_all_alike():
 
 
 def test_weights_of_another_shape_are_refused_with_both_shapes():
-    with pytest.raises(ModelError, match=r"start has shape \[4, 3\]; target and source samples make \[3, 4\]"):
+    with pytest.raises(
+        ModelError, match=r"start has shape \[4, 3\]; target and source samples make \[3, 4\]"
+    ):
         dd.Session(model(start=np.zeros((4, 3))))
 
 

@@ -7,21 +7,28 @@ import pytest
 
 import deodar as dd
 
-X, Y, RING = dd.Axis("x", 0, 20, samples=21), dd.Axis("y", 0, 8, samples=9), dd.Axis("phi", 0, 360, samples=36, periodic=True)
+X, Y, RING = (
+    dd.Axis("x", 0, 20, samples=21),
+    dd.Axis("y", 0, 8, samples=9),
+    dd.Axis("phi", 0, 360, samples=36, periodic=True),
+)
 
 
 def model(axes: list[dd.Axis], **given: dd.Axis) -> dd.Model:
     made = dd.Model("place")
     center = [a.lower + 0.5 * a.range for a in axes]
-    made.add(dd.GaussianStimulus("s", axes, center=center, sigma=[a.range / 10 for a in axes], amplitude=3.0)) >> made.add(
-        dd.PeakPosition(name="p", **given)
-    )
+    made.add(
+        dd.GaussianStimulus("s", axes, center=center, sigma=[a.range / 10 for a in axes], amplitude=3.0)
+    ) >> made.add(dd.PeakPosition(name="p", **given))
     return made
 
 
 @pytest.mark.parametrize("axis", [X, RING], ids=["line", "ring"])
 def test_the_axis_of_the_source_is_the_one_that_is_read_out(axis: dd.Axis) -> None:
-    inferred, stated = (dd.simulate(model([axis], **given), 1, record=["p.output", "p.strength"]) for given in ({}, {"axis": axis}))
+    inferred, stated = (
+        dd.simulate(model([axis], **given), 1, record=["p.output", "p.strength"])
+        for given in ({}, {"axis": axis})
+    )
     assert inferred["p.output"].values[-1] == pytest.approx(axis.lower + axis.range / 2, abs=1e-3)
     for port in ("p.output", "p.strength"):
         assert np.array_equal(inferred[port].values, stated[port].values)
@@ -29,7 +36,10 @@ def test_the_axis_of_the_source_is_the_one_that_is_read_out(axis: dd.Axis) -> No
 
 def test_of_two_axes_one_has_to_be_stated() -> None:
     [problem] = model([X, Y]).check()
-    assert problem.what == "the source has 2 axes, so the one that is read out has to be stated" and problem.fix == "Set its axis: x or y"
+    assert (
+        problem.what == "the source has 2 axes, so the one that is read out has to be stated"
+        and problem.fix == "Set its axis: x or y"
+    )
     assert not [p for p in model([X, Y], axis=Y).check() if p.severity == "problem"]
 
 

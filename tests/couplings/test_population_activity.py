@@ -25,7 +25,9 @@ def shown(rates, population, read=None):
     if read is not None:
         activity >> model.add(read)
     name = population.name if read is None else read.name
-    return dd.simulate(model, 1, dt=1.0, record=f"{name}.output", precision="float64")[f"{name}.output"].values[-1]
+    return dd.simulate(model, 1, dt=1.0, record=f"{name}.output", precision="float64")[
+        f"{name}.output"
+    ].values[-1]
 
 
 def test_tuning_curves_weighted_by_rates():
@@ -38,12 +40,16 @@ def test_tuning_curves_weighted_by_rates():
 
 
 def test_neurons_side_by_side_answer_with_a_wider_gaussian_at_the_stimulus():
-    """Rates and tuning curves of width s: the sum over neurons d apart is a Gaussian of width s root 2 and height s root pi / d."""
+    """Rates and tuning curves of width s: the sum over neurons d apart is a Gaussian of width s root 2 and
+    height s root pi / d.
+    """
     preferred, sigma, stimulus = np.arange(-60, 151, 3.0), 6.0, 41.7
     rates = 20 * np.exp(-0.5 * ((preferred - stimulus) / sigma) ** 2)
     y = shown(rates, PopulationActivity.of(preferred, sigma, [X], name="p"))
     height = 20 * sigma * math.sqrt(math.pi) / 3
-    np.testing.assert_allclose(y, height * np.exp(-0.25 * ((X.points - stimulus) / sigma) ** 2), atol=1e-6 * height)
+    np.testing.assert_allclose(
+        y, height * np.exp(-0.25 * ((X.points - stimulus) / sigma) ** 2), atol=1e-6 * height
+    )
 
 
 def test_on_a_ring_the_population_vector_finds_the_direction():
@@ -51,13 +57,17 @@ def test_on_a_ring_the_population_vector_finds_the_direction():
     for stimulus in (3.0, 181.4, 357.9):
         near = preferred - stimulus - 360 * np.round((preferred - stimulus) / 360)
         rates = np.exp(-0.5 * (near / 20) ** 2)
-        read = shown(rates, PopulationActivity.of(preferred, 20, [RING], name="p"), RateCode([RING], name="rate"))
+        read = shown(
+            rates, PopulationActivity.of(preferred, 20, [RING], name="p"), RateCode([RING], name="rate")
+        )
         assert read == pytest.approx(stimulus, abs=1e-6)
 
 
 def test_uneven_neurons_weigh_no_more_where_normalized():
     preferred = np.concatenate([np.arange(0, 45, 1.0), np.arange(45, 95, 10.0)])
-    y = shown(np.full(len(preferred), 7.0), PopulationActivity.of(preferred, 8, [X], normalized=True, name="p"))
+    y = shown(
+        np.full(len(preferred), 7.0), PopulationActivity.of(preferred, 8, [X], normalized=True, name="p")
+    )
     np.testing.assert_allclose(y, 7.0, rtol=1e-12)
     y = shown(np.array([7.0, 3.0]), PopulationActivity(np.eye(2, 181), [X], normalized=True, name="p"))
     np.testing.assert_array_equal(y, [7.0, 3.0, *np.zeros(179)])
@@ -66,7 +76,10 @@ def test_uneven_neurons_weigh_no_more_where_normalized():
 def test_in_the_plane():
     preferred = [[10.0, 2.0], [60.0, 7.0]]
     y = shown(np.array([1.0, 3.0]), PopulationActivity.of(preferred, [5.0, 1.5], [X, Y], rate=2.0, name="p"))
-    bumps = [np.exp(-0.5 * ((X.points[:, None] - a) / 5) ** 2 - 0.5 * ((Y.points[None] - b) / 1.5) ** 2) for a, b in preferred]
+    bumps = [
+        np.exp(-0.5 * ((X.points[:, None] - a) / 5) ** 2 - 0.5 * ((Y.points[None] - b) / 1.5) ** 2)
+        for a, b in preferred
+    ]
     np.testing.assert_allclose(y, 2 * bumps[0] + 6 * bumps[1], rtol=1e-12)
 
 

@@ -27,7 +27,11 @@ def back(axes, sigma, rates, **values):
     rates = np.asarray(rates)
     source = model.add(TimeSeries("rates", [PAIR] if rates.ndim == 2 else [], np.arange(len(rates)), rates))
     code = {k: v for k, v in values.items() if k in ("gain", "offset")}
-    source >> model.add(SpaceCode(axes, sigma, 2.5, name="place", **code)) >> model.add(RateCode(axes, name="rate", **values))
+    (
+        source
+        >> model.add(SpaceCode(axes, sigma, 2.5, name="place", **code))
+        >> model.add(RateCode(axes, name="rate", **values))
+    )
     data = dd.simulate(model, len(rates) - 1, record=["rate.output", "rate.strength"], precision="float64")
     return data["rate.output"].values, data["rate.strength"].values
 
@@ -56,7 +60,9 @@ def test_on_a_ring(sigma):
 
 @pytest.mark.parametrize(("sigmas", "wrong"), [(6, 6.1e-9), (4, 1.4e-4), (2, 0.06)])
 def test_what_is_cut_off_draws_the_mean_inwards(sigmas, wrong):
-    """By the density of the normal distribution where the last cell ends: the mean of a Gaussian of which a tail is missing."""
+    """By the density of the normal distribution where the last cell ends: the mean of a Gaussian of which a
+    tail is missing.
+    """
     sigma = 5.0
     end = sigmas + 0.5 * X.step / sigma
     found, _ = back([X], sigma, [X.lower + sigmas * sigma] * 2)
@@ -77,9 +83,18 @@ def test_from_a_peak_to_numbers_and_on_to_the_same_peak():
 def test_on_one_axis_it_is_the_position_of_the_peak():
     model = dd.Model("position")
     u = model.add(dd.Field("u", [RING], noise=2.0, resting_level=-1))
-    for read in (PeakPosition(RING, 0.5, 7.0, name="position"), RateCode([RING], least=0.5, absent=7.0, name="rate")):
+    for read in (
+        PeakPosition(RING, 0.5, 7.0, name="position"),
+        RateCode([RING], least=0.5, absent=7.0, name="rate"),
+    ):
         u >> model.add(read)
-    data = dd.simulate(model, 50, dt=1.0, record=["position", "rate", "position.strength", "rate.strength"], precision="float64")
+    data = dd.simulate(
+        model,
+        50,
+        dt=1.0,
+        record=["position", "rate", "position.strength", "rate.strength"],
+        precision="float64",
+    )
     np.testing.assert_allclose(data["rate.output"].values, data["position.output"].values, rtol=1e-12)
     np.testing.assert_allclose(data["rate.strength"].values, data["position.strength"].values, rtol=1e-12)
 

@@ -42,7 +42,9 @@ def test_a_new_onset_opens_anew():
 
 
 def test_graded_it_follows_the_reward_while_open():
-    np.testing.assert_allclose(opened([(3, 9)], duration=4.0, graded=True, strength=0.5), times((3, 7)), atol=1e-12)
+    np.testing.assert_allclose(
+        opened([(3, 9)], duration=4.0, graded=True, strength=0.5), times((3, 7)), atol=1e-12
+    )
     np.testing.assert_allclose(opened([(3, 5)], graded=True, height=0.3), 3.0 * times((3, 5)), atol=1e-12)
 
 

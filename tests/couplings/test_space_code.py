@@ -41,7 +41,9 @@ def test_it_takes_one_number_for_each_axis() -> None:
     model = dd.Model("misfit")
     model.add(Boost("one", [], 1.0)) >> model.add(SpaceCode([X, Y], name="code"))
     refused(model.require, dd.errors.ModelError, "one axis with 2 samples", "Give it what it takes")
-    refused(lambda: SpaceCode([], name="nowhere"), dd.errors.ParameterError, "a peak needs somewhere to stand")
+    refused(
+        lambda: SpaceCode([], name="nowhere"), dd.errors.ParameterError, "a peak needs somewhere to stand"
+    )
 
 
 @pytest.mark.parametrize("boundary", [None, ["periodic"], ["zero"]])

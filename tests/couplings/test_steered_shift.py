@@ -23,7 +23,9 @@ def scene() -> tuple[dd.Model, dd.model.model.Handle]:
 
 
 def both(amounts, gain=1.0, offset=0.0):
-    """What two shifts one behind the other, one shift by a pair, and a fixed shift make of the same picture."""
+    """What two shifts one behind the other, one shift by a pair, and a fixed shift make of the same
+    picture.
+    """
     model, source = scene()
     behind = source
     for axis, amount in zip((X, RING), amounts, strict=True):
@@ -33,7 +35,9 @@ def both(amounts, gain=1.0, offset=0.0):
     source >> pair
     model.connect(model.add(Pattern("amounts", [PAIR], amounts)), pair["by"])
     source >> model.add(Shift([gain * a + offset for a in amounts], name="fixed"))
-    data = dd.simulate(model, 1, dt=1.0, record=["along phi.output", "pair.output", "fixed.output"], precision="float64")
+    data = dd.simulate(
+        model, 1, dt=1.0, record=["along phi.output", "pair.output", "fixed.output"], precision="float64"
+    )
     return [data[name].values[-1] for name in data.data_vars]
 
 
@@ -54,7 +58,9 @@ def test_gain_and_offset():
 
 
 def test_from_the_eye_to_the_world_and_back():
-    """A peak at the place r on the retina and a gaze g arrive at r + g; a shift against the gaze brings it back."""
+    """A peak at the place r on the retina and a gaze g arrive at r + g; a shift against the gaze brings it
+    back.
+    """
     retina = dd.Axis("x", -30, 30, 121)
     model = dd.Model("frames")
     seen = model.add(dd.GaussianStimulus("seen", [retina], center=-5, sigma=2))
@@ -63,7 +69,9 @@ def test_from_the_eye_to_the_world_and_back():
     seen >> world >> back
     for shift in (world, back):
         model.connect(gaze, shift["by"])
-    data = dd.simulate(model, 1, dt=1.0, record=["seen.output", "world.output", "back.output"], precision="float64")
+    data = dd.simulate(
+        model, 1, dt=1.0, record=["seen.output", "world.output", "back.output"], precision="float64"
+    )
     x = retina.points
     np.testing.assert_allclose(data["world.output"].values[-1], np.exp(-((x - 7.5) ** 2) / 8), atol=1e-12)
     np.testing.assert_allclose(data["back.output"].values[-1], data["seen.output"].values[-1], atol=1e-12)

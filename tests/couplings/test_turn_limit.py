@@ -9,7 +9,10 @@ from deodar.couplings.turn_limit import TurnLimit
 from deodar.elements.boost import Boost
 
 
-@pytest.mark.parametrize(("left", "right", "share"), [(0.5, 0.5, 1.0), (0.9, 0.1, 1.0), (1.2, -0.8, 0.4), (-0.6, 0.6, 2 / 3), (0.0, 0.0, 1.0)])
+@pytest.mark.parametrize(
+    ("left", "right", "share"),
+    [(0.5, 0.5, 1.0), (0.9, 0.1, 1.0), (1.2, -0.8, 0.4), (-0.6, 0.6, 2 / 3), (0.0, 0.0, 1.0)],
+)
 def test_both_wheels_are_scaled_alike(left: float, right: float, share: float) -> None:
     model = dd.Model("wheels")
     wheels = model.add(TurnLimit(speed=500.0, limit=400.0, name="wheels"))

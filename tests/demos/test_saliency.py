@@ -19,11 +19,19 @@ from deodar.worlds.camera import Camera
 
 
 def test_the_command_makes_good_every_claim(tmp_path: Path) -> None:
-    done = subprocess.run([sys.executable, "-m", "deodar", "demo", "saliency"], cwd=tmp_path, capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        [sys.executable, "-m", "deodar", "demo", "saliency"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     out = tmp_path / "demo-saliency-001"
     found = json.loads((out / "results.json").read_text())["claims"]
-    assert len(found) >= 13 and all(c["kind"] == "reported" and c["inferred"] and c["assumes"] for c in found), "no evidence"
+    assert len(found) >= 13 and all(
+        c["kind"] == "reported" and c["inferred"] and c["assumes"] for c in found
+    ), "no evidence"
     assert all(c["holds"] is True for c in found), [c for c in found if not c["holds"]]
     for name in ("coffee", "chelsea", "astronaut"):
         assert (out / f"{name}.png").stat().st_size > 10_000 and (out / f"{name}.zarr").is_dir()
@@ -57,18 +65,31 @@ def test_a_picture_of_ones_own(tmp_path: Path) -> None:
 def test_a_film_and_a_camera(way: str) -> None:
     """A red square crosses the film in its first second and stays where it is then, at columns 48 to 63."""
     film = _capture.example()
-    scene = filmed(film, [0.0, 240.0]) if way == "film" else watched(Camera(str(film), period=saliency.PERIOD, patience=60.0), [0.0, 240.0])
+    scene = (
+        filmed(film, [0.0, 240.0])
+        if way == "film"
+        else watched(Camera(str(film), period=saliency.PERIOD, patience=60.0), [0.0, 240.0])
+    )
     red, blue = look(scene).outcomes
     assert len(red.places) == 1 and 46 <= red.places[0][0] <= 64 and 14 <= red.places[0][1] <= 34
     assert not blue.places and abs(red.motor[0] - red.places[0][0]) < 4
 
 
 def test_a_film_or_camera_that_is_not_there(tmp_path: Path) -> None:
-    for options, says in ((["--video", "none.mp4"], "there is no such video"), (["--camera", "77"], "there is no camera")):
+    for options, says in (
+        (["--video", "none.mp4"], "there is no such video"),
+        (["--camera", "77"], "there is no camera"),
+    ):
         done = subprocess.run(
-            [sys.executable, "-m", "deodar", "demo", "saliency", *options], cwd=tmp_path, capture_output=True, text=True, timeout=600
+            [sys.executable, "-m", "deodar", "demo", "saliency", *options],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=600,
         )
-        assert done.returncode == 1 and says in " ".join(done.stderr.split()) and "Traceback" not in done.stderr, done.stderr
+        assert (
+            done.returncode == 1 and says in " ".join(done.stderr.split()) and "Traceback" not in done.stderr
+        ), done.stderr
     assert not list(tmp_path.iterdir())
 
 
@@ -81,7 +102,11 @@ def test_bad_input(tmp_path: Path) -> None:
     (tmp_path / "full" / "thesis.txt").write_text("do not lose me")
     for force in ([], ["--force"]):
         done = subprocess.run(
-            [sys.executable, "-m", "deodar", "demo", "saliency", "--out", "full", *force], cwd=tmp_path, capture_output=True, text=True, timeout=600
+            [sys.executable, "-m", "deodar", "demo", "saliency", "--out", "full", *force],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=600,
         )
         assert done.returncode == 1 and "Traceback" not in done.stderr
     assert [p.name for p in (tmp_path / "full").iterdir()] == ["thesis.txt"]

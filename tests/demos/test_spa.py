@@ -24,7 +24,10 @@ def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
     data: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
     for name in DIRECTIONS:
         data[f"{name}.strongest.output"] = (("time",), intention if name == "north" else np.zeros(len(pose)))
-        data[f"{name}.motivation.activation"] = (("time", "x", "y"), np.full((len(pose), 100, 100), -5.0, np.float32))
+        data[f"{name}.motivation.activation"] = (
+            ("time", "x", "y"),
+            np.full((len(pose), 100, 100), -5.0, np.float32),
+        )
     return xarray.Dataset(data, {"time": time, "x": x, "y": y})
 
 
@@ -36,7 +39,13 @@ def way(*corners: tuple[float, float], each: int) -> np.ndarray:
 
 
 def test_claims_follow_from_the_record() -> None:
-    start, north, back, south, goal = (-45.0, 55.0), (-48.0, 90.0), (-25.0, 66.0), (-25.0, 25.0), (-65.0, 65.0)
+    start, north, back, south, goal = (
+        (-45.0, 55.0),
+        (-48.0, 90.0),
+        (-25.0, 66.0),
+        (-25.0, 25.0),
+        (-65.0, 65.0),
+    )
     pose = np.concatenate([way(start, start, each=110), way(start, north, back, south, goal, each=100)])
     intention = (np.arange(len(pose)) >= 105).astype(float)
     found = spa.read(record(pose, intention), maze("z"))
@@ -44,7 +53,10 @@ def test_claims_follow_from_the_record() -> None:
     assert found.north is not None and found.south is not None and found.arrived is not None
     assert found.left < found.north < found.south < found.arrived
     assert [c.holds for c in spa.claims(found) if c.kind == "required"] == [True] * 3
-    assert {c.name.partition(":")[0] for c in spa.claims(found) if c.inferred} == {"the plan is complete", INFERRED_WAVE}
+    assert {c.name.partition(":")[0] for c in spa.claims(found) if c.inferred} == {
+        "the plan is complete",
+        INFERRED_WAVE,
+    }
     early = np.concatenate([np.ones(105), np.zeros(len(pose) - 105)])
     for late, straight in (
         (early, pose),
@@ -57,14 +69,23 @@ def test_claims_follow_from_the_record() -> None:
     assert "never planned" in spa.sentence(spa.read(record(pose, intention * 0), maze("z")))
 
 
-def test_the_command_writes_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_what_it_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(spa, "DURATION", 300)
     out = tmp_path / "planned"
-    assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, "in 300 steps it does not arrive, which is a required claim"
+    assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, (
+        "in 300 steps it does not arrive, which is a required claim"
+    )
     said = capsys.readouterr().out
     claims = json.loads((out / "results.json").read_text())["claims"]
     plan = next(c for c in claims if c["name"].startswith("the plan is complete"))
-    assert plan["holds"] is True and abs(plan["value"] - 210) <= 21 and plan["inferred"] and plan["kind"] == "reported"
+    assert (
+        plan["holds"] is True
+        and abs(plan["value"] - 210) <= 21
+        and plan["inferred"]
+        and plan["kind"] == "reported"
+    )
     assert [c["holds"] for c in claims if "arrives within" in c["name"]] == [False]
     assert "never at the goal" in said.splitlines()[-1]
     with Image.open(out / "spa.gif") as film:
@@ -88,13 +109,35 @@ MAZE = {
 }
 
 
-def test_a_maze_of_ones_own_is_planned_and_driven_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_maze_of_ones_own_is_planned_and_driven_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(spa, "LONGEST", 500)
     file = tmp_path / "maze.json"
     file.write_text(json.dumps(MAZE))
     out = tmp_path / "out"
-    status = main(["demo", "spa", "--maze", str(file), "--goal", "48", "34", "--noise", "low", "--out", str(out), "--no-progress"])
-    assert status == 0 and sorted(p.name for p in out.iterdir()) == ["results.json", "spa.gif", "spa.png", "spa.zarr"]
+    status = main(
+        [
+            "demo",
+            "spa",
+            "--maze",
+            str(file),
+            "--goal",
+            "48",
+            "34",
+            "--noise",
+            "low",
+            "--out",
+            str(out),
+            "--no-progress",
+        ]
+    )
+    assert status == 0 and sorted(p.name for p in out.iterdir()) == [
+        "results.json",
+        "spa.gif",
+        "spa.png",
+        "spa.zarr",
+    ]
     found = json.loads((out / "results.json").read_text())
     assert found["settings"]["maze"]["goal"] == [[48, 34]] and "obstacle_at" not in found["settings"]
     arrived = next(c for c in found["claims"] if c["name"].startswith("it arrives"))

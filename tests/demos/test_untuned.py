@@ -1,4 +1,6 @@
-"""The untuned photographs: their marks, their licences, and two of them run; all twelve by `deodar demo saliency --untuned`."""
+"""The untuned photographs: their marks, their licences, and two of them run; all twelve by `deodar demo
+saliency --untuned`.
+"""
 
 from __future__ import annotations
 
@@ -31,12 +33,19 @@ def test_an_outline_inside_another_is_a_hole() -> None:
     square = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))
     hole = ((4.0, 4.0), (6.0, 4.0), (6.0, 6.0), (4.0, 6.0))
     cue = Cue(0.0, outlines=(square, hole))
-    assert cue.holds((2.0, 5.0)) and cue.holds((8.0, 5.0)) and not cue.holds((5.0, 5.0)) and not cue.holds((12.0, 5.0))
+    assert (
+        cue.holds((2.0, 5.0))
+        and cue.holds((8.0, 5.0))
+        and not cue.holds((5.0, 5.0))
+        and not cue.holds((12.0, 5.0))
+    )
 
 
 def test_every_photograph_has_its_author_and_licence() -> None:
     text = (FOLDER / "LICENCES.md").read_text()
-    names = [p.name for folder in (FOLDER, FOLDER / "untuned") for p in folder.iterdir() if p.name.endswith(".jpg")]
+    names = [
+        p.name for folder in (FOLDER, FOLDER / "untuned") for p in folder.iterdir() if p.name.endswith(".jpg")
+    ]
     assert len(names) == 15
     assert all(f"| `{name}` |" in text for name in names)
 

@@ -33,7 +33,9 @@ def test_every_group_is_one_box_and_connections_end_at_it() -> None:
         ("group", "k", "linked to a template"),
     ]
     a, g, k = (i.id for i in found.items)
-    assert found.wires == (Wire(a, g, "out", "", "-", ("× −2",)), Wire(g, k)), "the connection inside is left out"
+    assert found.wires == (Wire(a, g, "out", "", "-", ("× −2",)), Wire(g, k)), (
+        "the connection inside is left out"
+    )
     assert not found.groups and not found.places
 
 
@@ -52,8 +54,15 @@ def test_groups_down_to_the_depth_stay_open() -> None:
 
 @pytest.mark.parametrize(("signs", "sign"), [("++", "+"), ("--", "-"), ("+-", "±"), ("±+", "±")])
 def test_several_connections_become_one_of_their_signs(signs: str, sign: str) -> None:
-    [wire] = fold(graph(Wire("a", "b", "out", sign=signs[0], delayed=True), Wire("a", "c", "out", sign=signs[1])), 0).wires  # type: ignore[arg-type]
-    assert (wire.sign, wire.captions, wire.source_port, wire.delayed) == (sign, ("2 connections",), "out", False)
+    [wire] = fold(
+        graph(Wire("a", "b", "out", sign=signs[0], delayed=True), Wire("a", "c", "out", sign=signs[1])), 0
+    ).wires  # type: ignore[arg-type]
+    assert (wire.sign, wire.captions, wire.source_port, wire.delayed) == (
+        sign,
+        ("2 connections",),
+        "out",
+        False,
+    )
 
 
 def test_a_wide_architecture_becomes_narrow() -> None:

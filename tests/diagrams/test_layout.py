@@ -23,7 +23,10 @@ def big(fields=40, couplings=150, seed=0):
     draw = random.Random(seed)
     model = dd.Model("big")
     found = [
-        model.add(dd.Field(f"field number {i} of many" if i % 5 else f"u{i}", [X] if i % 4 else []), group=f"group {i % 4}" if i % 3 else "")
+        model.add(
+            dd.Field(f"field number {i} of many" if i % 5 else f"u{i}", [X] if i % 4 else []),
+            group=f"group {i % 4}" if i % 3 else "",
+        )
         for i in range(fields)
     ]
     for _ in range(couplings):
@@ -36,11 +39,20 @@ def laid_out(graph):
     """The boxes (x, y, width, height), the layout, and the painted connections."""
     scene = paint.paint(graph, legend=False)
     drawn, found = paint.lay_out(graph)[:2]
-    return scene, {i: (x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in found.boxes.items()}, found
+    return (
+        scene,
+        {i: (x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in found.boxes.items()},
+        found,
+    )
 
 
 def apart(a, b):
-    return a[0] + a[2] <= b[0] + 0.01 or b[0] + b[2] <= a[0] + 0.01 or a[1] + a[3] <= b[1] + 0.01 or b[1] + b[3] <= a[1] + 0.01
+    return (
+        a[0] + a[2] <= b[0] + 0.01
+        or b[0] + b[2] <= a[0] + 0.01
+        or a[1] + a[3] <= b[1] + 0.01
+        or b[1] + b[3] <= a[1] + 0.01
+    )
 
 
 def along(shape):
@@ -49,31 +61,55 @@ def along(shape):
     for name, *numbers in shape.path:
         if name in "ML":
             x, y = numbers
-            points += [(at[0] + (x - at[0]) * k / 12, at[1] + (y - at[1]) * k / 12) for k in range(1, 13)] if name == "L" else [(x, y)]
+            points += (
+                [(at[0] + (x - at[0]) * k / 12, at[1] + (y - at[1]) * k / 12) for k in range(1, 13)]
+                if name == "L"
+                else [(x, y)]
+            )
             at = (x, y)
         elif name == "C":
             a, b, c, d, x, y = numbers
             for k in range(1, 13):
                 t = k / 12
                 w = (1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3
-                points.append((w[0] * at[0] + w[1] * a + w[2] * c + w[3] * x, w[0] * at[1] + w[1] * b + w[2] * d + w[3] * y))
+                points.append(
+                    (
+                        w[0] * at[0] + w[1] * a + w[2] * c + w[3] * x,
+                        w[0] * at[1] + w[1] * b + w[2] * d + w[3] * y,
+                    )
+                )
             at = (x, y)
     return points
 
 
-@pytest.mark.parametrize("graph", [*(pytest.param(sketch(dd.load(p).document), id=p.stem) for p in EXAMPLES), pytest.param(big(), id="big")])
+@pytest.mark.parametrize(
+    "graph",
+    [
+        *(pytest.param(sketch(dd.load(p).document), id=p.stem) for p in EXAMPLES),
+        pytest.param(big(), id="big"),
+    ],
+)
 def test_boxes_are_apart_and_connections_go_round_them(graph):
     scene, places, found = laid_out(graph)
     shown = list(places.items())
     for k, (one, a) in enumerate(shown):
-        assert a[0] >= -0.01 and a[0] + a[2] <= found.width + 0.01 and a[1] >= -0.01 and a[1] + a[3] <= found.height + 0.01
+        assert (
+            a[0] >= -0.01
+            and a[0] + a[2] <= found.width + 0.01
+            and a[1] >= -0.01
+            and a[1] + a[3] <= found.height + 0.01
+        )
         for other, b in shown[k + 1 :]:
             assert apart(a, b), (one, other)
     group = {item.id: item.group for item in graph.items}
     for ident, (x, y, w, h) in shown:
         for g, (fx, fy, fw, fh) in found.frames.items():
             inside = group[ident][: len(g)] == g
-            assert (fx < x and fy < y and x + w < fx + fw and y + h < fy + fh) if inside else apart((x, y, w, h), (fx, fy, fw, fh)), (ident, g)
+            assert (
+                (fx < x and fy < y and x + w < fx + fw and y + h < fy + fh)
+                if inside
+                else apart((x, y, w, h), (fx, fy, fw, fh))
+            ), (ident, g)
     wires = [w for w in graph.wires if w.source != w.target]
     lines = [part.content[0] for part in scene.parts if part.role == "wire"]
     assert len(lines) == len(wires)
@@ -89,22 +125,37 @@ def test_captions_are_apart_from_boxes_and_from_each_other():
     for graph in (big(20, 60), sketch(dd.load(EXAMPLES[0]).document)):
         drawn, found, sizes = paint.lay_out(graph)
         rects = [(x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in found.boxes.items()]
-        rects += [(x - sizes[w][0] / 2, y - sizes[w][1] / 2, *sizes[w]) for w, (x, y) in found.captions.items()]
+        rects += [
+            (x - sizes[w][0] / 2, y - sizes[w][1] / 2, *sizes[w]) for w, (x, y) in found.captions.items()
+        ]
         assert len(found.captions) > 10
         assert all(apart(a, b) for k, a in enumerate(rects) for b in rects[k + 1 :])
 
 
 @pytest.mark.parametrize("form", ["field", "node", "source", "sensor", "motor", "coupling", "missing"])
 @pytest.mark.parametrize(
-    "name", ["u", "a name of many words that goes on and on", "oneverylongwordwithoutanyplacetobreakitatall", "名前はとても長いですから折り返す", ""]
+    "name",
+    [
+        "u",
+        "a name of many words that goes on and on",
+        "oneverylongwordwithoutanyplacetobreakitatall",
+        "名前はとても長いですから折り返す",
+        "",
+    ],
 )
 def test_text_is_inside_its_box(form, name):
-    item = Item("a", form, name, "kind of a thing", (X, dd.Axis("y", -180, 180, 5, periodic=True, unit="deg")))
+    item = Item(
+        "a", form, name, "kind of a thing", (X, dd.Axis("y", -180, 180, 5, periodic=True, unit="deg"))
+    )
     drawn = boxes.prepare(item, ["gate"], ["activation"], [boxes.Loop("+", ("× 2",)), boxes.Loop("-")], 9)
     for one in boxes.paint(drawn, 0, 0):
         if isinstance(one, Label):
             half = text.width(one.text, one.size, one.bold) / 2
-            assert one.x - half >= -0.01 and one.x + half <= drawn.box.width + 0.01 and 0 < one.y <= drawn.box.height
+            assert (
+                one.x - half >= -0.01
+                and one.x + half <= drawn.box.width + 0.01
+                and 0 < one.y <= drawn.box.height
+            )
     heights = drawn.box.top, drawn.box.body
     assert heights[0] >= boxes.LOOP + boxes.SMALL_LINE and heights[1] >= 8 * boxes.CLOSEST
 
@@ -121,9 +172,15 @@ def test_given_places_are_kept():
     assert found.boxes["a"][0] - found.boxes["b"][0] == pytest.approx(300 * given.GIVEN)
     assert found.boxes["a"][1] - found.boxes["b"][1] == pytest.approx(40 * given.GIVEN)
     x, y, w, h = found.frames["g",]
-    assert x < found.boxes["b"][0] and x + w > found.boxes["b"][0] + drawn["b"].box.width and y < found.boxes["b"][1] < y + h
+    assert (
+        x < found.boxes["b"][0]
+        and x + w > found.boxes["b"][0] + drawn["b"].box.width
+        and y < found.boxes["b"][1] < y + h
+    )
     part = Graph("g", graph.items, graph.wires, graph.groups, {"a": (300, 40)})
-    assert paint.lay_out(part)[1].boxes["a"][0] > paint.lay_out(part)[1].boxes["b"][0], "laid out anew where not all have a place"
+    assert paint.lay_out(part)[1].boxes["a"][0] > paint.lay_out(part)[1].boxes["b"][0], (
+        "laid out anew where not all have a place"
+    )
 
 
 def test_the_order_of_columns_has_no_crossing_that_need_not_be():
@@ -152,12 +209,17 @@ def test_places_keep_order_and_distance_and_are_the_nearest():
 def test_text_is_broken_and_cut():
     assert text.wrap("a b", 8, 100, 3) == ["a b"]
     lines = text.wrap("one two three four five six seven eight nine ten", 8, 50, 3)
-    assert len(lines) == 3 and lines[-1].endswith(text.CUT) and all(text.width(line, 8) <= 50 for line in lines)
+    assert (
+        len(lines) == 3 and lines[-1].endswith(text.CUT) and all(text.width(line, 8) <= 50 for line in lines)
+    )
     assert "".join(text.wrap("abcdefghijklmnopqrstuvwxyz", 8, 40, 9)) == "abcdefghijklmnopqrstuvwxyz"
     assert text.wrap("line\nbreak\0 and \ud800", 8, 200, 3) == ["line break and"]
 
 
 def test_marks_differ_in_shape_and_not_only_in_colour():
-    shapes = {sign: [s for s in paint.wires.mark((10, 10), (1, 0), sign) if isinstance(s, Shape)] for sign in ("+", "-", "±")}
+    shapes = {
+        sign: [s for s in paint.wires.mark((10, 10), (1, 0), sign) if isinstance(s, Shape)]
+        for sign in ("+", "-", "±")
+    }
     kinds = {sign: [len(s.path) for s in found] for sign, found in shapes.items()}
     assert kinds == {"+": [4], "-": [6], "±": [4, 6]}

@@ -14,7 +14,16 @@ from tests.docs.source import DOCS, ROOT, module
 from tests.papers.spa.rows import PATH, all_rows
 
 evidence = module(DOCS / "evidence.py")
-MADE = {"deodar": "0.1.0", "jax": "1", "jaxlib": "1", "numpy": "2", "python": "3", "device": "cpu", "cores": "1", "machine": "Linux"}
+MADE = {
+    "deodar": "0.1.0",
+    "jax": "1",
+    "jaxlib": "1",
+    "numpy": "2",
+    "python": "3",
+    "device": "cpu",
+    "cores": "1",
+    "machine": "Linux",
+}
 
 
 @pytest.fixture(scope="module")
@@ -26,11 +35,16 @@ def reports() -> dict[str, Any]:
 
 def test_the_claims_that_are_kept_follow_from_the_rows(reports: dict[str, Any]) -> None:
     for name, (kept, report) in reports.items():
-        assert same(evidence.EVIDENCE / name / evidence.RESULTS, kept.results(report)), f"evidence/{name} is stale: python docs/evidence.py"
+        assert same(evidence.EVIDENCE / name / evidence.RESULTS, kept.results(report)), (
+            f"evidence/{name} is stale: python docs/evidence.py"
+        )
 
 
 def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) -> None:
-    known = {name: evidence.numbers(*reports[name]) if name in reports else evidence.unrun(name) for name in papers.names()}
+    known = {
+        name: evidence.numbers(*reports[name]) if name in reports else evidence.unrun(name)
+        for name in papers.names()
+    }
     for page in evidence.pages():
         text = page.read_text(encoding="utf-8")
         assert evidence.filled(text, known) == text, f"{page.name} is stale: python docs/evidence.py"
@@ -39,31 +53,40 @@ def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) 
 
 def test_without_runs_a_page_states_settings_and_no_results() -> None:
     none = {name: evidence.unrun(name) for name in papers.names()}
-    results = [value for name, value in none["spa"].items() if name.startswith(("success:", "ratio:", "arrival:", "weak:", "stuck", "required"))]
+    results = [
+        value
+        for name, value in none["spa"].items()
+        if name.startswith(("success:", "ratio:", "arrival:", "weak:", "stuck", "required"))
+    ]
     assert len(results) > 100 and set(results) == {evidence.papers.NOT_RUN}
-    assert none["spa"]["reflection"] == "0.6" and none["spa"]["factor"] == "1.2" and none["spa"]["runs"] == "0"
+    assert (
+        none["spa"]["reflection"] == "0.6" and none["spa"]["factor"] == "1.2" and none["spa"]["runs"] == "0"
+    )
     for page in evidence.pages():
         assert evidence.loose(evidence.filled(page.read_text(encoding="utf-8"), none)) == []
 
 
 def test_what_is_kept_names_versions_and_date_and_no_place(reports: dict[str, Any]) -> None:
     for name, (kept, _) in reports.items():
-        assert set(kept.about) == {"paper", "command", "quick", "date", "runs", "of", "made_by"} and kept.about["paper"] == name
+        assert (
+            set(kept.about) == {"paper", "command", "quick", "date", "runs", "of", "made_by"}
+            and kept.about["paper"] == name
+        )
         assert re.fullmatch(r"20\d\d-\d\d-\d\d", kept.about["date"]) and kept.about["runs"] == len(kept.rows)
         assert {"deodar", "jax", "jaxlib", "numpy", "python", "machine"} <= set(kept.about["made_by"])
         assert not re.search(r"/(home|root|tmp|Users|work)\b", json.dumps([kept.about, kept.design]))
         assert sum(p.stat().st_size for p in (evidence.EVIDENCE / name).iterdir()) < 4e6
         design = kept.design[-1]
-        assert {k: design[k] for k in design if k != "made_by"} == json.loads(json.dumps(papers.paper(name).about(kept.quick))), (
-            "the design has changed"
-        )
+        assert {k: design[k] for k in design if k != "made_by"} == json.loads(
+            json.dumps(papers.paper(name).about(kept.quick))
+        ), "the design has changed"
 
 
 def test_the_wheel_does_not_carry_it() -> None:
     assert evidence.EVIDENCE == ROOT / "evidence" and not list((ROOT / "src").rglob("runs.jsonl*"))
 
 
-# ------------------------------------------------------------------------------------------------ on rows made by hand
+# --------------------------------------------------------------------------------------- on rows made by hand
 
 
 @pytest.fixture
@@ -71,14 +94,19 @@ def folder(tmp_path: Path) -> Path:
     """A reproduction in which all went as told."""
     spa = papers.paper("spa")
     first = {"about": {**spa.about(False), "made_by": MADE}}
-    text = "".join(json.dumps(line) + "\n" for line in [first, *all_rows(False, lambda c, k: {"path": PATH[::10]}).values()])
+    text = "".join(
+        json.dumps(line) + "\n"
+        for line in [first, *all_rows(False, lambda c, k: {"path": PATH[::10]}).values()]
+    )
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "runs.jsonl").write_text(text + '{"key": "cut o')
     return tmp_path / "out"
 
 
 def same(file: Path, text: str) -> bool:
-    """Whether a file holds these results; numbers to four digits, since versions of NumPy differ in the last ones."""
+    """Whether a file holds these results; numbers to four digits, since versions of NumPy differ in the last
+    ones.
+    """
 
     def near(a: Any, b: Any) -> bool:
         if isinstance(a, dict) and isinstance(b, dict):
@@ -102,9 +130,14 @@ def test_a_reproduction_is_taken_and_a_changed_row_is_noticed(folder: Path, tmp_
     again = evidence.read("spa", tmp_path / "evidence" / "spa")
     assert same(file, again.results(again.report()))
     known = {"spa": evidence.numbers(taken, report)}
-    page = "<!-- numbers of spa -->It reaches <!-- evidence spa success:z/planner/low -->?<!-- end --> goals (figure 7).<!-- end of numbers -->"
+    page = (
+        "<!-- numbers of spa -->It reaches <!-- evidence spa success:z/planner/low -->?<!-- end --> goals"
+        " (figure 7).<!-- end of numbers -->"
+    )
     whole = evidence.filled(page, known)
-    assert "-->96 of 96<!--" in whole and evidence.filled(whole, known) == whole and evidence.loose(whole) == []
+    assert (
+        "-->96 of 96<!--" in whole and evidence.filled(whole, known) == whole and evidence.loose(whole) == []
+    )
     assert evidence.loose(whole.replace("goals", "goals, 3 of them late")) != []
     for key in ("z/planner/low/000", "z/planner/low/002"):
         again.rows[key]["success"] = False
@@ -133,11 +166,15 @@ def test_a_quick_reproduction_is_taken_as_one(folder: Path, tmp_path: Path) -> N
     taken = evidence.take(folder, tmp_path / "evidence")
     assert taken.quick and len(taken.rows) == taken.about["of"] < 2000
     known = evidence.numbers(taken, taken.report())
-    assert known["command"] == "`deodar reproduce spa --quick`" and known["success:z/planner/low"] == "20 of 20"
+    assert (
+        known["command"] == "`deodar reproduce spa --quick`" and known["success:z/planner/low"] == "20 of 20"
+    )
     assert json.loads(taken.results(taken.report()))["settings"]["quick"] is True
 
 
-def test_a_condition_that_is_not_complete_is_left_out(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_condition_that_is_not_complete_is_left_out(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     file = folder / "runs.jsonl"
     lines = file.read_text().splitlines()
     last = json.loads(lines[-2])["condition"]  # the last line is torn
@@ -146,7 +183,9 @@ def test_a_condition_that_is_not_complete_is_left_out(folder: Path, tmp_path: Pa
     assert last in capsys.readouterr().err
     known = evidence.numbers(taken, taken.report())
     assert known["missing"] == last and known[f"success:{last}"] == evidence.papers.NOT_RUN
-    assert {row["condition"] for row in taken.rows.values()} == {json.loads(line)["condition"] for line in lines[1:-1]} - {last}
+    assert {row["condition"] for row in taken.rows.values()} == {
+        json.loads(line)["condition"] for line in lines[1:-1]
+    } - {last}
     assert taken.about["runs"] == len(taken.rows) < taken.about["of"]
 
 

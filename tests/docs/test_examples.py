@@ -36,7 +36,7 @@ def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[floa
     return sorted(p.position[0] for p in peaks(now))
 
 
-# ------------------------------------------------------------------------------------------------ the documents
+# ---------------------------------------------------------------------------------------------- the documents
 
 
 def test_documents_are_fresh(tmp_path: Path) -> None:
@@ -129,7 +129,9 @@ def test_groups() -> None:
     assert not on[:, 0].any() and not on[:, -1].any()
     model = dd.load(EXAMPLES / "groups.json")
     model.set("tempo", 33)
-    assert {model.get(f"{name}.{part}.tau") for name in names for part in ("intention", "satisfied")} == {33.0}
+    assert {model.get(f"{name}.{part}.tau") for name in names for part in ("intention", "satisfied")} == {
+        33.0
+    }
 
 
 def test_motor_attractor() -> None:
@@ -167,14 +169,18 @@ def test_reaction_time() -> None:
     data = example.experiment(24).run()
     alone, expected = (example.reactions(data, preshape) for preshape in (0.0, 1.0))
     medians = [[t for t, _ in found["time"]] for found in (alone, expected)]
-    assert medians[0][0] < 0.5 * medians[0][3] and all(soon < late for soon, late in zip(medians[1], medians[0], strict=True))
+    assert medians[0][0] < 0.5 * medians[0][3] and all(
+        soon < late for soon, late in zip(medians[1], medians[0], strict=True)
+    )
     assert alone["time"][-1][1][0] > expected["time"][-1][1][1], "the bands are apart"
     assert alone["left"][-1][1][1] < expected["left"][-1][0]
     made = example.figure(data)
     assert [len(axes.lines) for axes in made.axes] == [2, 3], "one line a condition, and that of chance"
 
 
-def test_the_symmetric_model_of_reaction_times_chooses_either_side_equally_often(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_symmetric_model_of_reaction_times_chooses_either_side_equally_often(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     example = module(EXAMPLES / "reaction_time.py")
     monkeypatch.setattr(example, "DISTANCES", (4, 8))
     data = example.experiment(400).run()
@@ -193,48 +199,76 @@ def test_live_session() -> None:
 
 
 def test_own_function() -> None:
-    u = dd.simulate(module(EXAMPLES / "own_function.py").model(), 5000, record=["u.activation"], every=10)["u.activation"].values
+    u = dd.simulate(module(EXAMPLES / "own_function.py").model(), 5000, record=["u.activation"], every=10)[
+        "u.activation"
+    ].values
     ups = int(((u[1:] > 0) & (u[:-1] <= 0)).sum())
     assert 4 <= ups <= 6
 
 
 def test_no_example_is_without_a_test() -> None:
     tested = {n.removeprefix("test_") for n in globals() if n.startswith("test_")}
-    assert {p.stem for p in EXAMPLES.iterdir() if p.suffix in (".json", ".py")} - {"make", "pictures"} <= tested
+    assert {p.stem for p in EXAMPLES.iterdir() if p.suffix in (".json", ".py")} - {
+        "make",
+        "pictures",
+    } <= tested
 
 
 def test_plan() -> None:
     data = dd.simulate(
-        dd.load(EXAMPLES / "plan.json"), 1200, record=["left.motivation.activation", "left.strongest.output", "gone.activation"], every=5
+        dd.load(EXAMPLES / "plan.json"),
+        1200,
+        record=["left.motivation.activation", "left.strongest.output", "gone.activation"],
+        every=5,
     )
     u, x = data["left.motivation.activation"], data["x"].values
     fronts = [x[u.sel(time=t).values > 0].max() for t in (30, 60, 90, 120)]
     assert all(15 < b - a < 28 for a, b in itertools.pairwise(fronts))
     assert float(data["left.strongest.output"].sel(time=slice(105, 200)).min()) > 0.5
     gone = data["gone.activation"]
-    assert abs(float(gone.sel(time=60))) < 3 and abs(float(gone.sel(time=440)) + 60) < 7 and abs(float(gone[-1]) - 50) < 8
+    assert (
+        abs(float(gone.sel(time=60))) < 3
+        and abs(float(gone.sel(time=440)) + 60) < 7
+        and abs(float(gone[-1]) - 50) < 8
+    )
 
 
 def test_spa() -> None:
     """Its first steps in the arena that the notes name: the wave spreads from the goal."""
-    data = dd.simulate(dd.load(EXAMPLES / "spa.json"), 60, record=["north.motivation.activation"], every=20, world=Arena("z"))
+    data = dd.simulate(
+        dd.load(EXAMPLES / "spa.json"), 60, record=["north.motivation.activation"], every=20, world=Arena("z")
+    )
     areas = [(u > 0).sum() for u in data["north.motivation.activation"].values]
     assert areas[0] == 0 < areas[1] < areas[2] < areas[3]
 
 
 def test_behaviours() -> None:
     names = ("find", "reach", "avoid", "look left", "look right")
-    data = run("behaviours", [f"{name}.intention.activation" for name in names] + ["reach.satisfaction.activation"], trials=20)
+    data = run(
+        "behaviours",
+        [f"{name}.intention.activation" for name in names] + ["reach.satisfaction.activation"],
+        trials=20,
+    )
     on = {name: data[f"{name}.intention.activation"] > 0 for name in names}
 
     def during(name: str, start: float, stop: float) -> np.ndarray:
         return on[name].sel(time=slice(start, stop)).values
 
     assert during("find", 200, 500).all() and not during("find", 560, 2400).any()
-    assert not during("reach", 0, 500).any() and during("reach", 600, 900).all(), "the precondition holds it back"
-    assert not during("reach", 1000, 1200).any() and during("reach", 1350, 1600).all(), "it goes on after the interruption"
-    assert not during("reach", 1700, 2400).any() and (data["reach.satisfaction.activation"].sel(time=2000).values > 0).all()
-    assert not (on["look left"] & on["look right"]).any() and (during("look left", 200, 690) | during("look right", 200, 690)).all()
+    assert not during("reach", 0, 500).any() and during("reach", 600, 900).all(), (
+        "the precondition holds it back"
+    )
+    assert not during("reach", 1000, 1200).any() and during("reach", 1350, 1600).all(), (
+        "it goes on after the interruption"
+    )
+    assert (
+        not during("reach", 1700, 2400).any()
+        and (data["reach.satisfaction.activation"].sel(time=2000).values > 0).all()
+    )
+    assert (
+        not (on["look left"] & on["look right"]).any()
+        and (during("look left", 200, 690) | during("look right", 200, 690)).all()
+    )
     first = on["look left"].sel(time=600)
     assert 3 <= int(first.sum()) <= 17, "noise decides"
     assert (on["look right"].sel(time=1000) == first).all(), "the other has its turn"
@@ -242,15 +276,27 @@ def test_behaviours() -> None:
 
 def test_serial_order() -> None:
     data = run("serial_order", ["action.activation", *(f"item {k}.node.activation" for k in range(1, 5))])
-    steps = [np.argmax(data[f"item {k}.node.activation"].sel(time=slice(5300, None)).values > 0) * 10 + 5300 for k in range(1, 5)]
+    steps = [
+        np.argmax(data[f"item {k}.node.activation"].sel(time=slice(5300, None)).values > 0) * 10 + 5300
+        for k in range(1, 5)
+    ]
     assert steps[0] > 5300 and all(a < b for a, b in itertools.pairwise(steps))
-    assert [places(data["action.activation"], t + 20.0)[0] for t in steps] == pytest.approx([30, 6, 30, 54], abs=3)
+    assert [places(data["action.activation"], t + 20.0)[0] for t in steps] == pytest.approx(
+        [30, 6, 30, 54], abs=3
+    )
     assert not any(places(data["action.activation"], t) for t in (5300, 11200))
 
 
 def test_binding() -> None:
     data = run("binding", [f"{name}.activation" for name in ("bound", "space", "feature")])
-    for t, found in ((190, None), (590, (50, 120)), (790, (50, 120)), (950, None), (1390, (80, 240)), (1800, None)):
+    for t, found in (
+        (190, None),
+        (590, (50, 120)),
+        (790, (50, 120)),
+        (950, None),
+        (1390, (80, 240)),
+        (1800, None),
+    ):
         for name, place in (("space", 0), ("feature", 1)):
             expected = [] if found is None else [found[place]]
             assert places(data[f"{name}.activation"], t) == pytest.approx(expected, abs=3), (name, t)
@@ -258,7 +304,10 @@ def test_binding() -> None:
 
 
 def test_remapping() -> None:
-    data = run("remapping", [f"{form}.{name}.activation" for form in ("diagonal", "steered") for name in ("retina", "body")])
+    data = run(
+        "remapping",
+        [f"{form}.{name}.activation" for form in ("diagonal", "steered") for name in ("retina", "body")],
+    )
     for form in ("diagonal", "steered"):
         retina, body = (data[f"{form}.{name}.activation"] for name in ("retina", "body"))
         for t, there in ((390, [12]), (790, [-3]), (990, [22]), (1400, [-15, 22])):
@@ -267,13 +316,21 @@ def test_remapping() -> None:
 
 
 def test_change_detection() -> None:
-    data = run("change_detection", ["contrast.activation", "memory.activation", "different.activation", "same.activation"])
-    assert places(data["memory.activation"], 1690) == pytest.approx([40, 130, 250], abs=3) and places(data["contrast.activation"], 1690) == []
+    data = run(
+        "change_detection",
+        ["contrast.activation", "memory.activation", "different.activation", "same.activation"],
+    )
+    assert (
+        places(data["memory.activation"], 1690) == pytest.approx([40, 130, 250], abs=3)
+        and places(data["contrast.activation"], 1690) == []
+    )
     assert places(data["contrast.activation"], 1760) == pytest.approx([180], abs=3)
     assert float(data["different.activation"].sel(time=2290)) > 0 > float(data["same.activation"].max())
     model = dd.load(EXAMPLES / "change_detection.json")
     model.set("test 2.center", 130)
-    end = dd.simulate(model, 2290, record=["different.activation", "same.activation"], every=2290).isel(time=-1)
+    end = dd.simulate(model, 2290, record=["different.activation", "same.activation"], every=2290).isel(
+        time=-1
+    )
     assert float(end["same.activation"]) > 0 > float(end["different.activation"])
 
 

@@ -1,4 +1,6 @@
-"""Every block of Python and every command on a page runs, prints what the page says, and draws the pictures it shows."""
+"""Every block of Python and every command on a page runs, prints what the page says, and draws the pictures
+it shows.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,16 @@ DRAWN_ELSEWHERE = {
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},
 }
-"""The pictures of the README are drawn by the pages that explain them, those of the studio by `studio/build.py pictures`, those of many
-runs by `deodar reproduce`."""
+"""The pictures of the README are drawn by the pages that explain them, those of the studio by
+`studio/build.py pictures`, those of many runs by `deodar reproduce`.
+"""
 
 
 @pytest.mark.parametrize("page", pages.pages(), ids=lambda p: p.stem)
 def test_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(registry, "_kinds", dict(registry.kinds()))  # a page that shows how to add a kind adds one
+    monkeypatch.setattr(
+        registry, "_kinds", dict(registry.kinds())
+    )  # a page that shows how to add a kind adds one
     with pages.quiet():
         import matplotlib.pyplot as plt
 
@@ -49,11 +54,15 @@ def test_what_a_page_points_to_is_there(page: Path) -> None:
         assert target.exists(), f"{page.name} points to {link}, which is not there"
         if anchor:
             heads = re.findall(r"^#+ (.*)$", target.read_text(encoding="utf-8"), re.MULTILINE)
-            assert anchor in {re.sub(r"[^\w-]", "", h.lower().replace(" ", "-")) for h in heads}, f"{page.name}: no heading {link}"
+            assert anchor in {re.sub(r"[^\w-]", "", h.lower().replace(" ", "-")) for h in heads}, (
+                f"{page.name}: no heading {link}"
+            )
 
 
 def test_every_page_is_in_the_table_of_contents() -> None:
-    listed = set(re.findall(r": ([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE))
+    listed = set(
+        re.findall(r": ([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE)
+    )
     assert listed == {p.relative_to(DOCS).as_posix() for p in DOCS.rglob("*.md")}
 
 

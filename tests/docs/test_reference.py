@@ -14,7 +14,9 @@ reference = module(DOCS / "reference.py")
 @pytest.mark.parametrize("page", [p.relative_to(DOCS) for p in reference.pages()], ids=str)
 def test_a_generated_page_is_fresh(page: Path) -> None:
     made = reference.pages()[DOCS / page]
-    assert (DOCS / page).read_text(encoding="utf-8") == made, f"docs/{page} is not what the code says: python docs/reference.py"
+    assert (DOCS / page).read_text(encoding="utf-8") == made, (
+        f"docs/{page} is not what the code says: python docs/reference.py"
+    )
 
 
 def test_the_reference_holds_no_page_too_many() -> None:
@@ -23,5 +25,14 @@ def test_the_reference_holds_no_page_too_many() -> None:
 
 def test_a_kind_is_described_whole() -> None:
     text = reference.kind_section(reference.registry.kind("Field"))
-    for part in (r"\tau \frac{du}{dt}", "| `tau` |", "at least 1e-06", "| live |", "| rebuild |", "| recompile |", "`activation`", "eqs. 1, 3"):
+    for part in (
+        r"\tau \frac{du}{dt}",
+        "| `tau` |",
+        "at least 1e-06",
+        "| live |",
+        "| rebuild |",
+        "| recompile |",
+        "`activation`",
+        "eqs. 1, 3",
+    ):
         assert part in text, part

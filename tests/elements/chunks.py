@@ -11,7 +11,9 @@ STEPS = 140
 
 
 def require_the_same_in_any_chunks(element: Element) -> None:
-    """Steps taken one by one, in one chunk and in uneven ones, at a time that float32 does not resolve and no multiple of the step."""
+    """Steps taken one by one, in one chunk and in uneven ones, at a time that float32 does not resolve and no
+    multiple of the step.
+    """
     model = dd.Model("chunks", dt=0.1)
     model.describe(t0=86_400_000.037)
     model.add(element)

@@ -1,4 +1,6 @@
-"""Fields of 0 to 4 dimensions against the plain reference: every kernel, boundary and sigmoid, 200 steps in float64."""
+"""Fields of 0 to 4 dimensions against the plain reference: every kernel, boundary and sigmoid, 200 steps in
+float64.
+"""
 
 from __future__ import annotations
 
@@ -53,8 +55,16 @@ def bounded(kernel, boundary):
 def line_cases():
     for axis in (LINE, RING):
         for name, kernel in kernels(axis.step).items():
-            for boundary in (["periodic"], ["zero"], ["reflect"], *([None] if name in ("gaussian", "custom") else [])):
-                shown = f"{'ring' if axis.periodic else 'line'}, {name}, {boundary[0] if boundary else 'by the axis'}"
+            for boundary in (
+                ["periodic"],
+                ["zero"],
+                ["reflect"],
+                *([None] if name in ("gaussian", "custom") else []),
+            ):
+                shown = (
+                    f"{'ring' if axis.periodic else 'line'}, {name},"
+                    f" {boundary[0] if boundary else 'by the axis'}"
+                )
                 yield shown, axis, bounded(kernel, boundary)
 
 
@@ -66,10 +76,19 @@ def stimulus_on(axes, amplitude=9.0):
 
 def compare(model, expected, record="activation", dt=DT, many=12):
     """Run the model; each field's activation equals the reference's to 1e-9 of its largest value."""
-    data = dd.simulate(model, STEPS * dt, dt=dt, record=[f"{dd.quote(name)}.{record}" for name in expected], every=EVERY * dt, precision="float64")
+    data = dd.simulate(
+        model,
+        STEPS * dt,
+        dt=dt,
+        record=[f"{dd.quote(name)}.{record}" for name in expected],
+        every=EVERY * dt,
+        precision="float64",
+    )
     wrong = []
     for name, (field, stimulus) in expected.items():
-        reference = fields.run(field, lambda k, s=stimulus: fields.stimulus(s, k * dt) if s else 0.0, STEPS, dt, many)[::EVERY]
+        reference = fields.run(
+            field, lambda k, s=stimulus: fields.stimulus(s, k * dt) if s else 0.0, STEPS, dt, many
+        )[::EVERY]
         found = data[f"{name}.{record}"].values
         assert found.dtype == np.float64
         assert np.ptp(reference) > 0.1, f"{name}: nothing happens, the test shows nothing"
@@ -84,7 +103,12 @@ def test_every_kernel_and_boundary():
     sources = {}
     for axis, name in ((LINE, "on line"), (RING, "on ring")):
         s = stimulus_on([axis])
-        sources[axis] = s, model.add(dd.GaussianStimulus(name, [axis], center=s.center, sigma=s.sigma, amplitude=s.amplitude))
+        sources[axis] = (
+            s,
+            model.add(
+                dd.GaussianStimulus(name, [axis], center=s.center, sigma=s.sigma, amplitude=s.amplitude)
+            ),
+        )
     for shown, axis, kernel in line_cases():
         field = dd.Field(shown, [axis], tau=10, resting_level=-3, kernel=[kernel], sigmoid=dd.Logistic(2.0))
         s, handle = sources[axis]
@@ -102,7 +126,12 @@ def alone(shown, field, stimulus, many=12):
 
 PLANE = (dd.Axis("x", 0, 14, 8), dd.Axis("y", -9, 9, 9, periodic=True))
 ROOM = (dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 6, 6, periodic=True), dd.Axis("z", -3, 3, 7))
-FOUR = (dd.Axis("x", 0, 8, 5), dd.Axis("y", 0, 4, 4, periodic=True), dd.Axis("z", 0, 5, 6), dd.Axis("c", 0, 3, 3, periodic=True))
+FOUR = (
+    dd.Axis("x", 0, 8, 5),
+    dd.Axis("y", 0, 4, 4, periodic=True),
+    dd.Axis("z", 0, 5, 6),
+    dd.Axis("c", 0, 3, 3, periodic=True),
+)
 
 
 def test_two_dimensions_with_mixed_boundaries():
@@ -121,20 +150,40 @@ def test_two_dimensions_with_mixed_boundaries():
     }.items():
         for boundary in (None, ["reflect", "zero"], ["periodic", "reflect"], ["zero", "zero"]):
             shown = f"{name}, {boundary}"
-            field = dd.Field(shown, PLANE, tau=12, resting_level=-3, kernel=[bounded(kernel, boundary)], global_inhibition=0.02)
+            field = dd.Field(
+                shown,
+                PLANE,
+                tau=12,
+                resting_level=-3,
+                kernel=[bounded(kernel, boundary)],
+                global_inhibition=0.02,
+            )
             model.connect(source, model.add(field))
             expected[shown] = field, s
     compare(model, expected, many=4)
 
 
 def test_three_dimensions():
-    kernel = [dd.Gaussian(1.1, [0.8, 0.7, 0.9], boundary=["reflect", "periodic", "zero"]), MexicanHat(3, 0.6, 1, 1.0, normalized=True)]
-    alone("u", dd.Field("u", ROOM, tau=15, resting_level=-4, kernel=kernel, global_inhibition=0.05), stimulus_on(ROOM), many=2)
+    kernel = [
+        dd.Gaussian(1.1, [0.8, 0.7, 0.9], boundary=["reflect", "periodic", "zero"]),
+        MexicanHat(3, 0.6, 1, 1.0, normalized=True),
+    ]
+    alone(
+        "u",
+        dd.Field("u", ROOM, tau=15, resting_level=-4, kernel=kernel, global_inhibition=0.05),
+        stimulus_on(ROOM),
+        many=2,
+    )
 
 
 def test_four_dimensions():
     kernel = [dd.Gaussian(0.5, [1.1, 0.6, 0.5, 0.5], boundary=["reflect", "periodic", "zero", "periodic"])]
-    alone("u", dd.Field("u", FOUR, tau=15, resting_level=-4, kernel=kernel, global_inhibition=0.01), stimulus_on(FOUR), many=1)
+    alone(
+        "u",
+        dd.Field("u", FOUR, tau=15, resting_level=-4, kernel=kernel, global_inhibition=0.01),
+        stimulus_on(FOUR),
+        many=1,
+    )
 
 
 def test_a_node_excites_itself_with_the_amplitudes_of_its_kernels():
@@ -144,8 +193,17 @@ def test_a_node_excites_itself_with_the_amplitudes_of_its_kernels():
 
 
 def test_a_sum_of_kernels_with_global_inhibition():
-    kernel = [dd.Gaussian(3.0, 1.2), Box(-0.4, 6.0, boundary=["zero"]), Custom(LOPSIDED, 0.5, boundary=["reflect"]), MexicanHat(1, 1, 0.5, 3)]
-    alone("u", dd.Field("u", [RING], tau=9, resting_level=-3, kernel=kernel, global_inhibition=0.01), stimulus_on([RING]))
+    kernel = [
+        dd.Gaussian(3.0, 1.2),
+        Box(-0.4, 6.0, boundary=["zero"]),
+        Custom(LOPSIDED, 0.5, boundary=["reflect"]),
+        MexicanHat(1, 1, 0.5, 3),
+    ]
+    alone(
+        "u",
+        dd.Field("u", [RING], tau=9, resting_level=-3, kernel=kernel, global_inhibition=0.01),
+        stimulus_on([RING]),
+    )
 
 
 @pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
@@ -153,10 +211,23 @@ def test_every_sigmoid(axis):
     model, expected = dd.Model("sigmoids"), {}
     s = stimulus_on([axis], 6.3)
     source = model.add(s)
-    sigmoids = [dd.Logistic(3.0, 0.4), Absolute(20.0, -0.3), Step(0.2), Linear(0.6, 0.1), SemiLinear(0.5, 0.3)]
+    sigmoids = [
+        dd.Logistic(3.0, 0.4),
+        Absolute(20.0, -0.3),
+        Step(0.2),
+        Linear(0.6, 0.1),
+        SemiLinear(0.5, 0.3),
+    ]
     for g in sigmoids:
         name = type(g).__name__
-        field = dd.Field(name, [axis], tau=10, resting_level=-3.1, kernel=[dd.Gaussian(0.9, 2.3 * axis.step, normalized=True)], sigmoid=g)
+        field = dd.Field(
+            name,
+            [axis],
+            tau=10,
+            resting_level=-3.1,
+            kernel=[dd.Gaussian(0.9, 2.3 * axis.step, normalized=True)],
+            sigmoid=g,
+        )
         model.connect(source, model.add(field))
         expected[name] = field, s
     compare(model, expected)
@@ -164,13 +235,28 @@ def test_every_sigmoid(axis):
 
 def test_output_and_interaction_ports():
     s = stimulus_on([RING])
-    field = dd.Field("u", [RING], tau=10, resting_level=-3, kernel=[dd.Gaussian(0.1, 40), Box(-0.01, 90)], global_inhibition=0.01)
+    field = dd.Field(
+        "u",
+        [RING],
+        tau=10,
+        resting_level=-3,
+        kernel=[dd.Gaussian(0.1, 40), Box(-0.01, 90)],
+        global_inhibition=0.01,
+    )
     model = dd.Model("ports")
     model.connect(model.add(s), model.add(field))
-    data = dd.simulate(model, 60, record=["u.output", "u.interaction", "u.input"], every=60, precision="float64")
+    data = dd.simulate(
+        model, 60, record=["u.output", "u.interaction", "u.input"], every=60, precision="float64"
+    )
     reference = fields.Field(field)
     for time in range(2):
-        for port, value in {"output": reference.output, "interaction": reference.interaction, "input": fields.stimulus(s, 0)}.items():
-            np.testing.assert_allclose(data[f"u.{port}"].values[time], value, rtol=1e-9, atol=1e-9 * abs(value).max())
+        for port, value in {
+            "output": reference.output,
+            "interaction": reference.interaction,
+            "input": fields.stimulus(s, 0),
+        }.items():
+            np.testing.assert_allclose(
+                data[f"u.{port}"].values[time], value, rtol=1e-9, atol=1e-9 * abs(value).max()
+            )
         for _ in range(60):
             reference.step(fields.stimulus(s, 0), 1.0)

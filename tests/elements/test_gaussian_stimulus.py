@@ -1,4 +1,6 @@
-"""What a Gaussian stimulus may be beside its height and its place: normalised, and of other ends than its axes."""
+"""What a Gaussian stimulus may be beside its height and its place: normalised, and of other ends than its
+axes.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,18 @@ def test_normalised_its_amplitude_is_the_integral():
     y = seen(axes=[LINE, RING], center=[1, 350], sigma=[6, 50], amplitude=2.5, normalized=True)
     assert y.sum() * LINE.step * RING.step == pytest.approx(2.5, rel=1e-12)
     assert np.allclose(
-        y / y.max(), seen(axes=[LINE, RING], center=[1, 350], sigma=[6, 50]) / seen(axes=[LINE, RING], center=[1, 350], sigma=[6, 50]).max()
+        y / y.max(),
+        seen(axes=[LINE, RING], center=[1, 350], sigma=[6, 50])
+        / seen(axes=[LINE, RING], center=[1, 350], sigma=[6, 50]).max(),
     )
     assert not seen(axes=[LINE], center=1.5, sigma=1e-6, normalized=True).any()
 
 
 def test_ends_of_its_own():
-    wrapped, cut = seen(axes=[LINE], center=0, sigma=6, boundary="periodic"), seen(axes=[RING], center=0, sigma=60, boundary="zero")
+    wrapped, cut = (
+        seen(axes=[LINE], center=0, sigma=6, boundary="periodic"),
+        seen(axes=[RING], center=0, sigma=60, boundary="zero"),
+    )
     d = np.minimum(np.arange(11), 11 - np.arange(11)) * 3
     assert np.allclose(wrapped, np.exp(-0.5 * (d / 6) ** 2))
     assert np.allclose(cut, np.exp(-0.5 * (np.arange(12) * 30 / 60) ** 2))

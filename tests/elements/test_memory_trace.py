@@ -33,7 +33,7 @@ def test_it_grows_below_peaks_decays_between_them_and_rests_without_any():
     assert found[-1, 8] < found[40, 8]
 
 
-# ------------------------------------------------------------------------------------------------ closed forms, and what can be chosen
+# ----------------------------------------------------------------------- closed forms, and what can be chosen
 
 
 def course(f, steps, dt=0.5, gate=None, others=None, **parameters):
@@ -44,7 +44,9 @@ def course(f, steps, dt=0.5, gate=None, others=None, **parameters):
     model.connect(model.add(Pattern("f", [axis], [f, f if others is None else others])), p["input"])
     if gate is not None:
         model.connect(model.add(Boost("gate", [], 1.0, windows=gate)), p["gate"])
-    return dd.simulate(model, steps * dt, record=["p.output"], precision="float64", every=steps * dt)["p.output"].values[-1]
+    return dd.simulate(model, steps * dt, record=["p.output"], precision="float64", every=steps * dt)[
+        "p.output"
+    ].values[-1]
 
 
 def test_build_up_and_decay_in_closed_form():
@@ -60,13 +62,17 @@ def test_graded_as_in_equation_11(f):
     speed = f / 10 + (1 - f) / 50
     fixed = f * f / 10 / speed
     for steps in (1, 30, 400):
-        assert course(f, steps, graded=True)[0] == pytest.approx(fixed * (1 - (1 - 0.5 * speed) ** steps), abs=1e-12)
+        assert course(f, steps, graded=True)[0] == pytest.approx(
+            fixed * (1 - (1 - 0.5 * speed) ** steps), abs=1e-12
+        )
     assert course(f, 4000, graded=True)[0] == pytest.approx(fixed, abs=1e-9)
 
 
 def test_without_a_peak_it_stays_unless_it_fades():
     assert np.array_equal(course(0.3, 100, start=[0.7, 0.2]), [0.7, 0.2])
-    np.testing.assert_allclose(course(0.3, 100, start=[0.7, 0.2], fades=True), np.array([0.7, 0.2]) * 0.99**100, atol=1e-12)
+    np.testing.assert_allclose(
+        course(0.3, 100, start=[0.7, 0.2], fades=True), np.array([0.7, 0.2]) * 0.99**100, atol=1e-12
+    )
     faded = course(0.0, 100, start=[0.7, 0.2], fades=True, graded=True)
     np.testing.assert_allclose(faded, np.array([0.7, 0.2]) * 0.99**100, atol=1e-12)
     assert np.array_equal(course(0.3, 100, start=[0.7, 0.2], graded=True), [0.7, 0.2])

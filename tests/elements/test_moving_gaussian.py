@@ -31,7 +31,9 @@ def plain(axis, places, sigma):
 
 def test_a_constant_velocity_on_a_plane():
     t, y = seen(axes=[X, Y], center=[2, 4], sigma=[3, 1], amplitude=2.5, velocity=[0.6, -0.25])
-    np.testing.assert_allclose(y, 2.5 * plain(X, 2 + 0.6 * t, 3)[:, :, None] * plain(Y, 4 - 0.25 * t, 1)[:, None, :], atol=1e-12)
+    np.testing.assert_allclose(
+        y, 2.5 * plain(X, 2 + 0.6 * t, 3)[:, :, None] * plain(Y, 4 - 0.25 * t, 1)[:, None, :], atol=1e-12
+    )
 
 
 def test_round_a_ring():
@@ -51,14 +53,20 @@ def test_path_and_velocity_and_centre_add_up():
     waypoints = [[0, 0.0, 0.0], [30, 6.0, -2.0]]
     t, y = seen(axes=[X, Y], center=[5, 1], sigma=2, velocity=[0.1, 0.05], waypoints=waypoints)
     share = np.minimum(t / 30, 1)
-    np.testing.assert_allclose(y, plain(X, 5 + 0.1 * t + 6 * share, 2)[:, :, None] * plain(Y, 1 + 0.05 * t - 2 * share, 2)[:, None, :], atol=1e-12)
+    np.testing.assert_allclose(
+        y,
+        plain(X, 5 + 0.1 * t + 6 * share, 2)[:, :, None] * plain(Y, 1 + 0.05 * t - 2 * share, 2)[:, None, :],
+        atol=1e-12,
+    )
 
 
 def test_without_motion_it_is_the_gaussian_stimulus():
     _, y = seen(axes=[X], center=12, sigma=4, amplitude=3, windows=[(10, 20)])
     model = dd.Model("stands", dt=0.5)
     model.add(dd.GaussianStimulus("s", [X], center=12, sigma=4, amplitude=3, windows=[(10, 20)]))
-    np.testing.assert_array_equal(y, dd.simulate(model, 40, record=["s.output"], precision="float64")["s.output"].values)
+    np.testing.assert_array_equal(
+        y, dd.simulate(model, 40, record=["s.output"], precision="float64")["s.output"].values
+    )
 
 
 def test_how_a_run_is_cut_into_chunks_changes_no_bit():
@@ -86,7 +94,12 @@ def test_a_document_of_version_2_calls_the_waypoints_a_path():
 
 @pytest.mark.parametrize(
     ("waypoints", "what"),
-    [([[0, 1, 2]], "rows of 2 numbers"), ([1.0, 2.0], "rows of 2 numbers"), ([[0, 1], [0, 2]], "goes back in time"), ([[5, 1], [0, 2]], "back in")],
+    [
+        ([[0, 1, 2]], "rows of 2 numbers"),
+        ([1.0, 2.0], "rows of 2 numbers"),
+        ([[0, 1], [0, 2]], "goes back in time"),
+        ([[5, 1], [0, 2]], "back in"),
+    ],
 )
 def test_waypoints_of_another_shape_are_refused(waypoints, what):
     with pytest.raises(ParameterError, match=what):

@@ -17,7 +17,13 @@ from tests.oracle import fields
 
 SIGMOIDS = [dd.Logistic(3.0, 0.4), Absolute(20.0, -0.3), Step(0.2), Linear(0.6, 0.1), SemiLinear(0.5, 0.3)]
 LINE, RING = dd.Axis("x", -3, 12, 16), dd.Axis("phi", -30, 330, 9, periodic=True)
-PLACES = [[LINE], [RING], [LINE, RING], [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 1, 2), RING], [dd.Axis(n, 0, 4, 3, periodic=n < "c") for n in "abcd"]]
+PLACES = [
+    [LINE],
+    [RING],
+    [LINE, RING],
+    [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 1, 2), RING],
+    [dd.Axis(n, 0, 4, 3, periodic=n < "c") for n in "abcd"],
+]
 
 
 def bumpy(axes, seed=0):
@@ -41,8 +47,21 @@ def test_the_rule(g, axes):
 
 @pytest.mark.parametrize("axes", [[LINE], [LINE, RING]], ids=["1-D", "2-D"])
 def test_a_field_sums_the_means_wherever_its_output_goes(axes):
-    model, s = dd.Model("cells"), dd.GaussianStimulus("s", axes, center=[4.2, 100][: len(axes)], sigma=[2.0, 60][: len(axes)], amplitude=7)
-    u = model.add(dd.Field("u", axes, kernel=[dd.Gaussian(0.02, [1.5, 50][: len(axes)])], global_inhibition=1e-4, quadrature="cell"))
+    model, s = (
+        dd.Model("cells"),
+        dd.GaussianStimulus(
+            "s", axes, center=[4.2, 100][: len(axes)], sigma=[2.0, 60][: len(axes)], amplitude=7
+        ),
+    )
+    u = model.add(
+        dd.Field(
+            "u",
+            axes,
+            kernel=[dd.Gaussian(0.02, [1.5, 50][: len(axes)])],
+            global_inhibition=1e-4,
+            quadrature="cell",
+        )
+    )
     model.add(s) >> u
     u >> model.add(dd.Project([], name="total"))
     ports = ["u.output", "u.activation", "u.interaction", "total.output"]
@@ -102,7 +121,9 @@ def test_the_sum_of_output_times_slope_is_zero_round_a_ring_as_the_integral_is(g
     sharp += 3 / 16 * (np.roll(u, 2) - 4 * np.roll(u, 1) + 6 * u - 4 * np.roll(u, -1) + np.roll(u, -2))
     slope = (np.roll(sharp, -1) - np.roll(sharp, 1)) / 2
     with jax.enable_x64(True):
-        cells, points = (np.asarray(rule) @ slope for rule in (cell_means(g, jnp.asarray(u), (axis,)), g(jnp.asarray(u))))
+        cells, points = (
+            np.asarray(rule) @ slope for rule in (cell_means(g, jnp.asarray(u), (axis,)), g(jnp.asarray(u)))
+        )
     assert abs(cells) < 1e-12
     assert abs(points) > 1e-3 or type(g) is Linear
 
@@ -110,7 +131,15 @@ def test_the_sum_of_output_times_slope_is_zero_round_a_ring_as_the_integral_is(g
 def test_a_memory_stays_between_two_samples():
     axis = dd.Axis("x", 0, 100, 51)
     model = dd.Model("between")
-    u = model.add(dd.Field("u", [axis], kernel=[dd.Gaussian(18, 5, normalized=True)], global_inhibition=0.3, quadrature="cell"))
+    u = model.add(
+        dd.Field(
+            "u",
+            [axis],
+            kernel=[dd.Gaussian(18, 5, normalized=True)],
+            global_inhibition=0.3,
+            quadrature="cell",
+        )
+    )
     model.add(dd.GaussianStimulus("s", [axis], center=50.6, amplitude=8, windows=[(0, 400)])) >> u
     for quadrature in ("cell", "point"):
         model.set("u.quadrature", quadrature)
@@ -122,5 +151,10 @@ def test_architectures_whose_strengths_were_found_with_points_keep_points():
     from deodar.architectures.saliency import saliency
     from deodar.architectures.serial_order import serial_order
 
-    fields = [e.element for model in (saliency(), serial_order(2)) for e in model.document.entries if isinstance(e.element, dd.Field)]
+    fields = [
+        e.element
+        for model in (saliency(), serial_order(2))
+        for e in model.document.entries
+        if isinstance(e.element, dd.Field)
+    ]
     assert len(fields) == 9 and {f.quadrature for f in fields} == {"point"}

@@ -54,7 +54,14 @@ def by_hand(reads, back):
     return np.array(seen)
 
 
-CASES = [("", ""), ("previous", "delayed"), ("current", ""), ("delayed", "current"), ("current", "delayed"), ("delayed", "delayed")]
+CASES = [
+    ("", ""),
+    ("previous", "delayed"),
+    ("current", ""),
+    ("delayed", "current"),
+    ("current", "delayed"),
+    ("delayed", "delayed"),
+]
 
 
 @pytest.mark.parametrize(("reads", "back"), CASES)

@@ -29,11 +29,16 @@ def test_each_slot_shows_the_input_at_its_moment(empty):
 
 def test_a_moment_for_each_slot():
     model = dd.Model("lengths")
-    model.connect(model.add(dd.Field("u", [X])), model.add(SampledHistory("past", [X], dd.Axis("slot", 0, 3, 4), [1.0, 2.0])))
+    model.connect(
+        model.add(dd.Field("u", [X])),
+        model.add(SampledHistory("past", [X], dd.Axis("slot", 0, 3, 4), [1.0, 2.0])),
+    )
     assert any("times has shape [2], the axis of the slots has 4 samples" in p.what for p in model.check())
 
 
 def test_the_slots_need_a_name_of_their_own():
     model = dd.Model("names")
-    model.connect(model.add(dd.Field("u", [X])), model.add(SampledHistory("past", [X], dd.Axis("x", 0, 2, 3))))
+    model.connect(
+        model.add(dd.Field("u", [X])), model.add(SampledHistory("past", [X], dd.Axis("x", 0, 2, 3)))
+    )
     assert any("slots are called 'x'" in p.what for p in model.check())

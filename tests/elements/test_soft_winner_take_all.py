@@ -19,7 +19,9 @@ def settled(evidence=EVIDENCE, duration=1500, **values):
     model = dd.Model("pool")
     pool = model.add(SoftWinnerTakeAll("pool", [ITEMS], **values))
     model.add(Pattern("evidence", [ITEMS], evidence)) >> pool
-    data = dd.simulate(model, duration, record=["pool.output", "pool.inhibitory"], every=duration, precision="float64")
+    data = dd.simulate(
+        model, duration, record=["pool.output", "pool.inhibitory"], every=duration, precision="float64"
+    )
     return data["pool.output"].values[-1], float(data["pool.inhibitory"].values[-1])
 
 
@@ -28,7 +30,20 @@ def test_the_steps_are_those_of_the_equations():
     kernel = dd.Gaussian(0.3, 1.5)
     model = dd.Model("steps", dt=0.5)
     pool = model.add(
-        SoftWinnerTakeAll("pool", [x], 8.0, 3.0, 0.7, [kernel], 1.1, 0.4, 0.25, 0.15, sigmoid=dd.Logistic(2.0), sigmoid_inhibition=dd.Logistic(3.0))
+        SoftWinnerTakeAll(
+            "pool",
+            [x],
+            8.0,
+            3.0,
+            0.7,
+            [kernel],
+            1.1,
+            0.4,
+            0.25,
+            0.15,
+            sigmoid=dd.Logistic(2.0),
+            sigmoid_inhibition=dd.Logistic(3.0),
+        )
     )
     model.add(dd.GaussianStimulus("s", [x], center=4, sigma=2, amplitude=2)) >> pool
     data = dd.simulate(model, 40, record=["pool", "pool.inhibitory", "pool.interaction"], precision="float64")
@@ -46,7 +61,9 @@ def test_the_steps_are_those_of_the_equations():
 
 def test_the_winner_is_amplified_and_the_others_are_silent():
     rates, v = settled()
-    assert rates[3] == pytest.approx(1.9 / (1 + 3 * 0.25 - 1.2), abs=1e-6) and v == pytest.approx(0.25 * rates[3], abs=1e-6)
+    assert rates[3] == pytest.approx(1.9 / (1 + 3 * 0.25 - 1.2), abs=1e-6) and v == pytest.approx(
+        0.25 * rates[3], abs=1e-6
+    )
     assert np.delete(rates, 3).max() < 1e-6
 
 
@@ -63,9 +80,20 @@ def test_the_units_count_not_the_samples():
     for samples in (51, 101):
         x = dd.Axis("x", 0, 100, samples)
         model = dd.Model("fine")
-        pool = model.add(SoftWinnerTakeAll("pool", [x], self_excitation=0.5, kernel=[dd.Gaussian(1, 4, normalized=True)], inhibition=0.5, drive=0.1))
+        pool = model.add(
+            SoftWinnerTakeAll(
+                "pool",
+                [x],
+                self_excitation=0.5,
+                kernel=[dd.Gaussian(1, 4, normalized=True)],
+                inhibition=0.5,
+                drive=0.1,
+            )
+        )
         model.add(dd.GaussianStimulus("s", [x], center=50, sigma=8, amplitude=2)) >> pool
-        found.append(dd.simulate(model, 400, record=["pool"], every=400, precision="float64")["pool.output"].values[-1])
+        found.append(
+            dd.simulate(model, 400, record=["pool"], every=400, precision="float64")["pool.output"].values[-1]
+        )
     # the edge of what is active falls between samples
     np.testing.assert_allclose(found[1][::2], found[0], atol=0.01 * found[0].max())
     assert found[0].max() > 1
@@ -97,7 +125,10 @@ def test_its_noise_is_that_of_a_field():
 
 
 def test_behind_a_filter_it_is_the_field_whose_inhibition_is_late_by_a_step():
-    """Inhibition as fast as the step: v(t + dt) is the integral of r(t). Nothing else lies between the pool and a field."""
+    """Inhibition as fast as the step: v(t + dt) is the integral of r(t).
+
+    Nothing else lies between the pool and a field.
+    """
     x = dd.Axis("x", 0, 100, 51)
     kernel, dt = [dd.Gaussian(12, 5, normalized=True)], 0.5
     model = dd.Model("filter", dt=dt)
@@ -107,7 +138,9 @@ def test_behind_a_filter_it_is_the_field_whose_inhibition_is_late_by_a_step():
     stimulus = model.add(dd.GaussianStimulus("s", [x], center=40, sigma=5, amplitude=6, windows=[(20, 150)]))
     stimulus >> slow >> model.add(pool)
     stimulus >> model.add(field)
-    data = dd.simulate(model, 250, record=["u.activation", "pool.interaction", "slow.activation"], precision="float64")
+    data = dd.simulate(
+        model, 250, record=["u.activation", "pool.interaction", "slow.activation"], precision="float64"
+    )
     u = data["pool.interaction"].values + data["slow.activation"].values - 5
     np.testing.assert_allclose(u, data["u.activation"].values, atol=1e-10)
     assert u.max() > 1

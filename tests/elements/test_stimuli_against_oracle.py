@@ -16,9 +16,13 @@ RING = dd.Axis("phi", -180, 180, 24, periodic=True, unit="deg")
 PLANE = (LINE, RING)
 
 STIMULI = [
-    dd.GaussianStimulus("gauss on a line", [LINE], center=4.3, sigma=1.7, amplitude=2.5, windows=[(20, 45), (60, 61)]),
+    dd.GaussianStimulus(
+        "gauss on a line", [LINE], center=4.3, sigma=1.7, amplitude=2.5, windows=[(20, 45), (60, 61)]
+    ),
     dd.GaussianStimulus("gauss over the seam", [RING], center=171, sigma=33, amplitude=-2.5),
-    dd.GaussianStimulus("gauss in a plane", PLANE, center=[1.1, 400], sigma=[2.0, 25.0], amplitude=1.5, windows=[(10, 30)]),
+    dd.GaussianStimulus(
+        "gauss in a plane", PLANE, center=[1.1, 400], sigma=[2.0, 25.0], amplitude=1.5, windows=[(10, 30)]
+    ),
     BoxStimulus("box on a line", [LINE], center=4.3, width=3.3, amplitude=2.0, windows=[(0, 7)]),
     BoxStimulus("box over the seam", [RING], center=-171, width=71, amplitude=2.0),
     BoxStimulus("box in a plane", PLANE, center=[11.0, 0], width=[4.4, 20.0], amplitude=2.0),
@@ -33,12 +37,16 @@ def test_every_stimulus_over_time():
     model = dd.Model("stimuli")
     for s in STIMULI:
         model.add(s)
-    data = dd.simulate(model, 100, dt=0.5, record=[f"{dd.quote(s.name)}.output" for s in STIMULI], precision="float64")
+    data = dd.simulate(
+        model, 100, dt=0.5, record=[f"{dd.quote(s.name)}.output" for s in STIMULI], precision="float64"
+    )
     for s in STIMULI:
         reference = np.array([fields.stimulus(s, 0.5 * k) for k in range(201)])
         found = data[f"{s.name}.output"].values
         assert np.any(reference)
-        np.testing.assert_allclose(found, reference, rtol=1e-9, atol=1e-9 * abs(reference).max(), err_msg=s.name)
+        np.testing.assert_allclose(
+            found, reference, rtol=1e-9, atol=1e-9 * abs(reference).max(), err_msg=s.name
+        )
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
@@ -75,5 +83,7 @@ def test_attractor_dynamics():
             phi = fields.attractor(motor, phi, fields.stimulus(sources[motor.axis][0], float(k)), 1.0)
         found = data[f"{motor.name}.output"].values
         assert np.ptp(reference) > 1
-        np.testing.assert_allclose(found, reference, rtol=1e-9, atol=1e-9 * np.abs(reference).max(), err_msg=motor.name)
+        np.testing.assert_allclose(
+            found, reference, rtol=1e-9, atol=1e-9 * np.abs(reference).max(), err_msg=motor.name
+        )
         assert found[0] == found[9] and found[160] == found[200], f"{motor.name}: moves without a peak"

@@ -15,7 +15,9 @@ DT, TAU = 0.5, 20.0
 
 def seen(times, values, interpolation="hold", initial=0.0):
     model = dd.Model("changes", dt=DT)
-    source = model.add(TimeSeries("s", [X], times, np.multiply.outer(values, [1.0, -2.0, 0.0]), interpolation=interpolation))
+    source = model.add(
+        TimeSeries("s", [X], times, np.multiply.outer(values, [1.0, -2.0, 0.0]), interpolation=interpolation)
+    )
     source >> model.add(TransientDetector("detector", [X], tau=TAU, initial=initial))
     data = dd.simulate(model, 200, record=["detector.output", "detector.off"], precision="float64")
     return data["time"].values, data["detector.output"].values, data["detector.off"].values
@@ -31,7 +33,9 @@ def test_a_step_up_and_a_step_down():
     assert not off[before, 0].any() and not on[before, 1].any() and not on[:, 2].any() and not off[:, 2].any()
     # what is gone is what the slow copy still has of it
     slow = 3.0 - pulse[t == 120][0]
-    np.testing.assert_allclose(off[~before, 0], (slow - 1.0) * (1 - DT / TAU) ** np.round((t[~before] - 120) / DT), atol=1e-12)
+    np.testing.assert_allclose(
+        off[~before, 0], (slow - 1.0) * (1 - DT / TAU) ** np.round((t[~before] - 120) / DT), atol=1e-12
+    )
 
 
 def test_a_steady_rise_gives_its_slope_times_tau():

@@ -10,7 +10,9 @@ import pytest
 from deodar.errors import DeodarError
 
 
-def refused(call: Callable[[], Any], error: type[DeodarError] | tuple[type[DeodarError], ...], *says: str) -> str:
+def refused(
+    call: Callable[[], Any], error: type[DeodarError] | tuple[type[DeodarError], ...], *says: str
+) -> str:
     """Run what must be refused; its message, one paragraph that holds every piece of `says`."""
     with pytest.raises(DeodarError) as caught:
         call()

@@ -79,7 +79,13 @@ def test_the_file_that_was_saved_loads(saved: Path) -> None:
 def test_missing(saved: Path) -> None:
     name = _array_file(saved).name
     _array_file(saved).unlink()
-    refused(lambda: dd.load(saved), DocumentError, "arrays: the array file", name, "is missing; it belongs beside the document")
+    refused(
+        lambda: dd.load(saved),
+        DocumentError,
+        "arrays: the array file",
+        name,
+        "is missing; it belongs beside the document",
+    )
 
 
 @pytest.mark.parametrize("where", ["parent", "absolute", "below", "backslash", "dots", "dot", "empty"])
@@ -121,7 +127,9 @@ def test_a_folder(saved: Path) -> None:
 def test_another_content(saved: Path) -> None:
     content = _array_file(saved).read_bytes()
     _array_file(saved).write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
-    refused(lambda: dd.load(saved), DocumentError, "not the one this document was saved with: its hash differs")
+    refused(
+        lambda: dd.load(saved), DocumentError, "not the one this document was saved with: its hash differs"
+    )
 
 
 @pytest.mark.parametrize("keep", [0, 1, 30, 0.5, -1])
@@ -135,7 +143,10 @@ def test_truncated(saved: Path, keep: float) -> None:
 
 
 CONTENTS: dict[str, tuple[Callable[[], bytes], str]] = {
-    "pickled objects": (lambda: _npz(array=np.array([Trap()], dtype=object)), "cannot be read as plain arrays"),
+    "pickled objects": (
+        lambda: _npz(array=np.array([Trap()], dtype=object)),
+        "cannot be read as plain arrays",
+    ),
     "a pickle": (lambda: pickle.dumps(Trap()), "cannot be read as plain arrays"),
     "a pickle inside": (lambda: _zip({"array.npy": pickle.dumps(Trap())}), "cannot be read as plain arrays"),
     "text": (lambda: b"hello", "cannot be read as plain arrays"),
@@ -144,9 +155,15 @@ CONTENTS: dict[str, tuple[Callable[[], bytes], str]] = {
     "infinite": (lambda: _npz(array=np.array([0.0, np.inf])), "does not hold finite numbers only"),
     "words": (lambda: _npz(array=np.array(["a", "b"])), "does not hold finite numbers only"),
     "complex": (lambda: _npz(array=np.array([1j])), "does not hold finite numbers only"),
-    "moments": (lambda: _npz(array=np.array(["2020-01-01"], dtype="datetime64[D]")), "does not hold finite numbers only"),
+    "moments": (
+        lambda: _npz(array=np.array(["2020-01-01"], dtype="datetime64[D]")),
+        "does not hold finite numbers only",
+    ),
     "a record": (lambda: _npz(array=np.zeros(2, dtype=[("a", float)])), "does not hold finite numbers only"),
-    "no such array": (lambda: _npz(other=np.ones(11)), "w.weights: the array 'array' is not in the document's array file"),
+    "no such array": (
+        lambda: _npz(other=np.ones(11)),
+        "w.weights: the array 'array' is not in the document's array file",
+    ),
     "a shape that lies": (lambda: _zip({"array.npy": _header((10**12,))}), "cannot be read as plain arrays"),
     "a shape below nothing": (lambda: _zip({"array.npy": _header((-5,))}), "cannot be read as plain arrays"),
 }
@@ -173,7 +190,9 @@ def _zip(entries: dict[str, bytes]) -> bytes:
 
 
 @pytest.mark.parametrize("name", CONTENTS)
-def test_content_that_is_not_plain_numbers(saved: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_content_that_is_not_plain_numbers(
+    saved: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     make, says = CONTENTS[name]
     _replace(saved, make())
     refused(lambda: dd.load(saved), DocumentError, says)
@@ -188,7 +207,16 @@ def test_a_bomb_is_refused_before_it_is_unpacked(saved: Path, monkeypatch: pytes
 
 
 @pytest.mark.parametrize(
-    "entry", [5, [], {}, {"file": "m.npz"}, {"sha256": "0"}, {"file": 5, "sha256": "0"}, {"file": "m.npz", "sha256": "0", "url": "x"}]
+    "entry",
+    [
+        5,
+        [],
+        {},
+        {"file": "m.npz"},
+        {"sha256": "0"},
+        {"file": 5, "sha256": "0"},
+        {"file": "m.npz", "sha256": "0", "url": "x"},
+    ],
 )
 def test_an_entry_that_is_none(saved: Path, entry: Any) -> None:
     saved.write_text(json.dumps(_data(saved) | {"arrays": entry}))

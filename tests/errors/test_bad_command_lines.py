@@ -25,7 +25,11 @@ CALLS: dict[str, tuple[list[str], int, tuple[str, ...]]] = {
     "an unknown option": (["--verbos"], 2, ("deodar --help",)),
     "check: nothing": (["check"], 2, ("FILE", "Type: deodar check --help")),
     "check: an unknown option": (["check", GOOD, "--force"], 2, ("--force",)),
-    "check: missing": (["check", "god.json"], 1, ("god.json: there is no such file", "Did you mean 'good.json'?")),
+    "check: missing": (
+        ["check", "god.json"],
+        1,
+        ("god.json: there is no such file", "Did you mean 'good.json'?"),
+    ),
     "check: a folder": (["check", "."], 1, ("is not a file",)),
     "check: a pipe": (["check", "pipe"], 1, ("is not a file",)),
     "check: no JSON": (["check", BAD], 1, ("bad.json: is not JSON",)),

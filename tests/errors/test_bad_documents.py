@@ -1,4 +1,6 @@
-"""Documents that are broken, foreign, or made to harm: a valid document, or one DocumentError that says where."""
+"""Documents that are broken, foreign, or made to harm: a valid document, or one DocumentError that says
+where.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,11 @@ def rich() -> dd.Model:
     """A model that uses every part of a document."""
     model = dd.Model("rich", time_unit="ms", dt=0.5)
     u = model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2), Shifted(dd.Gaussian(), 1.0)], noise=0.1))
-    v = model.add(dd.Field("v", [X, HUE], kernel=[dd.Gaussian(sigma=[2, 30], boundary=["zero", "periodic"])]), group="g.inner", ticks=2)
+    v = model.add(
+        dd.Field("v", [X, HUE], kernel=[dd.Gaussian(sigma=[2, 30], boundary=["zero", "periodic"])]),
+        group="g.inner",
+        ticks=2,
+    )
     boost = model.add(Boost("boost", windows=[(0, 5)]))
     product = model.add(Product(name="gate"))
     f = model.add(Function("f", [X], values={"rate": 0.5}))
@@ -83,9 +89,22 @@ def _with(data: Any, at: tuple[Any, ...], value: Any) -> Any:
 
 
 VALUES: dict[str, Any] = {
-    "null": None, "text": "x", "empty text": "", "minus one": -1, "zero": 0, "half": 0.5, "list": [], "object": {}, "true": True,
-    "nested": [[{}]], "kind": {"kind": "Field"}, "huge": 10**250, "tiny": 1e-300, "infinite": float("inf"), "half a character": "\ud800",
-}  # fmt: skip
+    "null": None,
+    "text": "x",
+    "empty text": "",
+    "minus one": -1,
+    "zero": 0,
+    "half": 0.5,
+    "list": [],
+    "object": {},
+    "true": True,
+    "nested": [[{}]],
+    "kind": {"kind": "Field"},
+    "huge": 10**250,
+    "tiny": 1e-300,
+    "infinite": float("inf"),
+    "half a character": "\ud800",
+}
 
 
 def _read(data: Any) -> Document | None:
@@ -113,7 +132,9 @@ def test_any_value_at_any_place(what: str) -> None:
             taken += 1
             if what not in ("infinite", "half a character"):
                 again = files.to_data(doc)
-                assert files.from_data(*again) == doc, f"{at}: what loads is written and read again as the same"
+                assert files.from_data(*again) == doc, (
+                    f"{at}: what loads is written and read again as the same"
+                )
     assert refusals > 100
     assert taken + refusals == len(list(_places(DATA)))
 
@@ -157,7 +178,10 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "lists without end": (b"[" * 100_000, ("nested deeper than 64 levels",)),
     "lists 100,000 deep": (b"[" * 100_000 + b"]" * 100_000, ("nested deeper than 64 levels",)),
     "objects 100,000 deep": (b'{"a":' * 100_000 + b"1" + b"}" * 100_000, ("nested deeper than 64 levels",)),
-    "65 levels": (b'{"deodar": 1, "layout": ' + b"[" * 64 + b"]" * 64 + b"}", ("nested deeper than 64 levels",)),
+    "65 levels": (
+        b'{"deodar": 1, "layout": ' + b"[" * 64 + b"]" * 64 + b"}",
+        ("nested deeper than 64 levels",),
+    ),
     "1e999": (b'{"deodar": 1, "dt": 1e999}', ("holds the number 1e999, which is not finite",)),
     "-1e999": (b'{"deodar": 1, "dt": -1e999}', ("holds the number -1e999, which is not finite",)),
     "NaN": (b'{"deodar": 1, "dt": NaN}', ("holds the number NaN, which is not finite",)),
@@ -165,9 +189,13 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "10,000 digits": (b'{"deodar": 1, "dt": ' + b"9" * 10_000 + b"}", ("holds a number of 10000 digits",)),
     "400 digits": (b'{"deodar": 1, "t0": ' + b"9" * 400 + b"}", ("holds a number of 400 digits",)),
     "a key twice": (b'{"deodar": 1, "name": "a", "name": "b"}', ("the key 'name' occurs twice",)),
-    "a key twice inside": (b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 1, "tau": 2}}}', ("elements.u: the key 'tau' occurs twice",)),
+    "a key twice inside": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 1, "tau": 2}}}',
+        ("elements.u: the key 'tau' occurs twice",),
+    ),
     "several keys several times": (
-        b'{"deodar": 1, "layout": {"a": [{"b": 1, "b": 2, "b": 3}]}, "elements": {"u": {"kind": "Field"}, "u": {"kind": "Field"}}}',
+        b'{"deodar": 1, "layout": {"a": [{"b": 1, "b": 2, "b": 3}]}, '
+        b'"elements": {"u": {"kind": "Field"}, "u": {"kind": "Field"}}}',
         ("elements: the key 'u' occurs twice", "layout.a.0: the key 'b' occurs 3 times"),
     ),
     "no elements": (b'{"deodar": 1, "name": "a", "axes": {}}', ("elements: is missing", '"elements": {}')),
@@ -176,52 +204,86 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "a number": (b"5", ("is not a deodar document: it holds int",)),
     "null": (b"null", ("is not a deodar document",)),
     "of another program": (b'{"meta": {"format": 1}, "steps": {}}', ("has no key 'deodar'",)),
-    "of another version": (b'{"deodar": 4, "elements": {}}', ("of version 4; this deodar reads versions 1 to 3", "pip install --upgrade")),
+    "of another version": (
+        b'{"deodar": 4, "elements": {}}',
+        ("of version 4; this deodar reads versions 1 to 3", "pip install --upgrade"),
+    ),
     "of a version in words": (b'{"deodar": "1", "elements": {}}', ("is a document of version '1'",)),
     "of no version": (b'{"deodar": true, "elements": {}}', ("is a document of version True",)),
-    "an unknown kind": (b'{"deodar": 1, "elements": {"u": {"kind": "Feild"}}}', ("u: ", "'Feild'", "Did you mean 'Field'?")),
+    "an unknown kind": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Feild"}}}',
+        ("u: ", "'Feild'", "Did you mean 'Field'?"),
+    ),
     "a kernel as an element": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Gaussian"}}}',
         ("u: a Gaussian cannot stand here, where an Element belongs",),
     ),
-    "a world as an element": (b'{"deodar": 1, "elements": {"u": {"kind": "Picture"}}}', ("a Picture cannot stand here",)),
-    "an element without a kind": (b'{"deodar": 1, "elements": {"u": {"tau": 5}}}', ("u: needs an object with a kind",)),
+    "a world as an element": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Picture"}}}',
+        ("a Picture cannot stand here",),
+    ),
+    "an element without a kind": (
+        b'{"deodar": 1, "elements": {"u": {"tau": 5}}}',
+        ("u: needs an object with a kind",),
+    ),
     "a misspelt parameter": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tua": 5}}}',
         ("u.tua: Field has no such parameter", "Did you mean 'tau'?"),
     ),
-    "an unknown axis": (b'{"deodar": 1, "elements": {"u": {"kind": "Field", "axes": ["x"]}}}', ("u.axes", "not among the document's axes")),
+    "an unknown axis": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field", "axes": ["x"]}}}',
+        ("u.axes", "not among the document's axes"),
+    ),
     "an axis upside down": (
         b'{"deodar": 1, "axes": {"x": {"lower": 1, "upper": 0, "samples": 5}}, "elements": {}}',
         ("axes.x: lower 1 is not below",),
     ),
-    "an axis without an end": (b'{"deodar": 1, "axes": {"x": {"lower": 1, "samples": 5}}, "elements": {}}', ("axes.x: has no upper",)),
-    "a value out of range": (b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 0}}}', ("u.tau: is 0, below its lower bound",)),
-    "an element twice": (b'{"deodar": 1, "elements": {"u": {"kind": "Field"}, "\\"u\\"": {"kind": "Field"}}}', ("stands there twice",)),
+    "an axis without an end": (
+        b'{"deodar": 1, "axes": {"x": {"lower": 1, "samples": 5}}, "elements": {}}',
+        ("axes.x: has no upper",),
+    ),
+    "a value out of range": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 0}}}',
+        ("u.tau: is 0, below its lower bound",),
+    ),
+    "an element twice": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}, "\\"u\\"": {"kind": "Field"}}}',
+        ("stands there twice",),
+    ),
     "an element in an element": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Field"}, "u.v": {"kind": "Field"}}}',
         ("elements.u.v: cannot stand inside",),
     ),
     "an element without a name": (b'{"deodar": 1, "elements": {"": {"kind": "Field"}}}', ("elements",)),
-    "an open quotation mark": (b'{"deodar": 1, "elements": {"\\"u": {"kind": "Field"}}}', ("never closes it",)),
+    "an open quotation mark": (
+        b'{"deodar": 1, "elements": {"\\"u": {"kind": "Field"}}}',
+        ("never closes it",),
+    ),
     "an id twice": (
-        b'{"deodar": 1, "elements": {"u": {"kind": "Field", "id": "00000001"}, "v": {"kind": "Field", "id": "00000001"}}}',
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field", "id": "00000001"}, '
+        b'"v": {"kind": "Field", "id": "00000001"}}}',
         ("elements.v.id: 00000001 belongs to another element too",),
     ),
-    "an id of words": (b'{"deodar": 1, "elements": {"u": {"kind": "Field", "id": "../../x"}}}', ("elements.u.id", "eight hexadecimal digits")),
+    "an id of words": (
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field", "id": "../../x"}}}',
+        ("elements.u.id", "eight hexadecimal digits"),
+    ),
     "a connection from nowhere": (
-        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}}, "connections": [{"source": "w", "target": "u"}]}',
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}}, "connections": [{"source": "w", '
+        b'"target": "u"}]}',
         ("connections.0: nothing is called 'w'",),
     ),
     "a link to nothing": (
-        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}}, "parameters": {"k": {"value": 1, "links": ["u.tua"]}}}',
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}}, "parameters": {"k": {"value": 1, '
+        b'"links": ["u.tua"]}}}',
         ("parameters.k", "Did you mean 'tau'?"),
     ),
     "a link to a port": (
-        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}}, "parameters": {"k": {"value": 1, "links": ["u.output"]}}}',
+        b'{"deodar": 1, "elements": {"u": {"kind": "Field"}}, "parameters": {"k": {"value": 1, '
+        b'"links": ["u.output"]}}}',
         ("parameters.k", "is a port, not a parameter"),
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", RAW)
@@ -237,13 +299,24 @@ def test_all_problems_at_once(tmp_path: Path) -> None:
     path.write_text(
         json.dumps(
             {
-                "deodar": 1, "nmae": "x", "dt": -1, "time_unit": "hours",
+                "deodar": 1,
+                "nmae": "x",
+                "dt": -1,
+                "time_unit": "hours",
                 "axes": {"x": {"lower": 0, "upper": 0, "samples": 5}},
-                "elements": {"u": {"kind": "Field", "tau": -1, "noise": -1, "kernel": [{"kind": "Gaussian", "sigma": 0}]}, "v": {"kind": "Feild"}},
+                "elements": {
+                    "u": {
+                        "kind": "Field",
+                        "tau": -1,
+                        "noise": -1,
+                        "kernel": [{"kind": "Gaussian", "sigma": 0}],
+                    },
+                    "v": {"kind": "Feild"},
+                },
                 "groups": [5],
             }
         )
-    )  # fmt: skip
+    )
     text = refused(lambda: dd.load(path), DocumentError, "9 problems")
     for place in ("nmae", "dt", "time_unit", "axes.x", "u.tau", "u.noise", "u.kernel.0.sigma", "v", "groups"):
         assert f": {place}: " in text or f"{place} " in text, place
@@ -251,10 +324,17 @@ def test_all_problems_at_once(tmp_path: Path) -> None:
 
 def test_a_file_that_is_not_there_suggests_the_nearest(tmp_path: Path) -> None:
     dd.save(dd.Model("m"), tmp_path / "selection.json")
-    refused(lambda: dd.load(tmp_path / "selecton.json"), DocumentError, "there is no such file", "Did you mean 'selection.json'?")
+    refused(
+        lambda: dd.load(tmp_path / "selecton.json"),
+        DocumentError,
+        "there is no such file",
+        "Did you mean 'selection.json'?",
+    )
 
 
-@pytest.mark.parametrize("path", [".", "", "no/such/folder/file.json", "a" * 300, "nul\0byte.json", 5, None, b"bytes"])
+@pytest.mark.parametrize(
+    "path", [".", "", "no/such/folder/file.json", "a" * 300, "nul\0byte.json", 5, None, b"bytes"]
+)
 def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: Any) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DocumentError) as caught:

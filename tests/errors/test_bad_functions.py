@@ -26,7 +26,8 @@ def stranger(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A module that leaves a mark when it is imported, and a document that names a function of it."""
     mark = tmp_path / "it ran"
     (tmp_path / "strangers_module.py").write_text(
-        f"from pathlib import Path\nPath({str(mark)!r}).write_text('x')\ndef step(state, inputs, time):\n    return state + inputs['input']\n"
+        f"from pathlib import Path\nPath({str(mark)!r}).write_text('x')\ndef step(state, inputs, time):\n   "
+        " return state + inputs['input']\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
     model = dd.Model("strange")
@@ -38,7 +39,9 @@ def stranger(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     sys.modules.pop("strangers_module", None)
 
 
-def test_reading_checking_and_editing_never_import_it(stranger: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_reading_checking_and_editing_never_import_it(
+    stranger: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = stranger.with_name("strange.json")
     model = dd.load(path)
     assert model.check() == []
@@ -54,10 +57,18 @@ def test_reading_checking_and_editing_never_import_it(stranger: Path, capsys: py
     capsys.readouterr()
 
 
-@pytest.mark.parametrize("run", [lambda m: dd.simulate(m, 5, record="f.output"), dd.Session], ids=["simulate", "Session"])
+@pytest.mark.parametrize(
+    "run", [lambda m: dd.simulate(m, 5, record="f.output"), dd.Session], ids=["simulate", "Session"]
+)
 def test_running_it_is_refused_until_it_is_trusted(stranger: Path, run: Callable[[dd.Model], Any]) -> None:
     path = stranger.with_name("strange.json")
-    refused(lambda: run(dd.load(path)), Untrusted, "f: the document asks to run the function 'strangers_module:step'", "trust=True", "--trust")
+    refused(
+        lambda: run(dd.load(path)),
+        Untrusted,
+        "f: the document asks to run the function 'strangers_module:step'",
+        "trust=True",
+        "--trust",
+    )
     assert not stranger.exists()
 
 
@@ -69,7 +80,9 @@ def test_trust_runs_it(stranger: Path) -> None:
 
 
 def test_a_trusted_model_does_not_lend_its_trust(stranger: Path) -> None:
-    """A stranger's document inserted into a model of one's own is as foreign as before; trust is said where it is read."""
+    """A stranger's document inserted into a model of one's own is as foreign as before; trust is said where
+    it is read.
+    """
     path = stranger.with_name("strange.json")
     loaded = dd.load(path)
     loaded.insert(dd.load(path), "twin")
@@ -120,24 +133,42 @@ NOT_A_FUNCTION = 5
 
 FUNCTIONS: dict[str, tuple[Any, type[Exception], tuple[str, ...]]] = {
     "raises": (
-        raises, ModelError,
-        ("f: ", "tests.errors.test_bad_functions:raises", "raised RuntimeError: no luck today", "function(state, inputs, time, **values)"),
+        raises,
+        ModelError,
+        (
+            "f: ",
+            "tests.errors.test_bad_functions:raises",
+            "raised RuntimeError: no luck today",
+            "function(state, inputs, time, **values)",
+        ),
     ),
-    "another shape": (wrong_shape, ModelError, ("f: ", "wrong_shape returned", "of shape [3]; its state has real numbers of shape [11]")),
+    "another shape": (
+        wrong_shape,
+        ModelError,
+        ("f: ", "wrong_shape returned", "of shape [3]; its state has real numbers of shape [11]"),
+    ),
     "one number": (one_number, ModelError, ("of shape []; its state has real numbers of shape [11]",)),
     "nothing": (nothing, ModelError, ("f: ", "nothing raised")),
     "words": (words, ModelError, ("f: ", "words raised")),
     "imaginary": (imaginary, ModelError, ("returned complex64 numbers",)),
     "not for JAX": (branches, ModelError, ("branches raised TracerBoolConversionError", "traced by JAX")),
     "too few arguments": (too_few, ModelError, ("too_few raised TypeError",)),
-    "not there": ("tests.errors.test_bad_functions:absent", UnknownName, ("f: ", "cannot be found", "module:name")),
+    "not there": (
+        "tests.errors.test_bad_functions:absent",
+        UnknownName,
+        ("f: ", "cannot be found", "module:name"),
+    ),
     "no such module": ("no_such_module_here:step", UnknownName, ("no_such_module_here",)),
-    "no function": ("tests.errors.test_bad_functions:NOT_A_FUNCTION", ModelError, ("is 5, which is no function",)),
+    "no function": (
+        "tests.errors.test_bad_functions:NOT_A_FUNCTION",
+        ModelError,
+        ("is 5, which is no function",),
+    ),
     "no colon": ("math", UnknownName, ("cannot be found", "module:name")),
     "nothing named": ("", UnknownName, ("cannot be found",)),
     "a colon alone": (":", UnknownName, ("cannot be found",)),
     "a relative name": (".module:step", UnknownName, ("cannot be found",)),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -153,7 +184,11 @@ def test_a_module_that_raises_when_it_is_imported(tmp_path: Path, monkeypatch: p
     monkeypatch.syspath_prepend(tmp_path)
     model = dd.Model("m")
     model.add(Function("f", [X], function="broken_module_of_mine:step"))
-    refused(lambda: dd.simulate(model, 5, record="f.output"), UnknownName, "cannot be found (RuntimeError: broken)")
+    refused(
+        lambda: dd.simulate(model, 5, record="f.output"),
+        UnknownName,
+        "cannot be found (RuntimeError: broken)",
+    )
 
 
 def test_where_a_users_function_raised_stays_visible() -> None:
@@ -180,7 +215,11 @@ def test_an_input_that_the_element_does_not_have() -> None:
 def test_a_function_that_divides_by_zero_names_element_and_step() -> None:
     model = dd.Model("m")
     model.add(Function("f", [X], function=undefined))
-    refused(lambda: dd.simulate(model, 5, record="f.output"), NotFinite, "f became infinite or undefined in step 1 (time 1 ms, dt 1)")
+    refused(
+        lambda: dd.simulate(model, 5, record="f.output"),
+        NotFinite,
+        "f became infinite or undefined in step 1 (time 1 ms, dt 1)",
+    )
 
 
 def test_a_model_made_of_a_strangers_document_does_not_run_its_functions(stranger: Path) -> None:

@@ -58,11 +58,18 @@ def _broken_link(path: Path) -> None:
 
 @pytest.mark.parametrize("make", [_folder, _pipe, _link, _broken_link])
 @pytest.mark.parametrize("force", [False, True])
-def test_what_is_no_regular_file_is_never_written(tmp_path: Path, model: dd.Model, make: Callable[[Path], None], force: bool) -> None:
+def test_what_is_no_regular_file_is_never_written(
+    tmp_path: Path, model: dd.Model, make: Callable[[Path], None], force: bool
+) -> None:
     path = tmp_path / "m.json"
     make(path)
     before = _listing(tmp_path)
-    refused(lambda: dd.save(model, path, force=force), OutputExists, "exists and is not a regular file", "Choose another name")
+    refused(
+        lambda: dd.save(model, path, force=force),
+        OutputExists,
+        "exists and is not a regular file",
+        "Choose another name",
+    )
     assert _listing(tmp_path) == before
     assert not (tmp_path / "other.txt").exists() or (tmp_path / "other.txt").read_text() == "precious"
 
@@ -80,7 +87,10 @@ def _bad(tmp_path: Path, what: str) -> Any:
     }[what]
 
 
-@pytest.mark.parametrize("what", ["no folder", "a file as a folder", "too long", "a nul", "half a character", "a number", "nothing"])
+@pytest.mark.parametrize(
+    "what",
+    ["no folder", "a file as a folder", "too long", "a nul", "half a character", "a number", "nothing"],
+)
 def test_places_where_nothing_can_be_written(tmp_path: Path, model: dd.Model, what: str) -> None:
     path = _bad(tmp_path, what)
     before = _listing(tmp_path)
@@ -88,30 +98,45 @@ def test_places_where_nothing_can_be_written(tmp_path: Path, model: dd.Model, wh
     assert _listing(tmp_path) == before
 
 
-def test_a_folder_that_cannot_be_written_to(tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_to(
+    tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(output.os, "access", lambda path, mode: False)
     refused(lambda: dd.save(model, tmp_path / "m.json"), OutputError, "cannot be written to", str(tmp_path))
     assert _listing(tmp_path) == []
 
 
-def test_a_folder_that_refuses_after_all(tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_refuses_after_all(
+    tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def refuse(*args: Any, **kwargs: Any) -> Any:
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(tempfile, "mkstemp", refuse)
-    refused(lambda: dd.save(model, tmp_path / "m.json"), OutputError, "cannot be written: Permission denied", "m.json")
+    refused(
+        lambda: dd.save(model, tmp_path / "m.json"),
+        OutputError,
+        "cannot be written: Permission denied",
+        "m.json",
+    )
     assert _listing(tmp_path) == []
 
 
 @pytest.mark.parametrize("method", ["write_bytes", "replace"])
-def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch, method: str) -> None:
+def test_a_full_disk_leaves_nothing_behind(
+    tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch, method: str
+) -> None:
     (tmp_path / "m.json").write_text("precious")
 
     def full(self: Path, *args: Any) -> Any:
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, method, full)
-    refused(lambda: dd.save(model, tmp_path / "m.json", force=True), OutputError, "cannot be written: No space left on device")
+    refused(
+        lambda: dd.save(model, tmp_path / "m.json", force=True),
+        OutputError,
+        "cannot be written: No space left on device",
+    )
     assert _listing(tmp_path) == ["m.json"]
     assert (tmp_path / "m.json").read_text() == "precious"
 

@@ -33,16 +33,33 @@ def _chunk(kind: bytes, content: bytes) -> bytes:
 def _claims(width: int, height: int) -> bytes:
     """A PNG of a few bytes that says it has so many pixels."""
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", head) + _chunk(b"IDAT", zlib.compress(b"\0" * 100)) + _chunk(b"IEND", b"")
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + _chunk(b"IHDR", head)
+        + _chunk(b"IDAT", zlib.compress(b"\0" * 100))
+        + _chunk(b"IEND", b"")
+    )
 
 
 def test_a_missing_picture(tmp_path: Path) -> None:
     path = tmp_path / "photo.jpg"
-    refused(lambda: Picture(path), WorldError, str(path), "there is no such picture", "such as a .jpg or .png")
+    refused(
+        lambda: Picture(path), WorldError, str(path), "there is no such picture", "such as a .jpg or .png"
+    )
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"hello", b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff\xe0", bytes(range(256)) * 40, b"GIF89a", b"<svg/>", b"BM" + b"\xff" * 60]
+    "content",
+    [
+        b"",
+        b"hello",
+        b"\x89PNG\r\n\x1a\n",
+        b"\xff\xd8\xff\xe0",
+        bytes(range(256)) * 40,
+        b"GIF89a",
+        b"<svg/>",
+        b"BM" + b"\xff" * 60,
+    ],
 )
 def test_a_file_that_is_no_picture(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "photo.jpg"
@@ -101,7 +118,9 @@ def test_arrays_that_are_no_pictures(pixels: np.ndarray) -> None:
 @pytest.mark.parametrize("kind", ["L", "RGBA", "P", "1", "CMYK", "I", "LA"])
 def test_pictures_of_every_mode_are_read_as_colour(tmp_path: Path, kind: str) -> None:
     path = tmp_path / "photo.tiff"
-    Image.new(kind, (8, 6)).save(path) if kind not in ("P", "LA") else Image.new(kind, (8, 6)).save(path := tmp_path / "photo.png")
+    Image.new(kind, (8, 6)).save(path) if kind not in ("P", "LA") else Image.new(kind, (8, 6)).save(
+        path := tmp_path / "photo.png"
+    )
     assert Picture(path).size == (8, 6)
 
 
@@ -135,12 +154,20 @@ def test_a_sensor_that_the_world_does_not_have() -> None:
 def test_a_sensor_over_axes_that_a_picture_cannot_fill() -> None:
     model = dd.Model("m")
     model.add(Sensor("eye", AXES[:2]))
-    refused(lambda: dd.simulate(model, duration=1, record="eye.output", world=Picture.example()), WorldError, "two dimensions and three channels")
+    refused(
+        lambda: dd.simulate(model, duration=1, record="eye.output", world=Picture.example()),
+        WorldError,
+        "two dimensions and three channels",
+    )
 
 
 @pytest.mark.parametrize("world", ["photo.jpg", 5, Picture, object()])
 def test_what_is_no_world(world: Any) -> None:
-    refused(lambda: dd.simulate(_sensing(), duration=1, record="eye.output", world=world), WorldError, "is no world")
+    refused(
+        lambda: dd.simulate(_sensing(), duration=1, record="eye.output", world=world),
+        WorldError,
+        "is no world",
+    )
 
 
 @pytest.mark.parametrize("reading", [np.zeros((16, 16)), np.full((16, 16, 3), np.nan), "picture", None])
@@ -150,8 +177,17 @@ def test_a_world_that_gives_something_else(reading: Any) -> None:
             return reading
 
     world = Broken(np.zeros((4, 4, 3)))
-    refused(lambda: dd.simulate(_sensing(), duration=1, record="eye.output", world=world), WorldError, "picture", "it needs [16, 16, 3]")
+    refused(
+        lambda: dd.simulate(_sensing(), duration=1, record="eye.output", world=world),
+        WorldError,
+        "picture",
+        "it needs [16, 16, 3]",
+    )
 
 
 def test_an_unknown_port_of_a_sensor() -> None:
-    refused(lambda: dd.simulate(_sensing(), duration=1, record="eye.outptu", world=Picture.example()), UnknownName, "Did you mean 'output'?")
+    refused(
+        lambda: dd.simulate(_sensing(), duration=1, record="eye.outptu", world=Picture.example()),
+        UnknownName,
+        "Did you mean 'output'?",
+    )

@@ -13,7 +13,9 @@ KINDS = [e for e in vars(errors).values() if isinstance(e, type) and issubclass(
 
 
 def test_what_where_and_fix_stand_in_one_paragraph() -> None:
-    error = errors.ParameterError("is -1, below its lower bound 0", where="u.noise", fix="Take a number above 0")
+    error = errors.ParameterError(
+        "is -1, below its lower bound 0", where="u.noise", fix="Take a number above 0"
+    )
     assert str(error) == "u.noise: is -1, below its lower bound 0. Take a number above 0"
     assert error.problems == (Problem("u.noise", "is -1, below its lower bound 0", "Take a number above 0"),)
 
@@ -33,7 +35,11 @@ def test_one_problem_is_no_list() -> None:
         ("restng_level", ["tau", "resting_level"], "Did you mean 'resting_level'?"),
         ("zzz", ["tau", "noise"], "There is: noise, tau"),
         ("zzz", [], ""),
-        ("zzz", [f"name{i:02}" for i in range(30)], "There is: " + ", ".join(f"name{i:02}" for i in range(12)) + ", ..."),
+        (
+            "zzz",
+            [f"name{i:02}" for i in range(30)],
+            "There is: " + ", ".join(f"name{i:02}" for i in range(12)) + ", ...",
+        ),
     ],
 )
 def test_did_you_mean(name: str, known: list[str], hint: str) -> None:
@@ -42,7 +48,10 @@ def test_did_you_mean(name: str, known: list[str], hint: str) -> None:
 
 def test_a_missing_extra_says_what_to_install() -> None:
     error = MissingExtra("cv2", "vision", "the camera")
-    assert str(error) == "the camera needs the package cv2, which is not installed. Type: pip install 'deodar[vision]'"
+    assert (
+        str(error)
+        == "the camera needs the package cv2, which is not installed. Type: pip install 'deodar[vision]'"
+    )
 
 
 def test_an_interrupted_run_holds_its_data() -> None:
@@ -55,7 +64,9 @@ def test_every_error_is_one_of_ours_and_says_when_it_is_raised(kind: type[Deodar
     assert kind.__doc__ and (kind is DeodarError or "aised" in kind.__doc__)
 
 
-@pytest.mark.parametrize("kind", [k for k in KINDS if k not in (MissingExtra, Interrupted)], ids=lambda k: k.__name__)
+@pytest.mark.parametrize(
+    "kind", [k for k in KINDS if k not in (MissingExtra, Interrupted)], ids=lambda k: k.__name__
+)
 def test_errors_travel_between_processes(kind: type[DeodarError]) -> None:
     error = kind([Problem("u", "one"), Problem("v", "two")])
     again = pickle.loads(pickle.dumps(error))

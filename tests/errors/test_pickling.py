@@ -20,4 +20,9 @@ MADE = [
 @pytest.mark.parametrize("error", MADE, ids=lambda e: type(e).__name__)
 def test_nothing_is_lost(error: errors.DeodarError) -> None:
     there = pickle.loads(pickle.dumps(error))
-    assert type(there) is type(error) and str(there) == str(error) and there.problems == error.problems and vars(there) == vars(error)
+    assert (
+        type(there) is type(error)
+        and str(there) == str(error)
+        and there.problems == error.problems
+        and vars(there) == vars(error)
+    )

@@ -7,7 +7,11 @@ from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
 from deodar.worlds.arena import Arena
 
-ROOM = {"unit": "cm", "arena": {"x": [0, 100], "y": [0, 40]}, "walls": [{"name": "far", "center": [97, 20], "size": [4, 40]}]}
+ROOM = {
+    "unit": "cm",
+    "arena": {"x": [0, 100], "y": [0, 40]},
+    "walls": [{"name": "far", "center": [97, 20], "size": [4, 40]}],
+}
 
 
 def straight(speed=500.0):

@@ -30,7 +30,9 @@ def test_the_courses_are_those_of_single_trials():
     many = run_batch(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
     assert len({c.duration for c in many}) > 2
     for trial, course in zip([7, 0, 3, 1], many, strict=True):
-        one = run_trial(decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64")
+        one = run_trial(
+            decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64"
+        )
         np.testing.assert_array_equal(course.times, one.times)
         np.testing.assert_allclose(course.values["u.activation"], one.values["u.activation"], atol=1e-10)
         assert (course.outcome, course.events) == (one.outcome, one.events)
@@ -52,13 +54,18 @@ def test_a_smaller_batch_is_not_compiled_for_little():
 
 
 def test_the_same_call_gives_the_same_bits():
-    first, second = (run_batch(decider(), 300, range(6), ["u.activation"], [DECIDED], every=5) for _ in range(2))
+    first, second = (
+        run_batch(decider(), 300, range(6), ["u.activation"], [DECIDED], every=5) for _ in range(2)
+    )
     for a, b in zip(first, second, strict=True):
         np.testing.assert_array_equal(a.values["u.activation"], b.values["u.activation"])
 
 
 def test_the_mean_time_of_a_decision_falls_with_noise():
-    times = [np.median([c.duration for c in run_batch(decider(noise), 3000, range(40), events=[DECIDED], every=5)]) for noise in (2.0, 4.0)]
+    times = [
+        np.median([c.duration for c in run_batch(decider(noise), 3000, range(40), events=[DECIDED], every=5)])
+        for noise in (2.0, 4.0)
+    ]
     assert times[0] > 3 * times[1]
 
 
@@ -66,31 +73,42 @@ def test_fields_are_looked_at_too():
     model = dd.Model("line")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)], tau=10, resting_level=-1, noise=0.5))
     courses = run_batch(model, 50, [4, 5], ["u.activation"], every=10)
-    assert [c.values["u.activation"].shape for c in courses] == [(6, 11)] * 2 and {c.outcome for c in courses} == {"time"}
+    assert [c.values["u.activation"].shape for c in courses] == [(6, 11)] * 2 and {
+        c.outcome for c in courses
+    } == {"time"}
 
 
 def test_each_trial_has_a_world_of_its_own_and_leaves_with_it():
     model, starts = straight(), [(10, 20, 0), (60, 20, 0), (35, 20, 0), (75, 20, 0)]
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
-    arena, there = room(start=starts, goal=[(80, 20)] * 4, slip=0.05), [Within("there", 5, "pose.output", "goal.output")]
+    arena, there = (
+        room(start=starts, goal=[(80, 20)] * 4, slip=0.05),
+        [Within("there", 5, "pose.output", "goal.output")],
+    )
     model.add(Sensor("goal", [dd.Axis("of", 0, 1, 2)], sensor="goal"))
     many = run_batch(model, 300, range(4), ["pose.output"], there, world=arena, precision="float64")
     assert len({c.duration for c in many}) == 4 and {c.outcome for c in many} == {"there"}
     assert sizes(model) == [1, 2, 4]
     for trial, course in enumerate(many):
-        one = run_trial(model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64")
+        one = run_trial(
+            model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64"
+        )
         np.testing.assert_array_equal(course.times, one.times)
         np.testing.assert_allclose(course.values["pose.output"], one.values["pose.output"], atol=1e-10)
         assert course.values["pose.output"][0, 0] == starts[trial][0]
 
 
 def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_change(tmp_path, monkeypatch):
-    """Single precision; half of the trials of each batch end early, so that it becomes narrower on the way."""
+    """Single precision; half of the trials of each batch end early, so that it becomes narrower on the
+    way.
+    """
     monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
     model = decider()
     model.add(dd.Field("v", [dd.Axis("x", 0, 500, 501)], tau=10, global_inhibition=0.1, noise=1.0))
     measures = [Measure("strongest", "v.activation", "max"), Measure("mean", "v.activation", "mean")]
-    experiment = Experiment("decide", model, 1e6, 8, [DECIDED], measures=measures, every=5)  # with much left, so that a narrower batch pays
+    experiment = Experiment(
+        "decide", model, 1e6, 8, [DECIDED], measures=measures, every=5
+    )  # with much left, so that a narrower batch pays
     whole = experiment.run(tmp_path / "whole")
     assert sizes(model) == [1, 2, 4] and len(set(whole["duration"].values.tolist())) > 4
 
@@ -117,6 +135,12 @@ def test_what_cannot_be_is_refused():
     with pytest.raises(WorldError, match="no world was given"):
         run_batch(model, 10, [1], ["heading.output"])
     eye = dd.Model("eye")
-    eye.add(Sensor("camera", [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 3, 4), dd.Axis("channel", 0, 2, 3)], sensor="camera"))
+    eye.add(
+        Sensor(
+            "camera",
+            [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 3, 4), dd.Axis("channel", 0, 2, 3)],
+            sensor="camera",
+        )
+    )
     with pytest.raises(WorldError, match="Picture cannot be computed for a batch of copies"):
         run_batch(eye, 10, [1], ["camera.output"], world=Picture.example())

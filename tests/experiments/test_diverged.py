@@ -36,7 +36,9 @@ PROGRAMS: dict[Any, Any] = {}
 
 
 def model(factor: float = 0.1) -> dd.Model:
-    """A node that a loop makes grow without bound where the factor is large, and one beside it that noise drives."""
+    """A node that a loop makes grow without bound where the factor is large, and one beside it that noise
+    drives.
+    """
     made = dd.Model("runaway")
     made.programs = PROGRAMS
     u = made.add(dd.Field("u", [], tau=10, sigmoid=dd.Logistic(beta=1), resting_level=1.0))
@@ -46,7 +48,11 @@ def model(factor: float = 0.1) -> dd.Model:
 
 
 def experiment(factors: Sequence[float], trials: int = 3, **others: object) -> Experiment:
-    given = {"conditions": [LATE, RISEN], "factors": [Factor("factor", list(factors), "g.factor")], "measures": MEASURES}
+    given = {
+        "conditions": [LATE, RISEN],
+        "factors": [Factor("factor", list(factors), "g.factor")],
+        "measures": MEASURES,
+    }
     return Experiment("runaway", model(), 80, trials, **given | others)  # type: ignore[arg-type]
 
 
@@ -58,17 +64,26 @@ def finished(made: Experiment, *args: object, says: str = "3 of 9 trials diverge
 
 
 def test_the_trial_is_a_row_with_its_reason_and_the_others_keep_their_bits() -> None:
-    data = finished(experiment([0.1, 1e6, 0.3]), says="3 of 9 trials diverged; the variable 'diverged' gives the reasons, the first is: g became")
+    data = finished(
+        experiment([0.1, 1e6, 0.3]),
+        says="3 of 9 trials diverged; the variable 'diverged' gives the reasons, the first is: g became",
+    )
     bad = data["factor"].values == 1e6
     assert set(data["outcome"].values[bad]) == {"diverged"} and "diverged" not in data["outcome"].values[~bad]
-    assert all(text.startswith("g became infinite or undefined in step ") for text in data["diverged"].values[bad])
+    assert all(
+        text.startswith("g became infinite or undefined in step ") for text in data["diverged"].values[bad]
+    )
     assert set(data["diverged"].values[~bad]) == {""} and set(data["awaited"].values[bad]) == {""}
     good = experiment([0.1, 0.2, 0.3]).run()
     for name in ("duration", "late", "risen", "last", "risen to"):
         assert np.isnan(data[name].values[bad]).all()
         np.testing.assert_array_equal(data[name].values[~bad], good[name].values[~bad])
     assert data["outcome"].values[~bad].tolist() == good["outcome"].values[~bad].tolist()
-    assert "diverged" not in good and "diverged" not in good.attrs and np.isfinite(good["risen"].values[bad]).any()
+    assert (
+        "diverged" not in good
+        and "diverged" not in good.attrs
+        and np.isfinite(good["risen"].values[bad]).any()
+    )
 
 
 def test_the_place_of_the_warning_is_the_call() -> None:
@@ -90,7 +105,10 @@ def test_trials_run_one_by_one_give_the_same_rows() -> None:
 
 def test_a_coupling_that_is_looked_at_is_judged_one_by_one_as_in_a_batch() -> None:
     made = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
-    one, many = (finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged") for actions in ([Set(79, "v.tau", 10.0)], []))
+    one, many = (
+        finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged")
+        for actions in ([Set(79, "v.tau", 10.0)], [])
+    )
     assert (
         one["diverged"].values.tolist()
         == many["diverged"].values.tolist()
@@ -102,7 +120,9 @@ def test_a_coupling_that_is_looked_at_is_judged_one_by_one_as_in_a_batch() -> No
 def test_a_trial_that_has_ended_before_is_no_trial_that_diverged() -> None:
     step = _step(1e6)
     for at, outcome in ((step - 1, "early"), (step, "diverged")):
-        [course, _] = run_batch(model(), 80, [0, 1], events=[Reached("early", at)], values={"g.factor": [1e6, 0.1]}, tolerant=True)
+        [course, _] = run_batch(
+            model(), 80, [0, 1], events=[Reached("early", at)], values={"g.factor": [1e6, 0.1]}, tolerant=True
+        )
         assert course.outcome == outcome and (course.error is None) == (outcome == "early")
         assert run_trial(model(1e6), 80, events=[Reached("early", at)], tolerant=True).outcome == outcome
 
@@ -126,7 +146,9 @@ def test_the_reason_does_not_depend_on_chunks(monkeypatch: pytest.MonkeyPatch, s
         ("time", 81, "None"),
         ("diverged", 12, "g.output became infinite or undefined in step 12 (time 12 ms, dt 1)"),
     ]
-    assert np.isnan(courses[0].values["u.activation"]).all() and courses[0].values["u.activation"].shape == (7,)
+    assert np.isnan(courses[0].values["u.activation"]).all() and courses[0].values["u.activation"].shape == (
+        7,
+    )
 
 
 def test_a_batch_of_which_no_trial_is_left_raises_and_a_single_trial_too() -> None:
@@ -149,13 +171,20 @@ def test_those_that_diverged_leave_the_batch(monkeypatch: pytest.MonkeyPatch) ->
         made = model()
         made.programs = {}
         some = run_batch(made, 80, range(6), ["v.activation"], values=values)
-    assert sorted(p.batch.size for p in made.programs.values()) == [3, 6]  # of which one has diverged and fills it up
-    good = run_batch(model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]})
+    assert sorted(p.batch.size for p in made.programs.values()) == [
+        3,
+        6,
+    ]  # of which one has diverged and fills it up
+    good = run_batch(
+        model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]}
+    )
     for k in (1, 3):
         np.testing.assert_allclose(some[k].values["v.activation"], good[k].values["v.activation"], atol=1e-5)
 
 
-def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
     made = experiment([0.1, 1e6, 0.3], record=["u.activation"])
     data = finished(made, tmp_path / "whole")
@@ -166,7 +195,9 @@ def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(tmp_path: Path, mon
 
     with pytest.raises(KeyboardInterrupt):
         made.run(tmp_path / "part", progress=stop)
-    assert finished(made, tmp_path / "part").identical(data) and load_results(tmp_path / "part").identical(data)
+    assert finished(made, tmp_path / "part").identical(data) and load_results(tmp_path / "part").identical(
+        data
+    )
     assert (tmp_path / "part" / ROWS).read_bytes() == (tmp_path / "whole" / ROWS).read_bytes()
     table = (tmp_path / "whole" / "trials.csv").read_text()
     assert table.splitlines()[0] == "trial,factor,outcome,awaited,diverged,duration,late,risen,last,risen to"
@@ -174,17 +205,24 @@ def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(tmp_path: Path, mon
     assert read.identical(data) and read.attrs["diverged"] == data.attrs["diverged"]
     bad = int(np.flatnonzero(data["factor"].values == 1e6)[0])
     record = files.load_record(tmp_path / "whole" / "records" / f"{bad:06}.nc")
-    assert np.isnan(record["u.activation"].values).all() and data["diverged"].values[bad] in json.dumps(dict(record.attrs))
+    assert np.isnan(record["u.activation"].values).all() and data["diverged"].values[bad] in json.dumps(
+        dict(record.attrs)
+    )
 
 
-def test_the_command_counts_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_counts_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.chdir(tmp_path)
     experiment([0.1, 1e6, 0.3]).save("e.json")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert cli.main(["experiment", "e.json", "--no-progress", "--out", "out"]) == 0
     told = capsys.readouterr()
-    assert "factor 1e+06: 3 trials, diverged 100 %, no duration" in told.out and "9 trials: diverged 3, " in told.out
+    assert (
+        "factor 1e+06: 3 trials, diverged 100 %, no duration" in told.out
+        and "9 trials: diverged 3, " in told.out
+    )
     assert "deodar experiment: warning: 3 of 9 trials diverged; " in told.err
     assert cli.main(["experiment", "e.json", "--json", "--out", "out"]) == 0
     assert json.loads(capsys.readouterr().out)["diverged"] == 3

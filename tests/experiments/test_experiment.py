@@ -1,4 +1,6 @@
-"""Experiments as data: files, designs, batches and single trials with the same rows, and what is refused before anything runs."""
+"""Experiments as data: files, designs, batches and single trials with the same rows, and what is refused
+before anything runs.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +30,16 @@ def line():
     """A field that two inputs, from 20 ms on, bring to one peak."""
     x = dd.Axis("x", 0, 100, 51)
     model = dd.Model("choice")
-    u = model.add(dd.Field("u", [x], tau=10, resting_level=-5, kernel=[dd.Gaussian(1.2, 5)], global_inhibition=0.6, noise=1.0))
+    u = model.add(
+        dd.Field(
+            "u", [x], tau=10, resting_level=-5, kernel=[dd.Gaussian(1.2, 5)], global_inhibition=0.6, noise=1.0
+        )
+    )
     for name, center in (("left", 30), ("right", 70)):
-        model.add(dd.GaussianStimulus(name, [x], center=center, sigma=5, amplitude=6, windows=[(20, 80)])) >> u
+        (
+            model.add(dd.GaussianStimulus(name, [x], center=center, sigma=5, amplitude=6, windows=[(20, 80)]))
+            >> u
+        )
     return model
 
 
@@ -43,17 +52,30 @@ def choice(**changes):
             Appears("left up", "u", near=30, radius=8, ends=False),
             Vanishes("gone", "u"),
         ],
-        "factors": [Factor("strength", [6.0, 7.0], "left.amplitude"), Factor("place", {"a": {"right.center": 70}, "b": {"right.center": 60}})],
-        "measures": [Measure("where", "u.activation", "place", "detected"), Measure("end", "u.activation", "mean")],
+        "factors": [
+            Factor("strength", [6.0, 7.0], "left.amplitude"),
+            Factor("place", {"a": {"right.center": 70}, "b": {"right.center": 60}}),
+        ],
+        "measures": [
+            Measure("where", "u.activation", "place", "detected"),
+            Measure("end", "u.activation", "mean"),
+        ],
     }
     return Experiment("choice", line(), 150, precision="float64", **(given | changes))
 
 
 def test_a_file_says_the_same_again(tmp_path):
     full = choice(
-        actions=[Push(10, "u", 1.0, 5), Set(50, "u.resting_level", -6, when="detected"), Snapshot(30, "middle", ["u.activation"])],
-        record=["u.activation"], every=5, seed=3, design="shuffled",
-    )  # fmt: skip
+        actions=[
+            Push(10, "u", 1.0, 5),
+            Set(50, "u.resting_level", -6, when="detected"),
+            Snapshot(30, "middle", ["u.activation"]),
+        ],
+        record=["u.activation"],
+        every=5,
+        seed=3,
+        design="shuffled",
+    )
     full.save(tmp_path / "e.json")
     again = Experiment.load(tmp_path / "e.json")
     assert dc.replace(again, model=full.model) == full
@@ -65,8 +87,13 @@ def test_a_file_says_the_same_again(tmp_path):
 def test_the_schema_knows_every_kind():
     found = Experiment.schema()
     kinds = [part["properties"]["kind"]["const"] for part in found["properties"]["actions"]["items"]["oneOf"]]
-    assert {"Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"} == set(kinds)
-    assert found["properties"]["conditions"]["additionalProperties"]["oneOf"][0]["properties"]["level"]["type"] == "number"
+    assert {"Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"} == set(
+        kinds
+    )
+    assert (
+        found["properties"]["conditions"]["additionalProperties"]["oneOf"][0]["properties"]["level"]["type"]
+        == "number"
+    )
     json.dumps(found)
 
 
@@ -74,7 +101,9 @@ def test_a_batch_gives_the_rows_of_single_trials():
     experiment = choice()
     together = experiment.run()
     assert experiment.bench().batched and len(experiment.bench().pieces()) == 1
-    alone = dc.replace(experiment, actions=[Set(149, "u.tau", 10.0)])  # what is done changes nothing, but not in a batch
+    alone = dc.replace(
+        experiment, actions=[Set(149, "u.tau", 10.0)]
+    )  # what is done changes nothing, but not in a batch
     assert not alone.bench().batched
     single = alone.run()
     for name in ("outcome", "strength", "place"):
@@ -82,11 +111,16 @@ def test_a_batch_gives_the_rows_of_single_trials():
     for name in ("detected", "left up", "gone", "where", "end", "duration"):
         np.testing.assert_allclose(together[name].values, single[name].values, atol=1e-9)
     assert len(set(together["detected"].values.tolist())) > 4
-    assert all(27 < where < 33 or 55 < where < 65 for where in together["where"].sel(trial=together["place"] == "b").values.tolist())
+    assert all(
+        27 < where < 33 or 55 < where < 65
+        for where in together["where"].sel(trial=together["place"] == "b").values.tolist()
+    )
 
 
 def test_what_cannot_be_swept_has_batches_of_its_own():
-    experiment = choice(factors=[Factor("width", [4.0, 6.0], "u.kernel.0.sigma"), Factor("noise", [0.0, 1.0], "u.noise")])
+    experiment = choice(
+        factors=[Factor("width", [4.0, 6.0], "u.kernel.0.sigma"), Factor("noise", [0.0, 1.0], "u.noise")]
+    )
     assert sorted(map(len, experiment.bench().pieces())) == [8, 8] and experiment.bench().swept == ["u.noise"]
     assert experiment.run().sizes["trial"] == 16
 
@@ -96,14 +130,28 @@ def test_designs():
     crossed = assign(factors, "crossed", 2, 0)
     assert crossed[:3] == [(0, 0), (0, 0), (0, 1)] and len(crossed) == 12
     shuffled = assign(factors, "shuffled", 2, 0)
-    assert sorted(shuffled) == crossed != shuffled == assign(factors, "shuffled", 2, 0) != assign(factors, "shuffled", 2, 1)
+    assert (
+        sorted(shuffled)
+        == crossed
+        != shuffled
+        == assign(factors, "shuffled", 2, 0)
+        != assign(factors, "shuffled", 2, 1)
+    )
     drawn = assign(factors, "random", 300, 5)
     assert len(drawn) == 300 and min(drawn.count(cell) for cell in set(crossed)) > 25
 
 
 def test_conditions_of_conditions_and_the_one_awaited():
-    both = [Appears("left up", "u", near=30, radius=8, ends=False), Appears("right up", "u", near=95, radius=4, ends=False)]
-    conditions = [All("both", ["left up", "right up"]), AnyOf("either", ["left up", "right up"], ends=False), *both, Reached("late", 40, ends=False)]
+    both = [
+        Appears("left up", "u", near=30, radius=8, ends=False),
+        Appears("right up", "u", near=95, radius=4, ends=False),
+    ]
+    conditions = [
+        All("both", ["left up", "right up"]),
+        AnyOf("either", ["left up", "right up"], ends=False),
+        *both,
+        Reached("late", 40, ends=False),
+    ]
     data = choice(conditions=conditions, factors=[], measures=[]).run()
     assert set(data["outcome"].values) == {"time"} and set(data["awaited"].values) == {"both"}
     np.testing.assert_array_equal(data["either"], np.fmin(data["left up"], data["right up"]))
@@ -127,8 +175,12 @@ def test_a_stopped_experiment_goes_on_with_the_same_table(tmp_path, monkeypatch)
     assert 4 <= load_results(tmp_path / "part").sizes["trial"] < 16
     assert experiment.run(tmp_path / "part").identical(whole)
     for name in ("trials.csv", ROWS):
-        assert sorted((tmp_path / "part" / name).read_text().splitlines()) == sorted((tmp_path / "whole" / name).read_text().splitlines())
-    assert load_results(tmp_path / "whole").identical(whole) and files.load_record(tmp_path / "whole" / "trials.nc").identical(whole)
+        assert sorted((tmp_path / "part" / name).read_text().splitlines()) == sorted(
+            (tmp_path / "whole" / name).read_text().splitlines()
+        )
+    assert load_results(tmp_path / "whole").identical(whole) and files.load_record(
+        tmp_path / "whole" / "trials.nc"
+    ).identical(whole)
     with pytest.raises(OutputExists, match="another experiment: trials differ"):
         dc.replace(experiment, trials=5).run(tmp_path / "whole")
     (tmp_path / "mine").mkdir()
@@ -154,14 +206,22 @@ def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_
 
 
 def test_the_path_of_a_field_alone_means_its_activation():
-    parts = {"conditions": [Crosses("up", "u", ends=False)], "measures": [Measure("end", "u")], "actions": [Snapshot(10, "then", ["u"])]}
+    parts = {
+        "conditions": [Crosses("up", "u", ends=False)],
+        "measures": [Measure("end", "u")],
+        "actions": [Snapshot(10, "then", ["u"])],
+    }
     short, full = (choice(record=[path], factors=[], trials=1, **parts) for path in ("u", "u.activation"))
-    assert [v.place(short.model.document)[1] for v in (short.conditions[0].views[0], short.measures[0].view)] == ["activation"] * 2
+    assert [
+        v.place(short.model.document)[1] for v in (short.conditions[0].views[0], short.measures[0].view)
+    ] == ["activation"] * 2
     assert full.bench().rows([0]) == short.bench().rows([0])
 
 
 def test_records_of_a_field_alone_hold_its_activation(tmp_path):
-    choice(actions=[Snapshot(10, "then", ["u"])], record=["u"], factors=[], measures=[], trials=1).run(tmp_path / "out")
+    choice(actions=[Snapshot(10, "then", ["u"])], record=["u"], factors=[], measures=[], trials=1).run(
+        tmp_path / "out"
+    )
     for name in ("000000.nc", "000000-then.nc"):
         assert list(files.load_record(tmp_path / "out" / "records" / name).data_vars) == ["u.activation"]
 
@@ -170,7 +230,12 @@ def version_1(folder, experiment):
     """Save an experiment, as version 1 wrote it: a path without a port meant the output."""
     experiment.save(folder / "e.json")
     data = json.loads((folder / "e.json").read_text()) | {"experiment": 1, "record": ["u"]}
-    data["measures"] = {"end": {"of": "u"}, "pushed": {"of": "left"}, "high": {"of": "u.activation"}, "where": {"of": "pose"}}
+    data["measures"] = {
+        "end": {"of": "u"},
+        "pushed": {"of": "left"},
+        "high": {"of": "u.activation"},
+        "where": {"of": "pose"},
+    }
     data["conditions"] = {"up": {"kind": "Crosses", "of": "u"}, "both": {"kind": "All", "of": ["up"]}}
     data["actions"] = [{"kind": "Snapshot", "at": 3, "label": "then", "of": ["u", "u.input"]}]
     (folder / "e.json").write_text(json.dumps(data))
@@ -179,7 +244,12 @@ def version_1(folder, experiment):
 
 def test_a_file_of_version_1_means_the_output_by_the_path_of_a_field_alone(tmp_path):
     found = Experiment.load(version_1(tmp_path, choice()))
-    assert found.record == ("u.output",) and [m.of for m in found.measures] == ["u.output", "left", "u.activation", "pose"]
+    assert found.record == ("u.output",) and [m.of for m in found.measures] == [
+        "u.output",
+        "left",
+        "u.activation",
+        "pose",
+    ]
     assert found.conditions[0].of == "u.output" and found.conditions[1].of == ("up",)
     assert found.actions[0].of == ("u.output", "u.input")
 
@@ -197,12 +267,22 @@ def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
 
 
 def test_records_and_snapshots(tmp_path):
-    actions = [Record(30), Record(10, on=False, when="detected"), Snapshot(0, "then", ["u.activation"], when="detected")]
-    data = choice(actions=actions, record=["u.activation"], every=5, factors=[], trials=1).run(tmp_path / "out")
+    actions = [
+        Record(30),
+        Record(10, on=False, when="detected"),
+        Snapshot(0, "then", ["u.activation"], when="detected"),
+    ]
+    data = choice(actions=actions, record=["u.activation"], every=5, factors=[], trials=1).run(
+        tmp_path / "out"
+    )
     assert data.sizes["trial"] == 1
-    record, then = (files.load_record(tmp_path / "out" / "records" / name) for name in ("000000.nc", "000000-then.nc"))
+    record, then = (
+        files.load_record(tmp_path / "out" / "records" / name) for name in ("000000.nc", "000000-then.nc")
+    )
     at = float(data["detected"][0])
-    assert record["time"].values.tolist() == list(np.arange(35, at + 11, 5)) and then["time"].values.tolist() == [at]
+    assert record["time"].values.tolist() == list(np.arange(35, at + 11, 5)) and then[
+        "time"
+    ].values.tolist() == [at]
     np.testing.assert_array_equal(then["u.activation"][0], record["u.activation"].sel(time=at))
 
 
@@ -211,26 +291,45 @@ def test_pushes_ramps_and_resets():
     model.add(dd.Field("u", [], tau=10, resting_level=-1))
     still = {"watch": ["u.activation"], "precision": "float64"}
     pushed = run_trial(model, 60, actions=[Push(10, "u", 3.0, 20)], **still).values["u.activation"]
-    assert pushed[10] == -1 and pushed[30] == pushed.max() == pytest.approx(-1 + 3 * (1 - 0.9**20)) and pushed[31] < pushed[30]
+    assert (
+        pushed[10] == -1
+        and pushed[30] == pushed.max() == pytest.approx(-1 + 3 * (1 - 0.9**20))
+        and pushed[31] < pushed[30]
+    )
     up = Crosses("up", "u.activation", 0.5, ends=False)
-    after = run_trial(model, 60, events=[up], actions=[Push(10, "u", 3.0, 20), Push(4, "u", -9.0, 5, when="up")], **still)
+    after = run_trial(
+        model, 60, events=[up], actions=[Push(10, "u", 3.0, 20), Push(4, "u", -9.0, 5, when="up")], **still
+    )
     moment = int(after.events["up"])
     below = after.values["u.activation"]
     np.testing.assert_array_equal(below[: moment + 5], pushed[: moment + 5])
     assert below[moment + 9] == pytest.approx(pushed[moment + 9] - 9 * (1 - 0.9**5))
-    ramped = run_trial(model, 60, actions=[Ramp(10, "u.resting_level", 3.0, 20, start=-1.0), Reset(50), End(55, "enough")], **still)
+    ramped = run_trial(
+        model,
+        60,
+        actions=[Ramp(10, "u.resting_level", 3.0, 20, start=-1.0), Reset(50), End(55, "enough")],
+        **still,
+    )
     u, h = [-1.0], [-1.0 + 4.0 * min(max(t - 10, 0), 20) / 20 for t in range(60)]
     for t in range(50):
         u.append(u[-1] + (h[t] - u[-1]) / 10)
     np.testing.assert_allclose(ramped.values["u.activation"][:50], u[:50], atol=1e-12)
-    assert ramped.values["u.activation"][51] == pytest.approx(-1 + 4 / 10) and ramped.outcome == "enough" and ramped.duration == 55
+    assert (
+        ramped.values["u.activation"][51] == pytest.approx(-1 + 4 / 10)
+        and ramped.outcome == "enough"
+        and ramped.duration == 55
+    )
 
 
 def test_a_world_is_moved_after_what_happens():
     moved = Experiment(
-        "robot", straight(), 300, world=room(), conditions=[Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)],
+        "robot",
+        straight(),
+        300,
+        world=room(),
+        conditions=[Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)],
         actions=[Move(5, "far", (88, 20), when="far")],
-    )  # fmt: skip
+    )
     data = moved.run()
     assert not moved.bench().batched and data["outcome"].values.tolist() == ["touched"]
     assert float(data["touched"][0]) < float(dc.replace(moved, actions=[]).run()["touched"][0])
@@ -245,7 +344,10 @@ def test_workers_give_the_same_table(tmp_path, monkeypatch):
 def test_very_many_steps_in_total_are_announced(monkeypatch):
     experiment = Experiment("d", decider(), 50, 4)
     monkeypatch.setattr(module, "LONG_STEPS", 200)
-    with pytest.warns(RunWarning, match=r"200 steps in total \(4 trials of at most 50 steps of dt = 1\): a smaller number may be meant") as told:
+    with pytest.warns(
+        RunWarning,
+        match=r"200 steps in total \(4 trials of at most 50 steps of dt = 1\): a smaller number may be meant",
+    ) as told:
         experiment.run()
     assert [t.filename for t in told] == [__file__]
     monkeypatch.setattr(module, "LONG_STEPS", 201)
@@ -286,13 +388,28 @@ def test_what_cannot_be_is_refused_before_anything_runs(tmp_path, changes, where
 
 def test_all_problems_of_a_file_are_told_at_once(tmp_path):
     file = tmp_path / "e.json"
-    data = {"experiment": 1, "name": "e", "model": "m.json", "limit": 5, "conditions": {"a": {"kind": "Apears", "field": "u"}}}
-    data |= {"actions": [{"kind": "Set", "at": 3, "path": "u.tau"}], "factors": {"f": {"levels": []}}, "measures": {"m": {"off": "u"}}}
+    data = {
+        "experiment": 1,
+        "name": "e",
+        "model": "m.json",
+        "limit": 5,
+        "conditions": {"a": {"kind": "Apears", "field": "u"}},
+    }
+    data |= {
+        "actions": [{"kind": "Set", "at": 3, "path": "u.tau"}],
+        "factors": {"f": {"levels": []}},
+        "measures": {"m": {"off": "u"}},
+    }
     file.write_text(json.dumps(data))
     with pytest.raises(DocumentError) as refused:
         Experiment.load(file)
     told = str(refused.value)
-    assert "Did you mean 'Appears'" in told and "a Set needs 'value'" in told and "holds no levels" in told and "Did you mean 'of'" in told
+    assert (
+        "Did you mean 'Appears'" in told
+        and "a Set needs 'value'" in told
+        and "holds no levels" in told
+        and "Did you mean 'of'" in told
+    )
     file.write_text(json.dumps(data | {"experiment": 3}))
     with pytest.raises(DocumentError, match="another version"):
         Experiment.load(file)

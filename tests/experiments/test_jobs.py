@@ -55,10 +55,13 @@ def test_workers_give_the_same_rows(tmp_path, rows):
 def test_a_run_that_is_killed_goes_on_with_the_same_rows(tmp_path, rows):
     file = tmp_path / "runs.jsonl"
     code = (
-        "from pathlib import Path; from deodar.experiments.jobs import carry_out; from deodar.experiments.rows import Rows\n"
-        f"from tests.experiments.test_jobs import jobs; carry_out(jobs(), Rows(Path({str(file)!r}), {{}}))"
+        "from pathlib import Path; from deodar.experiments.jobs import carry_out; from"
+        " deodar.experiments.rows import Rows\nfrom tests.experiments.test_jobs import jobs;"
+        f" carry_out(jobs(), Rows(Path({str(file)!r}), {{}}))"
     )
-    process = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)})
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}
+    )
     while process.poll() is None and not (file.exists() and file.read_bytes().count(b"\n") >= 3):
         time.sleep(0.002)
     process.kill()

@@ -1,4 +1,6 @@
-"""The measure `place`: the position of the highest peak, the same inside the compiled step and in `analysis.peaks`."""
+"""The measure `place`: the position of the highest peak, the same inside the compiled step and in
+`analysis.peaks`.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,11 @@ from deodar.experiments.view import View, mask
 from deodar.numerics.peak import position
 from deodar.numerics.sigmoids.step import Step
 
-LINE, RING, TURN = dd.Axis("x", -10, 30, 41), dd.Axis("phi", -180, 180, 36, periodic=True), dd.Axis("psi", 0, 1, 24, periodic=True)
+LINE, RING, TURN = (
+    dd.Axis("x", -10, 30, 41),
+    dd.Axis("phi", -180, 180, 36, periodic=True),
+    dd.Axis("psi", 0, 1, 24, periodic=True),
+)
 HEIGHT = dd.Axis("y", 0, 5, 21)
 
 
@@ -28,12 +34,20 @@ def smooth(rng, axes):
     values = rng.normal(size=tuple(a.samples for a in axes))
     for d, axis in enumerate(axes):
         k = np.exp(-0.5 * (np.arange(-6, 7) / 1.6) ** 2)
-        padded = np.concatenate([np.take(values, range(-6, 0), d), values, np.take(values, range(6), d)], d) if axis.periodic else values
-        values = np.apply_along_axis(np.convolve, d, padded, k / k.sum(), "valid" if axis.periodic else "same")
+        padded = (
+            np.concatenate([np.take(values, range(-6, 0), d), values, np.take(values, range(6), d)], d)
+            if axis.periodic
+            else values
+        )
+        values = np.apply_along_axis(
+            np.convolve, d, padded, k / k.sum(), "valid" if axis.periodic else "same"
+        )
     return values * 2 / values.max()
 
 
-@pytest.mark.parametrize("axes", [(LINE,), (RING,), (HEIGHT, RING), (RING, TURN)], ids=["line", "ring", "plane", "torus"])
+@pytest.mark.parametrize(
+    "axes", [(LINE,), (RING,), (HEIGHT, RING), (RING, TURN)], ids=["line", "ring", "plane", "torus"]
+)
 @pytest.mark.parametrize("threshold", [0.0, 1.0])
 def test_the_compiled_position_is_that_of_the_highest_peak(axes, threshold):
     rng = np.random.default_rng(4)
@@ -54,21 +68,31 @@ def test_only_samples_near_a_place_belong_to_the_peak(axes):
         for k in range(6):
             u = smooth(np.random.default_rng(k), axes)
             expected = peaks(np.where(inside, u, -1e9), axes)[0].position
-            np.testing.assert_allclose(position(jax.numpy.asarray(u), axes, 0.0, inside)[0], expected, atol=1e-9)
+            np.testing.assert_allclose(
+                position(jax.numpy.asarray(u), axes, 0.0, inside)[0], expected, atol=1e-9
+            )
             view = View("u.activation", "place", near, radius)
-            np.testing.assert_allclose(view.seen(u[None, None], axes, 2)[0, 0], expected if len(axes) > 1 else expected[0], atol=1e-9)
+            np.testing.assert_allclose(
+                view.seen(u[None, None], axes, 2)[0, 0], expected if len(axes) > 1 else expected[0], atol=1e-9
+            )
 
 
 def test_a_ring_that_is_above_the_threshold_all_round_has_its_highest_sample():
     with jax.enable_x64(True):
         flat = np.ones(36)
         flat[7] = 1.0 + 1e-13
-        assert position(jax.numpy.asarray(flat), (RING,), 0.0)[0][0] == pytest.approx(RING.points[7]) == peaks(flat, (RING,))[0].position[0]
+        assert (
+            position(jax.numpy.asarray(flat), (RING,), 0.0)[0][0]
+            == pytest.approx(RING.points[7])
+            == peaks(flat, (RING,))[0].position[0]
+        )
 
 
 def test_single_precision_gives_a_fraction_of_a_step():
     u = smooth(np.random.default_rng(1), (LINE,))
-    assert position(jax.numpy.asarray(u, np.float32), (LINE,), 0.0)[0][0] == pytest.approx(peaks(u, (LINE,))[0].position[0], abs=1e-4)
+    assert position(jax.numpy.asarray(u, np.float32), (LINE,), 0.0)[0][0] == pytest.approx(
+        peaks(u, (LINE,))[0].position[0], abs=1e-4
+    )
 
 
 def test_without_a_peak_there_is_no_position():
@@ -87,15 +111,21 @@ def experiment(**changes):
 
 def test_a_batch_and_single_trials_measure_the_same_position_across_the_border():
     together = experiment().run()["place"].values
-    single = experiment(actions=[Set(60, "u.tau", 10.0)]).run()["place"].values  # an action makes the trials run one by one
+    single = (
+        experiment(actions=[Set(60, "u.tau", 10.0)]).run()["place"].values
+    )  # an action makes the trials run one by one
     np.testing.assert_allclose(together, single, atol=1e-9)
-    assert np.abs(together[:, 0] - 9.3).max() < 1 and np.abs((together[:, 1] - 178 + 180) % 360 - 180).max() < 10
+    assert (
+        np.abs(together[:, 0] - 9.3).max() < 1 and np.abs((together[:, 1] - 178 + 180) % 360 - 180).max() < 10
+    )
     assert len(set(together[:, 0].tolist()) - set(LINE.points.tolist())) == 3
 
 
 def test_a_trial_without_a_peak_has_no_place():
     for actions in ([], [Set(60, "u.tau", 10.0)]):
-        data = experiment(actions=actions, trials=2, measures=[Measure("place", "u.activation", "place", threshold=50.0)]).run()
+        data = experiment(
+            actions=actions, trials=2, measures=[Measure("place", "u.activation", "place", threshold=50.0)]
+        ).run()
         assert np.isnan(data["place"].values).all()
 
 

@@ -22,12 +22,19 @@ def test_a_goal_that_is_reached_ends_the_trial():
     last, before = course.values["pose"][-1], course.values["pose"][-2]
     assert np.hypot(last[0] - 80, last[1] - 20) <= 7 < np.hypot(before[0] - 80, before[1] - 20)
     # 500 steps/s are 6.44 cm/s, 0.412 cm a step; the wheels turn from the second exchange on
-    np.testing.assert_allclose(np.diff(course.values["pose"][:, 0])[1:], 500 * 2 * np.pi * 2.05 / 1000 * 0.064, rtol=1e-4)
+    np.testing.assert_allclose(
+        np.diff(course.values["pose"][:, 0])[1:], 500 * 2 * np.pi * 2.05 / 1000 * 0.064, rtol=1e-4
+    )
 
 
 def test_an_event_may_need_several_looks_and_need_not_end_the_trial():
     once = run_trial(straight(), 500, room(), events=[GOAL]).times[-1]
-    course = run_trial(straight(), 300, room(), events=[Within("reached", 7.0, times=10, ends=False), Leaves("moved", 2.5), TOUCH])
+    course = run_trial(
+        straight(),
+        300,
+        room(),
+        events=[Within("reached", 7.0, times=10, ends=False), Leaves("moved", 2.5), TOUCH],
+    )
     assert course.events["reached"] == once + 9
     assert course.events["moved"] == pytest.approx(np.ceil(2.5 / 0.4122), abs=1)
     assert course.outcome == "touched" and course.events["touched"] > course.events["reached"]
@@ -40,10 +47,14 @@ def test_the_limit_ends_what_nothing_else_does():
 
 
 def test_a_port_that_crosses_a_value_ends_a_trial_without_a_world():
-    course = run_trial(decider(), 5000, watch=["u.activation"], events=[Crosses("decided", "u.activation")], trial=3)
+    course = run_trial(
+        decider(), 5000, watch=["u.activation"], events=[Crosses("decided", "u.activation")], trial=3
+    )
     u = course.values["u.activation"]
     assert course.outcome == "decided" and u[-1] > 0 and (u[:-1] <= 0).all()
-    whole = dd.simulate(decider(), course.duration, trials=[3], record="u.activation")["u.activation"].values[0]
+    whole = dd.simulate(decider(), course.duration, trials=[3], record="u.activation")["u.activation"].values[
+        0
+    ]
     np.testing.assert_allclose(u, whole, atol=1e-5)
 
 
@@ -55,30 +66,53 @@ def test_a_thing_that_comes_stops_the_robot_and_one_that_goes_lets_it_on():
     there = Place(60, "box", (50, 20), (4, 30))
     world = room()
     course = run_trial(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
-    assert course.outcome == "touched" and course.values["pose"][-1, 0] == pytest.approx(50 - 2 - 3.7, abs=0.05)
-    through = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Remove(200, "box")], watch=["pose"])
+    assert course.outcome == "touched" and course.values["pose"][-1, 0] == pytest.approx(
+        50 - 2 - 3.7, abs=0.05
+    )
+    through = run_trial(
+        straight(), 500, world, events=[GOAL], actions=[there, Remove(200, "box")], watch=["pose"]
+    )
     assert through.outcome == "reached" and (np.diff(through.values["pose"][:, 0]) < 1e-3).sum() > 50
     away = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
     assert away.duration == through.duration - 100
-    assert run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"  # the box was put away after each trial
+    assert (
+        run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"
+    )  # the box was put away after each trial
 
 
 def test_a_goal_that_moves_is_put_back_after_the_trial():
     world = room()
     early = run_trial(straight(), 500, world, events=[GOAL]).duration
-    assert run_trial(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration < early - 50
+    assert (
+        run_trial(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration
+        < early - 50
+    )
     assert run_trial(straight(), 500, world, events=[GOAL]).duration == early
 
 
 def test_an_action_between_two_looks_comes_at_its_own_time():
     often, seldom = (
-        run_trial(straight(), 120, room(), actions=[Place(61, "box", (50, 20), (4, 30))], watch=["pose"], every=every) for every in (1, 40)
+        run_trial(
+            straight(),
+            120,
+            room(),
+            actions=[Place(61, "box", (50, 20), (4, 30))],
+            watch=["pose"],
+            every=every,
+        )
+        for every in (1, 40)
     )
     np.testing.assert_array_equal(often.values["pose"][::40], seldom.values["pose"])
 
 
 def test_a_parameter_is_set_at_a_time():
-    course = run_trial(straight(), 60, room(), actions=[Set(30, "go left.amplitude", 0.0), Set(30, "go right.amplitude", 0.0)], watch=["pose"])
+    course = run_trial(
+        straight(),
+        60,
+        room(),
+        actions=[Set(30, "go left.amplitude", 0.0), Set(30, "go right.amplitude", 0.0)],
+        watch=["pose"],
+    )
     x = course.values["pose"][:, 0]
     assert x[30] > x[29] > x[1] and (x[30:] == x[30]).all()
 
@@ -136,9 +170,24 @@ class Shelf(dd.World):
 
 def test_actions_change_any_world_that_has_their_methods():
     world = Shelf()
-    given = {"actions": [Place(2, "plate", (0, 0), (1, 1)), Remove(4, "cup"), Remove(6, "plate")], "watch": ["things"]}
-    for _ in range(2):  # the second trial finds what the first one found; at the time of an action the sample is taken first
-        assert run_trial(decider(), 8, world, **given).values["things"].tolist() == [1, 1, 1, 2, 2, 1, 1, 0, 0]
+    given = {
+        "actions": [Place(2, "plate", (0, 0), (1, 1)), Remove(4, "cup"), Remove(6, "plate")],
+        "watch": ["things"],
+    }
+    for _ in range(
+        2
+    ):  # the second trial finds what the first one found; at the time of an action the sample is taken first
+        assert run_trial(decider(), 8, world, **given).values["things"].tolist() == [
+            1,
+            1,
+            1,
+            2,
+            2,
+            1,
+            1,
+            0,
+            0,
+        ]
     assert world.things == {"cup"}
 
 
@@ -151,13 +200,24 @@ class Fixed(Shelf):
 @pytest.mark.parametrize(
     ("world", "action", "what"),
     [
-        (Shelf(), Move(3, "cup", (0, 0)), "the action Move calls World.move, which the world Shelf does not have"),
+        (
+            Shelf(),
+            Move(3, "cup", (0, 0)),
+            "the action Move calls World.move, which the world Shelf does not have",
+        ),
         (
             Fixed(),
             Remove(3, "cup"),
-            "the action Remove needs World.arrangement, to put things back after a trial, which the world Fixed does not have",
+            (
+                "the action Remove needs World.arrangement, to put things back after a trial, which the world"
+                " Fixed does not have"
+            ),
         ),
-        (dd.Picture(np.zeros((2, 2, 3))), Remove(3, "cup"), "the action Remove calls World.remove, which the world Picture does not have"),
+        (
+            dd.Picture(np.zeros((2, 2, 3))),
+            Remove(3, "cup"),
+            "the action Remove calls World.remove, which the world Picture does not have",
+        ),
     ],
     ids=["no move", "no way back", "a picture"],
 )
@@ -168,4 +228,7 @@ def test_an_action_refuses_a_world_without_its_method(world: dd.World, action: d
 
 def test_an_experiment_refuses_an_action_that_its_world_cannot_do():
     (problem,) = dd.Experiment("none", decider(), 10, actions=[Move(3, "cup", (0, 0))], world=Shelf()).check()
-    assert (problem.where, problem.what) == ("actions.0", "the action Move calls World.move, which the world Shelf does not have")
+    assert (problem.where, problem.what) == (
+        "actions.0",
+        "the action Move calls World.move, which the world Shelf does not have",
+    )

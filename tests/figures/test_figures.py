@@ -32,13 +32,19 @@ def test_a_space_time_plot_shows_the_values_with_units(data: xarray.Dataset) -> 
     figure = space_time(one)
     (shown,) = images(figure)
     assert np.allclose(shown, one.values.T)
-    assert {"time (ms)", "x (deg)"} <= labels(figure) and any("activation of u" in text for text in labels(figure))
+    assert {"time (ms)", "x (deg)"} <= labels(figure) and any(
+        "activation of u" in text for text in labels(figure)
+    )
 
 
 def test_a_time_course_draws_each_trial_and_their_mean(data: xarray.Dataset) -> None:
     one = data["n.activation"].sel({"s.amplitude": 4.0})
     (axes,) = time_course(one).axes
-    curves = [np.asarray(line.get_ydata()) for line in axes.get_lines() if len(np.asarray(line.get_xdata())) == one.sizes["time"]]
+    curves = [
+        np.asarray(line.get_ydata())
+        for line in axes.get_lines()
+        if len(np.asarray(line.get_xdata())) == one.sizes["time"]
+    ]
     for trial in range(3):
         assert any(np.allclose(c, one.isel(trial=trial).values) for c in curves)
     assert any(np.allclose(c, one.mean("trial").values, atol=1e-6) for c in curves)
@@ -81,6 +87,8 @@ def test_the_threshold_is_always_part_of_the_colours() -> None:
         (projection, {"axes": ["q"]}, "q"),
     ],
 )
-def test_what_was_not_recorded_is_refused(data: xarray.Dataset, kind: Any, options: dict[str, Any], says: str) -> None:
+def test_what_was_not_recorded_is_refused(
+    data: xarray.Dataset, kind: Any, options: dict[str, Any], says: str
+) -> None:
     with pytest.raises(dd.errors.RecordError, match=says):
         kind(data["u.activation"], **options)

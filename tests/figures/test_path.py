@@ -22,7 +22,12 @@ def walked() -> xarray.DataArray:
     way = np.stack([0.2 + 0.02 * np.arange(26), np.full(26, 0.3), np.zeros(26)], -1)
     values = np.stack([way, way + np.array([0, 0.05, 0.1])])
     of = ("of", [0, 1, 2], {"lower": 0.0})
-    return xarray.DataArray(values, dims=("trial", "time", "of"), coords={"trial": [0, 1], "time": times, "of": of}, name="pose.output")
+    return xarray.DataArray(
+        values,
+        dims=("trial", "time", "of"),
+        coords={"trial": [0, 1], "time": times, "of": of},
+        name="pose.output",
+    )
 
 
 def test_the_figure_shows_arena_and_paths_to_scale(walked: xarray.DataArray) -> None:

@@ -11,7 +11,17 @@ ROOT = Path(__file__).parents[2]
 SRC = ROOT / "src" / "deodar"
 MODULES = sorted(SRC.rglob("*.py"))
 
-NEVER = {".git", ".venv", ".ruff_cache", ".pytest_cache", "__pycache__", "node_modules", "site", "dist", "shared"}
+NEVER = {
+    ".git",
+    ".venv",
+    ".ruff_cache",
+    ".pytest_cache",
+    "__pycache__",
+    "node_modules",
+    "site",
+    "dist",
+    "shared",
+}
 TEXT = {
     "",
     ".py",
@@ -49,17 +59,24 @@ def module(path: Path) -> str:
 
 
 def imported(path: Path) -> list[tuple[int, str]]:
-    """(line, module of the package) of everything of deodar that a file imports: at its top, in functions, for types."""
+    """(line, module of the package) of everything of deodar that a file imports: at its top, in functions,
+    for types.
+    """
     found: list[tuple[int, str]] = []
     for node in ast.walk(tree(path)):
         if isinstance(node, ast.Import):
             found += [(node.lineno, alias.name) for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
-            # `from deodar.model import edit` imports deodar.model.edit; a plain name of a module counts as the module
+            # `from deodar.model import edit` imports deodar.model.edit; a plain name of a module counts as
+            # the module
             for alias in node.names:
                 whole = f"{node.module}.{alias.name}"
                 found.append((node.lineno, whole if _is_module(whole) else node.module))
-    return [(line, name.removeprefix("deodar").removeprefix(".")) for line, name in found if name.split(".")[0] == "deodar"]
+    return [
+        (line, name.removeprefix("deodar").removeprefix("."))
+        for line, name in found
+        if name.split(".")[0] == "deodar"
+    ]
 
 
 def _is_module(name: str) -> bool:
@@ -72,8 +89,14 @@ def _is_module(name: str) -> bool:
 
 def texts() -> list[Path]:
     """Every text file of the repository that git knows or would take, without what is built or installed."""
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True)
-    names = [ROOT / line for line in listed.stdout.splitlines()] if listed.returncode == 0 else list(ROOT.rglob("*"))
+    listed = subprocess.run(
+        ["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True
+    )
+    names = (
+        [ROOT / line for line in listed.stdout.splitlines()]
+        if listed.returncode == 0
+        else list(ROOT.rglob("*"))
+    )
     kept = [p for p in names if p.is_file() and p.suffix in TEXT and not _left_out(p)]
     return sorted(kept)
 

@@ -11,9 +11,13 @@ from deodar import cli, registry
 from tests.house.source import ROOT, SRC
 
 MOST_DEEP = 5
-"""Distinct lines of the scripts that make the manual that import from deodar otherwise than by `import deodar as dd`."""
+"""Distinct lines of the scripts that make the manual that import from deodar otherwise than by `import deodar
+as dd`.
+"""
 
-DEEP = re.compile(r"^\s*(?:>>> |\.\.\. )?((?:from deodar\b[\w.]* import|import deodar\.)[^\n#]*)", re.MULTILINE)
+DEEP = re.compile(
+    r"^\s*(?:>>> |\.\.\. )?((?:from deodar\b[\w.]* import|import deodar\.)[^\n#]*)", re.MULTILINE
+)
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$", re.MULTILINE)
 
 
@@ -34,27 +38,51 @@ def test_every_kind_has_a_heading(kind: str) -> None:
 
 @pytest.mark.parametrize("command", cli.commands())
 def test_every_command_has_a_heading(command: str) -> None:
-    assert command in _headings(), f"no page under docs/ has the heading deodar {command}: build the reference anew"
+    assert command in _headings(), (
+        f"no page under docs/ has the heading deodar {command}: build the reference anew"
+    )
 
 
 @pytest.mark.parametrize("name", [n for n in deodar.__all__ if not isinstance(getattr(deodar, n), type(re))])
 def test_every_public_name_is_in_the_reference(name: str) -> None:
     text = "\n".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs/reference").glob("*.md"))
-    assert re.search(rf"^## dd\.{name}$|^`dd\.{name}`$|^\| `dd\.{name}` \|", text, re.MULTILINE), f"name it in docs/reference.py: {name}"
+    assert re.search(rf"^## dd\.{name}$|^`dd\.{name}`$|^\| `dd\.{name}` \|", text, re.MULTILINE), (
+        f"name it in docs/reference.py: {name}"
+    )
 
 
 def test_the_manual_and_the_examples_use_the_flat_names() -> None:
     docs, examples = ROOT / "docs", ROOT / "examples"
-    pages = [ROOT / "README.md", *docs.rglob("*.md"), *docs.rglob("*.ipynb"), *examples.rglob("*.py"), *examples.rglob("*.ipynb")]
-    docstrings = ["\n".join(re.findall(r"^\s*(?:>>>|\.\.\.) .*$", p.read_text(encoding="utf-8"), re.MULTILINE)) for p in SRC.rglob("*.py")]
-    read = {line.strip() for text in [*(p.read_text(encoding="utf-8") for p in pages), *docstrings] for line in DEEP.findall(text)}
-    made = {line.strip() for page in docs.glob("*.py") for line in DEEP.findall(page.read_text(encoding="utf-8"))}
+    pages = [
+        ROOT / "README.md",
+        *docs.rglob("*.md"),
+        *docs.rglob("*.ipynb"),
+        *examples.rglob("*.py"),
+        *examples.rglob("*.ipynb"),
+    ]
+    docstrings = [
+        "\n".join(re.findall(r"^\s*(?:>>>|\.\.\.) .*$", p.read_text(encoding="utf-8"), re.MULTILINE))
+        for p in SRC.rglob("*.py")
+    ]
+    read = {
+        line.strip()
+        for text in [*(p.read_text(encoding="utf-8") for p in pages), *docstrings]
+        for line in DEEP.findall(text)
+    }
+    made = {
+        line.strip() for page in docs.glob("*.py") for line in DEEP.findall(page.read_text(encoding="utf-8"))
+    }
     assert not read, "the manual, the examples and docstrings use `import deodar as dd`"
     assert len(made) <= MOST_DEEP, f"scripts that make the manual import from deep modules: {made}"
 
 
 @pytest.mark.parametrize(
-    "line", ["from deodar.elements.field import Field", "    >>> from deodar import registry", "import deodar.model.edit as edit"]
+    "line",
+    [
+        "from deodar.elements.field import Field",
+        "    >>> from deodar import registry",
+        "import deodar.model.edit as edit",
+    ],
 )
 def test_deep_imports_are_found(line: str) -> None:
     assert DEEP.findall(f"import deodar as dd\n{line}  # a comment\n")

@@ -18,7 +18,8 @@ KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.s
 ELEMENTS = {name: cls for name, cls in KINDS.items() if issubclass(cls, Element)}
 SECTION = re.compile(r"^([A-Z][a-z]+):[ ]*(.*)$")
 
-# What the description of a parameter has to say for the unit it declares. Activation has no unit of its own and needs no word.
+# What the description of a parameter has to say for the unit it declares. Activation has no unit of its own
+# and needs no word.
 UNIT_WORDS = {
     "time": ("time",),
     "axis": ("axis", "axes"),
@@ -64,7 +65,9 @@ def entries(text: str) -> dict[str, str]:
 
 
 def fields(cls: type[Any]) -> list[str]:
-    """Parameters in the order in which they are written down: those by position, then those by name; `name` is every element's."""
+    """Parameters in the order in which they are written down: those by position, then those by name; `name`
+    is every element's.
+    """
     if not dc.is_dataclass(cls):
         return [p for p in inspect.signature(cls.__init__).parameters if p != "self"]
     found = dc.fields(cls)
@@ -75,8 +78,8 @@ def fields(cls: type[Any]) -> list[str]:
 @pytest.mark.parametrize("name", KINDS)
 def test_one_sentence_then_an_equation(name: str) -> None:
     text = sections(KINDS[name])
-    first = text[""].splitlines()[0] if text[""] else ""
-    assert first.endswith(".") and len(first) < 150, "begin with one sentence on one line"
+    first = " ".join(text[""].partition("\n\n")[0].split())
+    assert first.endswith(".") and len(first) < 150, "begin with one sentence in a paragraph of its own"
     assert text.get("Equation"), "write a section Equation:"
 
 
@@ -109,7 +112,14 @@ def test_shapes_are_stated(name: str) -> None:
     assert sections(KINDS[name]).get("Shapes")
 
 
-@pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part) and any(p.form == "array" for p in parameters(cls))])
+@pytest.mark.parametrize(
+    "name",
+    [
+        n
+        for n, cls in KINDS.items()
+        if issubclass(cls, Part) and any(p.form == "array" for p in parameters(cls))
+    ],
+)
 def test_arrays_state_their_shape(name: str) -> None:
     shapes = entries(sections(KINDS[name]).get("Shapes", ""))
     assert {p.name for p in parameters(KINDS[name]) if p.form == "array"} <= set(shapes)
@@ -121,9 +131,13 @@ def test_units_are_said_where_they_are_declared(name: str) -> None:
     listed = entries(sections(cls).get("Parameters", ""))
     for p in parameters(cls):
         if p.unit:
-            assert p.unit in UNIT_WORDS, f"{p.name}: the unit {p.unit!r} is new; say here how a description names it"
+            assert p.unit in UNIT_WORDS, (
+                f"{p.name}: the unit {p.unit!r} is new; say here how a description names it"
+            )
             words = UNIT_WORDS[p.unit]
-            assert not words or any(w in listed[p.name] for w in words), f"{p.name}: the unit is {p.unit}, the description says: {listed[p.name]}"
+            assert not words or any(w in listed[p.name] for w in words), (
+                f"{p.name}: the unit is {p.unit}, the description says: {listed[p.name]}"
+            )
 
 
 @pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
@@ -136,7 +150,9 @@ def test_every_parameter_says_what_it_means(name: str) -> None:
 @pytest.mark.parametrize("name", KINDS)
 def test_a_source_or_the_words_no_reference(name: str) -> None:
     says = sections(KINDS[name]).get("Reference", "")
-    assert says == "no reference" or re.search(r"\((19|20)\d\d\)", says), f"give authors, year and place, or: no reference ({says!r})"
+    assert says == "no reference" or re.search(r"\((19|20)\d\d\)", says), (
+        f"give authors, year and place, or: no reference ({says!r})"
+    )
 
 
 @pytest.mark.parametrize("name", [n for n, cls in ELEMENTS.items() if issubclass(cls, Coupling)])

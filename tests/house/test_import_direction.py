@@ -9,9 +9,9 @@ import pytest
 
 from tests.house.source import MODULES, SRC, imported, module, tree
 
-# The floors of the house, from the ground up. Rooms of one floor do not see each other; a file sees its own folder. `registry`
-# stands below `parameters`, which looks kinds up in it; `recording` below `session`, whose runs it labels; the root package
-# resolves its names lazily and stands above all, like `__main__`.
+# The floors of the house, from the ground up. Rooms of one floor do not see each other; a file sees its own
+# folder. `registry` stands below `parameters`, which looks kinds up in it; `recording` below `session`, whose
+# runs it labels; the root package resolves its names lazily and stands above all, like `__main__`.
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
@@ -38,7 +38,8 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     )
 )
 
-# Only these look modules up by name while they run: the folder is the registry, the root is lazy, a user's function is a name.
+# Only these look modules up by name while they run: the folder is the registry, the root is lazy, a user's
+# function is a name.
 DYNAMIC = {"", "registry", "cli", "elements.function", "figures._panels", "importers.opening", "papers"}
 
 
@@ -69,7 +70,18 @@ def test_every_room_has_a_floor_and_every_floor_of_the_ground_is_there() -> None
     rooms = {module(p).split(".")[0] for p in MODULES} - {""}
     for room in rooms:
         _floor(room)
-    assert {"errors", "parameters", "registry", "numerics", "element", "elements", "couplings", "worlds", "model", "cli"} <= rooms
+    assert {
+        "errors",
+        "parameters",
+        "registry",
+        "numerics",
+        "element",
+        "elements",
+        "couplings",
+        "worlds",
+        "model",
+        "cli",
+    } <= rooms
 
 
 def test_the_root_package_imports_nothing_of_the_house_at_run_time() -> None:
@@ -97,7 +109,8 @@ def test_the_rule_sees_what_it_forbids(tmp_path: Path) -> None:
     """The reader finds imports at the top, inside functions and those for types only."""
     bad = tmp_path / "bad.py"
     bad.write_text(
-        "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from deodar.session.run import Run\n"
-        "def f():\n    import deodar.cli.check\n    from deodar.errors import DeodarError\n"
+        "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from"
+        " deodar.session.run import Run\ndef f():\n    import deodar.cli.check\n    from deodar.errors import"
+        " DeodarError\n"
     )
     assert sorted(imported(bad)) == [(2, "model.edit"), (4, "session.run"), (6, "cli.check"), (7, "errors")]

@@ -12,8 +12,13 @@ from packaging.utils import canonicalize_name
 from tests.house.source import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-DIRECT = [*PROJECT["dependencies"], *(r for extra in PROJECT["optional-dependencies"].values() for r in extra)]
-ENTRY = re.compile(r"^([\w.-]+)==(\S+)(?: ; (.+?))? \\\n((?:    --hash=sha256:[0-9a-f]{64}(?: \\)?\n)+)", re.MULTILINE)
+DIRECT = [
+    *PROJECT["dependencies"],
+    *(r for extra in PROJECT["optional-dependencies"].values() for r in extra),
+]
+ENTRY = re.compile(
+    r"^([\w.-]+)==(\S+)(?: ; (.+?))? \\\n((?:    --hash=sha256:[0-9a-f]{64}(?: \\)?\n)+)", re.MULTILINE
+)
 TEXT = (ROOT / "requirements.lock").read_text(encoding="utf-8")
 
 
@@ -30,7 +35,9 @@ def test_every_direct_dependency_is_locked_within_its_bounds(text: str) -> None:
     requirement = Requirement(text)
     versions = locked().get(canonicalize_name(requirement.name), [])
     assert versions, f"{requirement.name} is not in requirements.lock. Type: make lock"
-    assert all(requirement.specifier.contains(v) for v in versions), f"{text} is locked at {', '.join(versions)}. Type: make lock"
+    assert all(requirement.specifier.contains(v) for v in versions), (
+        f"{text} is locked at {', '.join(versions)}. Type: make lock"
+    )
 
 
 def test_every_entry_has_hashes() -> None:

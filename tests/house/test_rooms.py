@@ -70,7 +70,11 @@ def test_a_file_that_registers_one_kind_is_found(room: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "count"), [(ONE, "registers 0 kinds (none)"), (ONE + _kind("Left") + _kind("Right"), "registers 2 kinds (Left, Right)")]
+    ("text", "count"),
+    [
+        (ONE, "registers 0 kinds (none)"),
+        (ONE + _kind("Left") + _kind("Right"), "registers 2 kinds (Left, Right)"),
+    ],
 )
 def test_a_file_that_registers_none_or_two_is_refused(room: Path, text: str, count: str) -> None:
     (room / "odd.py").write_text(text)
@@ -81,7 +85,10 @@ def test_a_file_that_registers_none_or_two_is_refused(room: Path, text: str, cou
 
 def test_a_kind_that_is_registered_twice_is_refused(room: Path) -> None:
     (room / "field.py").write_text(ONE + _kind("Field"))
-    with pytest.raises(ModelError, match=r"'Field' is registered twice, by deodar\.elements\.field and by deodar\.annexe\.field"):
+    with pytest.raises(
+        ModelError,
+        match=r"'Field' is registered twice, by deodar\.elements\.field and by deodar\.annexe\.field",
+    ):
         registry.kinds()
 
 

@@ -1,4 +1,6 @@
-"""The shipped JSON Schema is the one the declarations give, and what we commit and write is valid under it."""
+"""The shipped JSON Schema is the one the declarations give, and what we commit and write is valid under
+it.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ VALIDATOR = jsonschema.Draft202012Validator(SHIPPED)
 
 
 def _documents() -> list[Path]:
-    """Every committed JSON file that says it is a deodar document, without the documents of older versions that tests/old_files opens."""
+    """Every committed JSON file that says it is a deodar document, without the documents of older versions
+    that tests/old_files opens.
+    """
     found = []
     for path in texts():
         if path.suffix == ".json" and path != schema.SHIPPED and "old_files" not in path.parts:
@@ -31,14 +35,23 @@ def _documents() -> list[Path]:
 
 
 def test_the_shipped_schema_is_fresh() -> None:
-    assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), "write it anew: python -m deodar.model.schema"
+    assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), (
+        "write it anew: python -m deodar.model.schema"
+    )
 
 
 def test_the_schema_is_one() -> None:
     jsonschema.Draft202012Validator.check_schema(SHIPPED)
 
 
-@pytest.mark.parametrize("name", [n for n, cls in registry.kinds().items() if issubclass(cls, Element) and cls.__module__.startswith("deodar.")])
+@pytest.mark.parametrize(
+    "name",
+    [
+        n
+        for n, cls in registry.kinds().items()
+        if issubclass(cls, Element) and cls.__module__.startswith("deodar.")
+    ],
+)
 def test_what_we_write_is_valid(name: str) -> None:
     model = Model("one")
     model.add(registry.kind(name).example())

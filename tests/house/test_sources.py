@@ -67,10 +67,21 @@ def _state(path: Path) -> list[str]:
     """Module-level names bound to something mutable, and names that functions declare global."""
     found: list[str] = []
     for node in tree(path).body:
-        targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+        targets = (
+            node.targets
+            if isinstance(node, ast.Assign)
+            else [node.target]
+            if isinstance(node, ast.AnnAssign)
+            else []
+        )
         for target in targets:
             # constants of the theory and tables are written in capitals and never changed
-            if isinstance(target, ast.Name) and _mutable(node.value) and not target.id.isupper() and not target.id.startswith("__"):  # type: ignore[attr-defined]
+            if (
+                isinstance(target, ast.Name)
+                and _mutable(node.value)
+                and not target.id.isupper()
+                and not target.id.startswith("__")
+            ):  # type: ignore[attr-defined]
                 found.append(target.id)
     for node in ast.walk(tree(path)):
         if isinstance(node, (ast.Global, ast.Nonlocal)) and isinstance(node, ast.Global):
@@ -83,12 +94,18 @@ def _written(path: Path) -> list[str]:
     constants = {
         t.id
         for n in tree(path).body
-        for t in (n.targets if isinstance(n, ast.Assign) else [n.target] if isinstance(n, ast.AnnAssign) else [])
+        for t in (
+            n.targets if isinstance(n, ast.Assign) else [n.target] if isinstance(n, ast.AnnAssign) else []
+        )
         if isinstance(t, ast.Name) and _mutable(n.value)  # type: ignore[attr-defined]
     }
     changed: list[str] = []
     for node in ast.walk(tree(path)):
-        if isinstance(node, ast.Subscript) and isinstance(node.ctx, (ast.Store, ast.Del)) and isinstance(node.value, ast.Name):
+        if (
+            isinstance(node, ast.Subscript)
+            and isinstance(node.ctx, (ast.Store, ast.Del))
+            and isinstance(node.value, ast.Name)
+        ):
             changed.append(node.value.id)
         method = node.func if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) else None
         if method is not None and isinstance(method.value, ast.Name) and method.attr in CHANGES:
@@ -114,7 +131,11 @@ def test_only_the_command_line_prints(path: Path) -> None:
     if module(path).split(".")[0] == "cli":
         return
     calls = [
-        n.lineno for n in ast.walk(tree(path)) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name) and n.func.id in ("print", "input", "exit")
+        n.lineno
+        for n in ast.walk(tree(path))
+        if isinstance(n, ast.Call)
+        and isinstance(n.func, ast.Name)
+        and n.func.id in ("print", "input", "exit")
     ]
     assert not calls
 
@@ -123,7 +144,11 @@ def test_only_the_command_line_prints(path: Path) -> None:
 def test_every_module_and_public_function_says_what_it_is(path: Path) -> None:
     assert path.name == "__init__.py" or ast.get_docstring(tree(path))
     silent = [
-        n.name for n in tree(path).body if isinstance(n, (ast.FunctionDef, ast.ClassDef)) and not n.name.startswith("_") and not ast.get_docstring(n)
+        n.name
+        for n in tree(path).body
+        if isinstance(n, (ast.FunctionDef, ast.ClassDef))
+        and not n.name.startswith("_")
+        and not ast.get_docstring(n)
     ]
     assert not silent
 

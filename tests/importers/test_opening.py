@@ -49,9 +49,15 @@ def test_another_tool_is_one_more_folder(tmp_path, monkeypatch):
     other = types.ModuleType("deodar.importers.other")
     other.NAME = "other"
     other.sniff = lambda head: head.startswith(b"OTHER")
-    other.read = lambda content, name, bugs: Imported(dd.Model(content.decode().split()[1]), Report("other", name, []))
+    other.read = lambda content, name, bugs: Imported(
+        dd.Model(content.decode().split()[1]), Report("other", name, [])
+    )
     modules = registry.modules
     monkeypatch.setitem(sys.modules, "deodar.importers.other", other)
-    monkeypatch.setattr(registry, "modules", lambda room: [*modules(room), *(["deodar.importers.other"] if room == "importers" else [])])
+    monkeypatch.setattr(
+        registry,
+        "modules",
+        lambda room: [*modules(room), *(["deodar.importers.other"] if room == "importers" else [])],
+    )
     (tmp_path / "file.txt").write_text("OTHER model")
     assert dd.load(tmp_path / "file.txt").name == "model" and set(tools()) == {"cosivina", "other"}

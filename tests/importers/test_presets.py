@@ -17,7 +17,10 @@ KERNEL = {"size": [1, 10], "sigma": 2, "amplitude": 1, "circular": 1, "normalize
 
 def parts(**changes):
     field = {**FIELD, **changes}
-    return [element("u", "NeuralField", field, [("k", "output")]), element("k", "GaussKernel1D", KERNEL, [("u", "output")])]
+    return [
+        element("u", "NeuralField", field, [("k", "output")]),
+        element("k", "GaussKernel1D", KERNEL, [("u", "output")]),
+    ]
 
 
 def test_values_are_taken_over_and_connections_stay(tmp_path):
@@ -36,13 +39,25 @@ def test_values_are_taken_over_and_connections_stay(tmp_path):
 
 
 def test_what_does_not_match_is_listed(tmp_path):
-    model = dd.load(written(tmp_path, [*parts(), element("s", "ScaleInput", {"size": [1, 10], "amplitude": 1}, [("u", "output")])]))
+    model = dd.load(
+        written(
+            tmp_path,
+            [*parts(), element("s", "ScaleInput", {"size": [1, 10], "amplitude": 1}, [("u", "output")])],
+        )
+    )
     other = parts(tau=20)
     other[0]["param"]["size"] = [1, 12]
     other[1] = element("k", "ScaleInput", {"size": [1, 12], "amplitude": 3}, [("u", "output")])
     before = model.document
-    report = apply_preset(model, written(tmp_path, [*other, element("new", "BoostStimulus", {"amplitude": 1})], name="b.json"))
-    assert {line.where: line.why.split()[0] for line in report.lines} == {"u": "lies", "k": "is", "s": "the", "new": "the"}
+    report = apply_preset(
+        model, written(tmp_path, [*other, element("new", "BoostStimulus", {"amplitude": 1})], name="b.json")
+    )
+    assert {line.where: line.why.split()[0] for line in report.lines} == {
+        "u": "lies",
+        "k": "is",
+        "s": "the",
+        "new": "the",
+    }
     assert all(line.verdict == "dropped" for line in report.lines) and model.document == before
 
 
@@ -51,7 +66,10 @@ def test_linked_values_stay(tmp_path):
     model.parameter("slow", 50.0)
     model.link("u.tau", "slow")
     report = apply_preset(model, written(tmp_path, parts(tau=20, h=-4), name="b.json"))
-    assert [(line.what, line.verdict) for line in report.lines] == [("tau", "dropped"), ("resting_level", "carried")]
+    assert [(line.what, line.verdict) for line in report.lines] == [
+        ("tau", "dropped"),
+        ("resting_level", "carried"),
+    ]
     assert model.get("u.tau") == 50
 
 

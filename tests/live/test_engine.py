@@ -156,9 +156,13 @@ def test_nobody_looking_means_no_shots(driven: Driven) -> None:
 
 def test_traces_hold_time_and_value_and_begin_anew_with_a_reset(driven: Driven) -> None:
     engine = driven.engine
-    wishes = [Wish((driven.u, "activation"), reduce) for reduce in ("max", "mean")] + [Wish((driven.u, "activation"), "at", (50.0,))]
+    wishes = [Wish((driven.u, "activation"), reduce) for reduce in ("max", "mean")] + [
+        Wish((driven.u, "activation"), "at", (50.0,))
+    ]
     driven.do(lambda: engine.show([], wishes))
-    driven.until(lambda: all(wish in engine.traces and engine.traces[wish].count for wish in wishes))  # the program that samples is there
+    driven.until(
+        lambda: all(wish in engine.traces and engine.traces[wish].count for wish in wishes)
+    )  # the program that samples is there
     driven.do(lambda: engine.step(200))
     driven.until(lambda: engine.shot.tick == 200)
     samples = {w: engine.traces[w].since(0) for w in wishes}
@@ -218,11 +222,16 @@ def test_a_trace_keeps_the_newest_samples() -> None:
     for k in range(CAPACITY + 10):
         trace.add(k, 2 * k)
     kept = trace.since(0)
-    assert len(kept) == CAPACITY and kept[0, 0] == 10 and kept[-1].tolist() == [CAPACITY + 9, 2 * (CAPACITY + 9)]
+    assert (
+        len(kept) == CAPACITY and kept[0, 0] == 10 and kept[-1].tolist() == [CAPACITY + 9, 2 * (CAPACITY + 9)]
+    )
     assert trace.since(CAPACITY + 8)[:, 0].tolist() == [CAPACITY + 8, CAPACITY + 9]
 
 
-@pytest.mark.parametrize(("unit", "seconds"), [("ms", 1e-3), ("s", 1), ("1 = 64 ms", 0.064), ("1 = 2 min", 120), ("abstract", 1e-3)])
+@pytest.mark.parametrize(
+    ("unit", "seconds"),
+    [("ms", 1e-3), ("s", 1), ("1 = 64 ms", 0.064), ("1 = 2 min", 120), ("abstract", 1e-3)],
+)
 def test_units_of_time_in_seconds(unit: str, seconds: float) -> None:
     assert unit_seconds(unit) == pytest.approx(seconds)
 

@@ -33,7 +33,13 @@ def _inside(model: dd.Model, ports: list[str], duration: float = 60) -> float:
         path, _, name = port.rpartition(".")
         low, high = wiring.bounds[model[path].id].get(name, (-math.inf, math.inf))
         values = data[port].values
-        assert low - 1e-9 <= values.min() and values.max() <= high + 1e-9, (port, low, values.min(), values.max(), high)
+        assert low - 1e-9 <= values.min() and values.max() <= high + 1e-9, (
+            port,
+            low,
+            values.min(),
+            values.max(),
+            high,
+        )
         if math.isfinite(high - low) and high > low:
             used = max(used, float(values.max() - values.min()) / (high - low))
     return used
@@ -50,13 +56,21 @@ def test_at_least_twenty_kinds_state_bounds() -> None:
     assert len(STATED) >= 20
 
 
-@pytest.mark.parametrize("sigmoid", [dd.Logistic(), Step(), Absolute(), SemiLinear(), Linear()], ids=lambda s: type(s).__name__)
-@pytest.mark.parametrize("kernel", [dd.Gaussian(0.1, 2), MexicanHat(0.1, 2, 0.05, 4), TruncatedGaussian(0.1, 2)], ids=lambda k: type(k).__name__)
+@pytest.mark.parametrize(
+    "sigmoid", [dd.Logistic(), Step(), Absolute(), SemiLinear(), Linear()], ids=lambda s: type(s).__name__
+)
+@pytest.mark.parametrize(
+    "kernel",
+    [dd.Gaussian(0.1, 2), MexicanHat(0.1, 2, 0.05, 4), TruncatedGaussian(0.1, 2)],
+    ids=lambda k: type(k).__name__,
+)
 def test_a_field_stays_inside_its_bounds(sigmoid: SigmoidFunction, kernel: Kernel) -> None:
     model = dd.Model("m")
     up = model.add(dd.GaussianStimulus("up", [X], center=5, sigma=2, amplitude=7, windows=[(10, 40)]))
     down = model.add(dd.GaussianStimulus("down", [X], center=15, sigma=2, amplitude=-3))
-    u = model.add(dd.Field("u", [X], tau=5, sigmoid=sigmoid, kernel=[kernel], global_inhibition=0.02, noise=0.2))
+    u = model.add(
+        dd.Field("u", [X], tau=5, sigmoid=sigmoid, kernel=[kernel], global_inhibition=0.02, noise=0.2)
+    )
     up >> u
     down >> u
     v = model.add(dd.Field("v", [X], tau=5))

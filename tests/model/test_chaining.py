@@ -29,7 +29,10 @@ def _paths(model: dd.Model) -> list[str]:
 
 def _edges(model: dd.Model) -> list[tuple[str, str, str, str]]:
     by = model.document.by_id()
-    return [(by[c.source].path, c.source_port, by[c.target].path, c.target_port) for c in model.document.connections]
+    return [
+        (by[c.source].path, c.source_port, by[c.target].path, c.target_port)
+        for c in model.document.connections
+    ]
 
 
 def test_couplings_are_named_after_what_they_follow(model: dd.Model) -> None:
@@ -45,7 +48,11 @@ def test_couplings_are_named_after_what_they_follow(model: dd.Model) -> None:
 def test_a_chain_of_couplings(model: dd.Model) -> None:
     model["a"] >> dd.Gain(2) >> dd.Project([X]) >> model["b"]
     assert _paths(model)[2:] == ["a>Gain", "a>Gain>Project"]
-    assert [(s, t) for s, _, t, _ in _edges(model)] == [("a", "a>Gain"), ("a>Gain", "a>Gain>Project"), ("a>Gain>Project", "b")]
+    assert [(s, t) for s, _, t, _ in _edges(model)] == [
+        ("a", "a>Gain"),
+        ("a>Gain", "a>Gain>Project"),
+        ("a>Gain>Project", "b"),
+    ]
 
 
 def test_a_name_of_ones_own(model: dd.Model) -> None:

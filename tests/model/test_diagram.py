@@ -66,8 +66,19 @@ def test_a_coupling_with_several_inputs_or_outputs_is_a_box_that_passes_its_sign
     split >> model["c"]
     product = model.add(Product(name="and"))
     b >> product
-    assert wires(model) == [("a", "split", "+", ()), ("split", "b", "-", ()), ("split", "c", "-", ()), ("b", "and", "+", ())]
-    assert {i.name: i.form for i in sketch(model.document).items} == {"a": "field", "b": "field", "c": "node", "split": "coupling", "and": "coupling"}
+    assert wires(model) == [
+        ("a", "split", "+", ()),
+        ("split", "b", "-", ()),
+        ("split", "c", "-", ()),
+        ("b", "and", "+", ()),
+    ]
+    assert {i.name: i.form for i in sketch(model.document).items} == {
+        "a": "field",
+        "b": "field",
+        "c": "node",
+        "split": "coupling",
+        "and": "coupling",
+    }
 
 
 def test_a_ring_of_couplings_alone_is_drawn():
@@ -104,9 +115,14 @@ def test_the_sign_of_what_acts(element, sign):
 
 def test_interactions_of_a_field_with_itself_are_loops():
     kernel = [dd.Gaussian(2.0, 3.0)]
-    assert dict(dd.Field("u", [X], kernel=kernel, global_inhibition=0.3).recurrence()) == {"kernel": "+", "global inhibition": "-"}
+    assert dict(dd.Field("u", [X], kernel=kernel, global_inhibition=0.3).recurrence()) == {
+        "kernel": "+",
+        "global inhibition": "-",
+    }
     assert dict(dd.Field("u", [X], kernel=[*kernel, dd.Gaussian(-1.0, 6.0)]).recurrence()) == {"kernel": "±"}
-    assert dict(dd.Field("u", []).recurrence()) == {} and dict(RateNode("n", self_excitation=2.0).recurrence()) == {"self-excitation": "+"}
+    assert dict(dd.Field("u", []).recurrence()) == {} and dict(
+        RateNode("n", self_excitation=2.0).recurrence()
+    ) == {"self-excitation": "+"}
     model = dd.Model("m")
     model.add(dd.Field("u", [X], kernel=kernel, global_inhibition=0.3))
     assert texts(dd.draw(model)) == ["u", "x: 0 … 20 deg", "excitation", "inhibition"]
@@ -123,7 +139,16 @@ def test_a_picture_names_axes_groups_templates_ports_sensors_and_motors():
     part.add(dd.Field("v"))
     model.insert(part, "left", link=True)
     shown = texts(dd.draw(model))
-    assert {"u", "phi: −180 … 180 deg, periodic", "every 3 steps", "arm", "reach", "eye", "wheel", "activation"} <= set(shown)
+    assert {
+        "u",
+        "phi: −180 … 180 deg, periodic",
+        "every 3 steps",
+        "arm",
+        "reach",
+        "eye",
+        "wheel",
+        "activation",
+    } <= set(shown)
     assert "left (linked to part)" in shown and "project integral" in shown
     forms = {i.name: i.form for i in sketch(model.document).items}
     assert forms == {"u": "field", "eye": "sensor", "wheel": "motor", "v": "node"}
@@ -134,7 +159,9 @@ def test_a_stimulus_repeats_no_axes_and_a_number_for_a_coupling_inhibits_nothing
     model.add(dd.GaussianStimulus("s", [X], amplitude=-1.0)) >> a
     code = model.add(Product(name="and"))
     model.add(Boost("place", [X], -3.0)) >> code
-    assert texts(dd.draw(model)).count("x: 0 … 20 deg") == 3, "the two fields, and the boost whose target has no axes of its own"
+    assert texts(dd.draw(model)).count("x: 0 … 20 deg") == 3, (
+        "the two fields, and the boost whose target has no axes of its own"
+    )
     assert wires(model) == [("s", "a", "-", ()), ("place", "and", "+", ())]
 
 
@@ -144,7 +171,11 @@ def test_names_are_text_whatever_they_hold():
     u = model.add(dd.Field(name, [dd.Axis(name, 0, 1, 3, unit="<b>")]), group="<i>")
     u >> dd.Gain(2.0, name="</text><script>") >> u
     for content in (dd.draw(model).svg, model._repr_html_()):
-        assert "<script>" not in content and "<i>" not in content and "<b>" not in content.replace("<b>&lt;script", "")
+        assert (
+            "<script>" not in content
+            and "<i>" not in content
+            and "<b>" not in content.replace("<b>&lt;script", "")
+        )
     root = ET.fromstring(dd.draw(model).svg)
     assert any("alert" in (t.text or "") for t in root.iter(f"{SVG}title"))
     assert {e.tag.removeprefix(SVG) for e in root.iter()} == {"svg", "title", "g", "path", "text"}
@@ -162,9 +193,13 @@ def test_a_model_with_problems_and_an_empty_one_are_drawn():
 def test_the_studio_layout_is_used():
     model, _, _ = pair()
     ids = {e.names[-1]: e.id for e in model.document.entries}
-    placed = edit.arrange(model.document, {"boxes": {ids["a"]: {"x": 400, "y": 0}, ids["b"]: {"x": 0, "y": 200}}})
+    placed = edit.arrange(
+        model.document, {"boxes": {ids["a"]: {"x": 400, "y": 0}, ids["b"]: {"x": 0, "y": 200}}}
+    )
     assert sketch(placed).places == {ids["a"]: (400.0, 0.0), ids["b"]: (0.0, 200.0)}
-    broken = edit.arrange(model.document, {"boxes": {ids["a"]: {"x": "far", "y": 0}, ids["b"]: 3, "gone": {"x": 0, "y": 0}}})
+    broken = edit.arrange(
+        model.document, {"boxes": {ids["a"]: {"x": "far", "y": 0}, ids["b"]: 3, "gone": {"x": 0, "y": 0}}}
+    )
     assert sketch(broken).places == {}
 
 
@@ -194,7 +229,10 @@ def test_files(tmp_path):
     with pytest.raises(OutputExists):
         made.save(tmp_path / "a.svg")
     made.save(tmp_path / "a.svg", force=True)
-    for name, options, what in (("a.gif", {}, "no format of pictures"), ("b.svg", {"width": 0}, "width is 0 inches")):
+    for name, options, what in (
+        ("a.gif", {}, "no format of pictures"),
+        ("b.svg", {"width": 0}, "width is 0 inches"),
+    ):
         with pytest.raises(DeodarError, match=what):
             made.save(tmp_path / name, **options)
         assert not (tmp_path / name).exists()

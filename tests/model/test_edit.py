@@ -1,4 +1,6 @@
-"""Operations: undo and redo give the identical document back; ids survive what does not make a new element."""
+"""Operations: undo and redo give the identical document back; ids survive what does not make a new
+element.
+"""
 
 from __future__ import annotations
 
@@ -176,7 +178,9 @@ def test_ids_survive_rename_move_group_and_ungroup() -> None:
     assert u.element.name == "w"
     assert model.document.connections == links
     assert model.document.links() == {(u.id, "tau"): "gain"}
-    assert sorted(_ids(model.document)) == ["inner.u>Gain", "inner.v", "left", "w"] or "w" in _ids(model.document)
+    assert sorted(_ids(model.document)) == ["inner.u>Gain", "inner.v", "left", "w"] or "w" in _ids(
+        model.document
+    )
 
 
 def test_handles_follow_and_say_when_their_element_is_gone() -> None:
@@ -228,7 +232,11 @@ def test_the_document_is_immutable() -> None:
 def test_layout_stays_apart_from_science() -> None:
     doc = make().document
     arranged = edit.arrange(doc, {"left": [1, 2]})
-    assert (arranged.entries, arranged.connections, arranged.knobs) == (doc.entries, doc.connections, doc.knobs)
+    assert (arranged.entries, arranged.connections, arranged.knobs) == (
+        doc.entries,
+        doc.connections,
+        doc.knobs,
+    )
     assert arranged.layout == {"left": [1, 2]} and doc.layout == {}
 
 

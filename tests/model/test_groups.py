@@ -31,7 +31,11 @@ def _paths(model: dd.Model) -> list[str]:
 def _edges(model: dd.Model, group: str) -> set[tuple[str, str]]:
     by = model.document.by_id()
     cut = len(group) + 1
-    return {(by[c.source].path[cut:], by[c.target].path[cut:]) for c in model.document.connections if by[c.source].path.startswith(group + ".")}
+    return {
+        (by[c.source].path[cut:], by[c.target].path[cut:])
+        for c in model.document.connections
+        if by[c.source].path.startswith(group + ".")
+    }
 
 
 def test_four_alike_behaviours_have_one_knob() -> None:
@@ -63,7 +67,11 @@ def test_a_copied_group_keeps_what_is_inside_and_leaves_what_is_outside() -> Non
     model.copy("a", "b")
     assert _edges(model, "a") == _edges(model, "b")
     by = model.document.by_id()
-    assert [(by[c.source].path, by[c.target].path) for c in model.document.connections if by[c.source].path == "left"] == [("left", "a.intention")]
+    assert [
+        (by[c.source].path, by[c.target].path)
+        for c in model.document.connections
+        if by[c.source].path == "left"
+    ] == [("left", "a.intention")]
     model.set("tau", 12)
     assert model.get("b.intention.tau") == 12
     assert ("b", "end") in model.document.groups

@@ -35,7 +35,7 @@ def u(model: dd.Model) -> Handle:
     return model["g.u"]
 
 
-# ------------------------------------------------------------------------------------------------ reading
+# ---------------------------------------------------------------------------------------------------- reading
 
 
 def test_a_parameter_is_read_at_its_present_value(model: dd.Model, u: Handle) -> None:
@@ -71,8 +71,13 @@ def test_parts_are_read_inside_the_model(model: dd.Model, u: Handle) -> None:
     assert float(u.sigmoid(0.0)) == 0.5, "what a part can do, its handle can"
 
 
-@pytest.mark.parametrize("where", [lambda u: u.tua, lambda u: u.kernel[0].sigm, lambda u: u.sigmoid.bet, lambda u: u["activation"].tua])
-def test_a_misspelt_parameter_is_refused_with_the_nearest_name(u: Handle, where: Callable[[Handle], object]) -> None:
+@pytest.mark.parametrize(
+    "where",
+    [lambda u: u.tua, lambda u: u.kernel[0].sigm, lambda u: u.sigmoid.bet, lambda u: u["activation"].tua],
+)
+def test_a_misspelt_parameter_is_refused_with_the_nearest_name(
+    u: Handle, where: Callable[[Handle], object]
+) -> None:
     with pytest.raises(UnknownName, match=r"Did you mean '(tau|sigma|beta)'"):
         where(u)
     with pytest.raises(AttributeError):
@@ -80,7 +85,9 @@ def test_a_misspelt_parameter_is_refused_with_the_nearest_name(u: Handle, where:
 
 
 def test_what_is_a_port_says_how_to_write_it(u: Handle) -> None:
-    with pytest.raises(UnknownName, match=re.escape('g.u.activation is a port, not a parameter. Write: u["activation"]')):
+    with pytest.raises(
+        UnknownName, match=re.escape('g.u.activation is a port, not a parameter. Write: u["activation"]')
+    ):
         _ = u.activation
     with pytest.raises(UnknownName, match=re.escape('Write: u["activation"]')):
         u.activation = 3
@@ -104,7 +111,7 @@ def test_a_handle_of_a_removed_element_says_so(model: dd.Model, u: Handle) -> No
     assert "tau" not in dir(u)
 
 
-# ------------------------------------------------------------------------------------------------ assigning
+# -------------------------------------------------------------------------------------------------- assigning
 
 
 def test_an_assignment_is_one_change_of_the_model(model: dd.Model, u: Handle) -> None:
@@ -142,7 +149,11 @@ def test_parts_of_one_element_are_given_to_another(model: dd.Model, u: Handle) -
     model["v"].sigmoid = u.sigmoid
     w = model.add(dd.Field("w", u.axes, kernel=[u.kernel[0], dd.Gaussian(-1, 4)], sigmoid=u.sigmoid))
     for field in (model["v"].element, w.element):
-        assert isinstance(field, dd.Field) and type(field.sigmoid) is dd.Logistic and type(field.kernel[0]) is dd.Gaussian
+        assert (
+            isinstance(field, dd.Field)
+            and type(field.sigmoid) is dd.Logistic
+            and type(field.kernel[0]) is dd.Gaussian
+        )
     u.kernel[0].sigma = 4
     assert model["v"].kernel[0].sigma == 2.0, "the values are given, not the handle"
 
@@ -150,13 +161,21 @@ def test_parts_of_one_element_are_given_to_another(model: dd.Model, u: Handle) -
 @pytest.mark.parametrize(
     ("change", "error", "what"),
     [
-        (lambda u: setattr(u, "tua", 3), UnknownName, "g.u.tua: Field has no parameter 'tua'. Did you mean 'tau'?"),
+        (
+            lambda u: setattr(u, "tua", 3),
+            UnknownName,
+            "g.u.tua: Field has no parameter 'tua'. Did you mean 'tau'?",
+        ),
         (lambda u: setattr(u, "tau", -1), ParameterError, r"g.u.tau: is -1, below its lower bound"),
         (lambda u: setattr(u, "tau", "slow"), ParameterError, "needs a number, not 'slow'"),
         (lambda u: setattr(u, "name", "w"), ParameterError, "renaming the element"),
         (lambda u: setattr(u, "path", "w"), ParameterError, "belongs to the handle"),
         (lambda u: setattr(u, "_private", 1), UnknownName, "no parameter '_private'"),
-        (lambda u: setattr(u.kernel[0], "sigm", 3), UnknownName, "g.u.kernel.0.sigm: Gaussian has no parameter 'sigm'. Did you mean 'sigma'?"),
+        (
+            lambda u: setattr(u.kernel[0], "sigm", 3),
+            UnknownName,
+            "g.u.kernel.0.sigm: Gaussian has no parameter 'sigm'. Did you mean 'sigma'?",
+        ),
         (lambda u: setattr(u.kernel[0], "sigma", -3), ParameterError, "sigma.* below its lower bound"),
         (lambda u: u.kernel.append(dd.Gaussian()), UnknownName, r"Write: u.kernel = \[\*u.kernel, part\]"),
         (lambda u: setattr(u.kernel, "sigma", 3), UnknownName, r"Write: u.kernel\[0\].sigma"),
@@ -164,7 +183,7 @@ def test_parts_of_one_element_are_given_to_another(model: dd.Model, u: Handle) -
         (lambda u: delattr(u, "tau"), ParameterError, "cannot be taken away"),
         (lambda u: delattr(u.kernel[0], "sigma"), ParameterError, "cannot be taken away"),
     ],
-)  # fmt: skip
+)
 def test_an_assignment_is_checked_like_any_change(
     model: dd.Model, u: Handle, change: Callable[[Handle], object], error: type[DeodarError], what: str
 ) -> None:
@@ -174,14 +193,17 @@ def test_an_assignment_is_checked_like_any_change(
     assert model.document is before
 
 
-# ------------------------------------------------------------------------------------------------ showing
+# ---------------------------------------------------------------------------------------------------- showing
 
 
 def test_repr_shows_kind_path_axes_and_what_is_not_default(model: dd.Model, u: Handle) -> None:
     assert repr(u) == "<Field g.u [x 0..10 deg, 11 samples]: kernel=[Gaussian(amplitude=1.2, sigma=2.0)]>"
     u.tau = 30
     u.sigmoid.beta = 2
-    assert repr(u) == ("<Field g.u [x 0..10 deg, 11 samples]: tau=30.0, sigmoid=Logistic(beta=2.0), kernel=[Gaussian(amplitude=1.2, sigma=2.0)]>")
+    assert (
+        repr(u) == "<Field g.u [x 0..10 deg, 11 samples]: tau=30.0, sigmoid=Logistic(beta=2.0),"
+        " kernel=[Gaussian(amplitude=1.2, sigma=2.0)]>"
+    )
     model.parameter("slow", 80.0)
     model.link("g.u.tau", "slow")
     assert "tau=80.0 (slow)" in repr(u)
@@ -205,14 +227,25 @@ def test_repr_of_large_parameters_is_one_short_line(model: dd.Model) -> None:
 def test_completion_lists_parameters_and_ports(u: Handle) -> None:
     assert {"tau", "kernel", "sigmoid", "path", "element"} <= set(dir(u))
     assert dir(u.kernel[0]) == ["amplitude", "boundary", "normalized", "sigma"]
-    assert u._ipython_key_completions_() == ["output", "activation", "interaction", "input"]  # pyright: ignore[reportPrivateUsage]
+    assert u._ipython_key_completions_() == [
+        "output",
+        "activation",
+        "interaction",
+        "input",
+    ]  # pyright: ignore[reportPrivateUsage]
 
 
-# ------------------------------------------------------------------------------------------------ as objects
+# ------------------------------------------------------------------------------------------------- as objects
 
 
 def test_handles_are_equal_by_model_and_element(model: dd.Model, u: Handle) -> None:
-    assert u == model["g.u"] and hash(u) == hash(model["g.u"]) and u != model["v"] and u != u["activation"] and u != "g.u"
+    assert (
+        u == model["g.u"]
+        and hash(u) == hash(model["g.u"])
+        and u != model["v"]
+        and u != u["activation"]
+        and u != "g.u"
+    )
     assert copy.copy(u) == u and copy.copy(u).model is model
     other = copy.deepcopy(u)
     assert other != u and other.tau == 20.0 and other.model is not model
@@ -228,7 +261,11 @@ def test_no_parameter_has_the_name_of_an_attribute_of_handles(model: dd.Model, k
 
 @pytest.mark.parametrize("kind", PARTS)
 def test_no_parameter_has_the_name_of_an_attribute_of_part_handles(u: Handle, kind: str) -> None:
-    own = {name for name in {*vars(PartHandle), *vars(PartsHandle), *vars(u.kernel), *vars(u.sigmoid)} if not name.startswith("__")}
+    own = {
+        name
+        for name in {*vars(PartHandle), *vars(PartsHandle), *vars(u.kernel), *vars(u.sigmoid)}
+        if not name.startswith("__")
+    }
     assert not own & {p.name for p in parameters(PARTS[kind])}
 
 
@@ -248,7 +285,9 @@ def test_many_are_set_all_or_none_and_every_mistake_is_listed(model: dd.Model) -
     before = model.document
     with pytest.raises(ParameterError) as caught:
         model.set({"g.u.tau": 30, "v.tau": -1, "v.nosie": 1})
-    assert [p.where for p in caught.value.problems] == ["v.tau", ""] and "Did you mean 'noise'" in str(caught.value)
+    assert [p.where for p in caught.value.problems] == ["v.tau", ""] and "Did you mean 'noise'" in str(
+        caught.value
+    )
     assert model.document is before
 
 

@@ -13,8 +13,15 @@ from deodar.model.document import Document
 from deodar.model.reader import from_data
 from deodar.parameters import FrozenArray
 
-KINDS = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted((Path(__file__).parent / "mistakes").glob("*.json"))}
-CASES = [pytest.param(case, id=f"{kind}: {case['document']['name']}") for kind, group in KINDS.items() for case in group["cases"]]
+KINDS = {
+    path.stem: json.loads(path.read_text(encoding="utf-8"))
+    for path in sorted((Path(__file__).parent / "mistakes").glob("*.json"))
+}
+CASES = [
+    pytest.param(case, id=f"{kind}: {case['document']['name']}")
+    for kind, group in KINDS.items()
+    for case in group["cases"]
+]
 
 
 def document(case: dict[str, Any]) -> Document:
@@ -41,7 +48,10 @@ def test_every_document_loads_and_says_what_is_expected(case: dict[str, Any]) ->
 def test_every_mistake_is_caught_where_it_is_with_the_sentence(case: dict[str, Any]) -> None:
     found = check(document(case))
     said = [p for p in found if p.where == case["where"] and p.severity == case["severity"]]
-    assert any(all(word in f"{p.what} {p.fix}" for word in case["words"]) and (p.fix or "Give " in p.what) for p in said), found
+    assert any(
+        all(word in f"{p.what} {p.fix}" for word in case["words"]) and (p.fix or "Give " in p.what)
+        for p in said
+    ), found
 
 
 def test_the_manual_lists_every_kind_of_mistake() -> None:

@@ -1,4 +1,7 @@
-"""What is right gets no warning: examples, templates, demonstrations, imported models. And a check compiles nothing."""
+"""What is right gets no warning: examples, templates, demonstrations, imported models.
+
+And a check compiles nothing.
+"""
 
 from __future__ import annotations
 
@@ -29,8 +32,18 @@ import workloads
 
 DOCUMENTS = sorted(EXAMPLES.glob("*.json"))
 TEMPLATES = [
-    behaviour, behaviours, change_detection, change_trial, binding, feature_space, plan, reference_frame, remapping, saliency, serial_order,
-]  # fmt: skip
+    behaviour,
+    behaviours,
+    change_detection,
+    change_trial,
+    binding,
+    feature_space,
+    plan,
+    reference_frame,
+    remapping,
+    saliency,
+    serial_order,
+]
 
 
 def warned(model: dd.Model) -> list[str]:

@@ -56,7 +56,7 @@ def test_a_package_is_known_by_its_content(tmp_path: Path) -> None:
     assert dd.load(tmp_path / "a.json").document == model().document
 
 
-# ------------------------------------------------------------------------------------------------ hostile files
+# ---------------------------------------------------------------------------------------------- hostile files
 
 
 def parts() -> dict[str, bytes]:
@@ -90,13 +90,19 @@ HOSTILE: dict[str, tuple[Callable[[Path], object], str]] = {
     "nothing in it": (lambda p: archive(p, {}), "holds no document"),
     "no document": (lambda p: archive(p, {"a.npz": b"x"}), "holds no document"),
     "two documents": (lambda p: archive(p, {**parts(), "b.json": b"{}"}), "holds 2 documents"),
-    "something else": (lambda p: archive(p, {**parts(), "run.py": b"x"}), "holds 'run.py', which the document does not name"),
+    "something else": (
+        lambda p: archive(p, {**parts(), "run.py": b"x"}),
+        "holds 'run.py', which the document does not name",
+    ),
     "a path upwards": (lambda p: archive(p, {"../a.json": b"{}"}), "holds '../a.json'"),
     "an absolute path": (lambda p: archive(p, {"/a.json": b"{}"}), "holds '/a.json'"),
     "a path of Windows": (lambda p: archive(p, {"C:\\a.json": b"{}"}), "holds 'C:"),
     "a folder": (lambda p: archive(p, {"in/a.json": b"{}"}), "holds 'in/a.json'"),
     "the arrays are missing": (lambda p: archive(p, {"a.json": parts()["a.json"]}), "is missing"),
-    "other arrays": (lambda p: archive(p, {n: c if n == "a.json" else c[::-1] for n, c in parts().items()}), "its hash differs"),
+    "other arrays": (
+        lambda p: archive(p, {n: c if n == "a.json" else c[::-1] for n, c in parts().items()}),
+        "its hash differs",
+    ),
     "a bomb": (lambda p: archive(p, {"a.json": b" " * (files.MOST_BYTES + 1)}), "at most 64"),
 }
 
@@ -119,7 +125,9 @@ def test_one_name_twice_is_refused(tmp_path: Path) -> None:
         dd.load(tmp_path / "a.deodar")
 
 
-def test_arrays_that_would_not_fit_are_refused_before_they_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_arrays_that_would_not_fit_are_refused_before_they_are_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     dd.save(model(), tmp_path / "a.deodar")
     monkeypatch.setattr(files, "ARRAY_SHARE", 1e-12)
     with pytest.raises(DocumentError, match="GiB are free"):

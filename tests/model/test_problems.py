@@ -33,7 +33,11 @@ def _line() -> int:
 
 def test_a_good_model_has_no_problems() -> None:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4)) >> dd.Gain(2) >> model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2)]))
+    (
+        model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4))
+        >> dd.Gain(2)
+        >> model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2)]))
+    )
     assert model.check() == []
     model.require()
 
@@ -53,7 +57,12 @@ def test_every_problem_is_listed_at_once_with_its_line() -> None:
     loose >> u
     found = {p.where: p.what for p in model.check()}
     here = __file__.rsplit("/", 1)[-1].rsplit("\\", 1)[-1]
-    assert set(found) == {f"u ({here}:{first})", f"v ({here}:{second})", f"g.w ({here}:{third})", f"loose ({here}:{fourth})"}
+    assert set(found) == {
+        f"u ({here}:{first})",
+        f"v ({here}:{second})",
+        f"g.w ({here}:{third})",
+        f"loose ({here}:{fourth})",
+    }
     assert "kernel.0.sigma has 2 values for 1 axes" in found[f"u ({here}:{first})"]
     with pytest.raises(ModelError) as caught:
         model.require()
@@ -84,7 +93,9 @@ UNIT = dd.Axis("y", 0, 1, samples=3)
         ([X], [dd.Axis("x", 0, 10, samples=11, periodic=True)], "Resample([x])"),
     ],
 )
-def test_what_to_write_for_unlike_axes_keeps_the_places_of_the_source(source: list[dd.Axis], target: list[dd.Axis], coupling: str) -> None:
+def test_what_to_write_for_unlike_axes_keeps_the_places_of_the_source(
+    source: list[dd.Axis], target: list[dd.Axis], coupling: str
+) -> None:
     """Two places of the source give two different inputs of the target."""
     seen: list[np.ndarray] = []
     for center in (3, 7):
@@ -96,7 +107,12 @@ def test_what_to_write_for_unlike_axes_keeps_the_places_of_the_source(source: li
         assert f"u >> {coupling} >> v" in problem.fix
         model.disconnect(u, v)
         w = np.random.default_rng(0).random((*(a.samples for a in target), *(a.samples for a in source)))
-        names = {a.name: a for a in target} | {"w": w, "Project": dd.Project, "Weights": Weights, "Resample": Resample}
+        names = {a.name: a for a in target} | {
+            "w": w,
+            "Project": dd.Project,
+            "Weights": Weights,
+            "Resample": Resample,
+        }
         u >> eval(coupling, names | {"DiagonalSum": DiagonalSum, "DiagonalExpansion": DiagonalExpansion}) >> v
         assert not any(p.severity == "problem" for p in model.check())
         seen.append(dd.simulate(model, duration=1, dt=1, record="v.input")["v.input"].isel(time=-1).values)
@@ -115,7 +131,10 @@ def test_units_that_differ_are_named() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [dd.Axis("x", 0, 10, samples=11, unit="deg")]))
     (problem,) = model.check()
-    assert problem.fix.startswith("Write: one axis 'x' for both") and "only the units '' and 'deg' differ" in problem.fix
+    assert (
+        problem.fix.startswith("Write: one axis 'x' for both")
+        and "only the units '' and 'deg' differ" in problem.fix
+    )
 
 
 def test_axes_of_other_bounds_print_both_and_the_resample_to_write() -> None:
@@ -129,7 +148,11 @@ def test_axes_of_other_bounds_print_both_and_the_resample_to_write() -> None:
 
 @pytest.mark.parametrize(
     "other",
-    [dd.Axis("x", 0, 10, samples=11, unit="deg"), dd.Axis("x", 0, 10, samples=11, periodic=True), dd.Axis("x", 0, 10.001, samples=11)],
+    [
+        dd.Axis("x", 0, 10, samples=11, unit="deg"),
+        dd.Axis("x", 0, 10, samples=11, periodic=True),
+        dd.Axis("x", 0, 10.001, samples=11),
+    ],
 )
 def test_unit_periodicity_and_bounds_must_be_equal(other: dd.Axis) -> None:
     model = dd.Model("m")
@@ -152,7 +175,11 @@ def test_a_loop_without_a_state_is_named() -> None:
     g >> h
     h >> g
     problems = model.check()
-    assert any("a loop without a state in it: g -> h -> g" in p.what or "a loop without a state in it: h -> g -> h" in p.what for p in problems)
+    assert any(
+        "a loop without a state in it: g -> h -> g" in p.what
+        or "a loop without a state in it: h -> g -> h" in p.what
+        for p in problems
+    )
     assert any("reads='delayed'" in p.fix for p in problems)
     model.disconnect(h, g)
     model.connect(h, g, reads="delayed")
@@ -257,7 +284,10 @@ def test_a_product_of_fields_over_different_axes() -> None:
     p = model.add(Product(name="p"))
     u >> p["input"]
     v >> p["factor"]
-    assert any("v.output [y 0..10, 11 samples] does not fit p.factor [x 0..10, 11 samples]" in q.what for q in model.check())
+    assert any(
+        "v.output [y 0..10, 11 samples] does not fit p.factor [x 0..10, 11 samples]" in q.what
+        for q in model.check()
+    )
 
 
 def test_problems_of_what_stands_before_are_not_repeated() -> None:
@@ -290,11 +320,17 @@ def test_the_line_to_type_is_one_that_works() -> None:
             model.history.commit(before)
 
 
-@pytest.mark.parametrize("kernel", [dd.Gaussian(1, 1e30), dd.Gaussian(1, [1e30]), Box(1, 1e30), Shifted(dd.Gaussian(1, 1), 1e30)])
+@pytest.mark.parametrize(
+    "kernel", [dd.Gaussian(1, 1e30), dd.Gaussian(1, [1e30]), Box(1, 1e30), Shifted(dd.Gaussian(1, 1), 1e30)]
+)
 def test_a_kernel_beyond_any_axis_is_a_problem(kernel: Kernel) -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X], kernel=[kernel]))
     (problem,) = model.check()
-    assert "kernel.0: " in problem.what and "is 1e+30, more than 1e+12 times the axis 'x' (10)" in problem.what and "at most 1e+13" in problem.what
+    assert (
+        "kernel.0: " in problem.what
+        and "is 1e+30, more than 1e+12 times the axis 'x' (10)" in problem.what
+        and "at most 1e+13" in problem.what
+    )
     with pytest.raises(ModelError):
         dd.simulate(model, duration=1, dt=1)

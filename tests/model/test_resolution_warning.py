@@ -11,7 +11,9 @@ from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.step import Step
 
 
-def memory(samples: int = 101, sigmoid: object = None, strength: float = 18, dimensions: int = 1, **more: object) -> dd.Model:
+def memory(
+    samples: int = 101, sigmoid: object = None, strength: float = 18, dimensions: int = 1, **more: object
+) -> dd.Model:
     axes = [dd.Axis(name, 0, 100, samples) for name in "xyz"[:dimensions]]
     model = dd.Model("memory")
     given = {
@@ -29,7 +31,9 @@ def warned(model: dd.Model) -> list[str]:
 
 
 @pytest.mark.parametrize(("dimensions", "strength"), [(1, 18), (2, 22)])
-def test_a_memory_on_a_coarse_grid_gets_a_warning_with_the_line_to_type(dimensions: int, strength: float) -> None:
+def test_a_memory_on_a_coarse_grid_gets_a_warning_with_the_line_to_type(
+    dimensions: int, strength: float
+) -> None:
     (said,) = warned(memory(dimensions=dimensions, strength=strength, samples=51))
     assert 'quadrature="cell"' in said and "samples=" in said and "'x'" in said
 

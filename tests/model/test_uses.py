@@ -64,8 +64,16 @@ def test_what_is_new_comes_what_is_gone_goes_and_the_outside_stays() -> None:
     changed["a"] >> changed.add(dd.Field("middle", []), group="inner") >> changed["b"]
     kept = {name: model[f"{name}.a"].id for name in ("left", "right")}
     model.refresh(changed)
-    inside = {(f"{n}.a", f"{n}.inner.middle") for n in ("left", "right")} | {(f"{n}.inner.middle", f"{n}.b") for n in ("left", "right")}
-    around = {("left.b", "out"), ("right.b", "less"), ("less", "left.a"), ("copy.a", "copy.drives"), ("copy.drives", "copy.b")}
+    inside = {(f"{n}.a", f"{n}.inner.middle") for n in ("left", "right")} | {
+        (f"{n}.inner.middle", f"{n}.b") for n in ("left", "right")
+    }
+    around = {
+        ("left.b", "out"),
+        ("right.b", "less"),
+        ("less", "left.a"),
+        ("copy.a", "copy.drives"),
+        ("copy.drives", "copy.b"),
+    }
     assert edges(model) == inside | around
     assert {name: model[f"{name}.a"].id for name in kept} == kept
     assert "left.drives" not in model and "copy.drives" in model
@@ -92,7 +100,10 @@ def test_document_parameters_keep_their_values_here_and_drive_what_is_new() -> N
     changed.link("drives.factor", "strength")
     model.refresh(changed)
     assert {model.get(f"{n}.{e}.tau") for n in ("left", "right") for e in "ab"} == {50.0}
-    assert model.get("left.b.resting_level") == -7 and model.get("right.drives.factor") == model.get("strength") == 4
+    assert (
+        model.get("left.b.resting_level") == -7
+        and model.get("right.drives.factor") == model.get("strength") == 4
+    )
     assert model.get("copy.drives.factor") == 2
 
 
@@ -146,7 +157,9 @@ def test_a_template_that_lost_what_others_need_is_refused() -> None:
     model, changed = host(), template()
     changed.remove("b")
     before = model.document
-    with pytest.raises(ModelError, match=r"left\.b\.output -> out\.input: the template 'switch' has no 'b' any more") as caught:
+    with pytest.raises(
+        ModelError, match=r"left\.b\.output -> out\.input: the template 'switch' has no 'b' any more"
+    ) as caught:
         model.refresh(changed)
     assert len(caught.value.problems) >= 1 and model.document == before
 

@@ -56,7 +56,9 @@ def test_problems_come_without_warnings_because_these_need_a_graph_that_is_sound
 
 def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(0, 50), (300, 100)])) >> model.add(dd.Field("u", [X]))
+    model.add(
+        dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(0, 50), (300, 100)])
+    ) >> model.add(dd.Field("u", [X]))
     (found,) = model.check()
     assert found.severity == "problem" and found.where.startswith("s (")
     assert "windows.1 ends at 100, before it begins at 300" in found.what and "(100, 300)" in found.fix
@@ -64,6 +66,8 @@ def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:
 
 def test_a_window_without_duration_is_a_warning() -> None:
     model = dd.Model("m")
-    model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(dd.Field("u", [X]))
+    model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(
+        dd.Field("u", [X])
+    )
     (found,) = model.check()
     assert found.severity == "warning" and "is never on" in found.what

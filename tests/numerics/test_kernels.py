@@ -38,7 +38,11 @@ WIDTHS = [2e-6, 1e-3, 0.05, 0.1, 0.24, 0.25, 0.5, 1.0, 2.0]
 
 @pytest.mark.parametrize("width", WIDTHS)
 def test_normalized_means_an_integral_of_the_amplitude_at_every_width(width):
-    for kernel in (Gaussian(3.0, width / 2, normalized=True), Box(3.0, width, normalized=True), Shifted(Box(3.0, width, normalized=True), 0.7)):
+    for kernel in (
+        Gaussian(3.0, width / 2, normalized=True),
+        Box(3.0, width, normalized=True),
+        Shifted(Box(3.0, width, normalized=True), 0.7),
+    ):
         assert integral(kernel, (LINE,)) == pytest.approx(3.0, rel=1e-9), kernel
     hat = MexicanHat(5.0, width / 2, 2.0, width, normalized=True)
     assert integral(hat, (LINE,)) == pytest.approx(3.0, rel=1e-9)
@@ -46,14 +50,18 @@ def test_normalized_means_an_integral_of_the_amplitude_at_every_width(width):
 
 @pytest.mark.parametrize("width", [0.5, 1.0, 2.0])
 def test_plain_amplitudes_stand_at_the_centre(width):
-    assert integral(Gaussian(3.0, width / 2), (LINE,)) == pytest.approx(3.0 * math.sqrt(2 * math.pi) * width / 2, rel=1e-8)
+    assert integral(Gaussian(3.0, width / 2), (LINE,)) == pytest.approx(
+        3.0 * math.sqrt(2 * math.pi) * width / 2, rel=1e-8
+    )
 
 
 @pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
 @pytest.mark.parametrize("steps", [1e-5, 0.01, 0.1, 0.3, 0.5, 0.7, 0.99, 1.0, 1.2, 2.0])
 def test_a_gaussian_narrower_than_the_grid_has_its_true_integral(axis, steps):
     sigma = steps * axis.step
-    assert integral(Gaussian(3.0, sigma), (axis,)) == pytest.approx(3.0 * math.sqrt(2 * math.pi) * sigma, rel=1e-8)
+    assert integral(Gaussian(3.0, sigma), (axis,)) == pytest.approx(
+        3.0 * math.sqrt(2 * math.pi) * sigma, rel=1e-8
+    )
     hat = MexicanHat(5.0, sigma, 2.0, 2 * sigma)
     assert integral(hat, (axis,)) == pytest.approx((5.0 - 2 * 2.0) * math.sqrt(2 * math.pi) * sigma, rel=1e-7)
 
@@ -87,7 +95,9 @@ def test_a_very_wide_gaussian_on_a_ring_is_uniform():
 @pytest.mark.parametrize("sigma", [0.1, 0.4, 1.0, 3.0, 5.99, 6.0, 6.01, 9.0, 40.0])
 def test_a_normalized_gaussian_on_a_ring_keeps_the_integral(sigma):
     y = np.random.default_rng(1).random(24)
-    assert convolved(Gaussian(1.0, sigma, normalized=True), (RING,), y).sum() == pytest.approx(y.sum(), rel=1e-12)
+    assert convolved(Gaussian(1.0, sigma, normalized=True), (RING,), y).sum() == pytest.approx(
+        y.sum(), rel=1e-12
+    )
 
 
 KERNELS = [
@@ -101,7 +111,9 @@ KERNELS = [
 ]
 
 
-@pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: f"{type(k).__name__} {getattr(k, 'sigma', getattr(k, 'width', ''))}")
+@pytest.mark.parametrize(
+    "kernel", KERNELS, ids=lambda k: f"{type(k).__name__} {getattr(k, 'sigma', getattr(k, 'width', ''))}"
+)
 def test_reflection_keeps_the_integral_and_ones(kernel):
     """What leaves at a border comes back: integrals are kept, and a homogeneous field stays homogeneous."""
     y = np.random.default_rng(2).random(161)

@@ -1,4 +1,6 @@
-"""Reading and changing weights: one copy by its active rows, batches as wholes, batches of batches: always the same rule."""
+"""Reading and changing weights: one copy by its active rows, batches as wholes, batches of batches: always
+the same rule.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ def test_reading_in_batches_of_batches():
     np.testing.assert_allclose(jax.vmap(jax.vmap(read))(W, PRE), wanted, atol=1e-5)
     np.testing.assert_allclose(jax.vmap(read)(W[0], PRE[0]), wanted[0], atol=1e-5)
     np.testing.assert_allclose(read(W[0, 0], PRE[0, 0]), wanted[0, 0], atol=1e-5)
-    np.testing.assert_allclose(jax.vmap(read, in_axes=(None, 0))(W[0, 0], PRE[0]), PRE[0] @ W[0, 0], atol=1e-5)
+    np.testing.assert_allclose(
+        jax.vmap(read, in_axes=(None, 0))(W[0, 0], PRE[0]), PRE[0] @ W[0, 0], atol=1e-5
+    )
     assert not np.any(read(W[0, 1], PRE[0, 1]))
 
 

@@ -31,12 +31,16 @@ def test_the_ends_survive_any_sampling(samples, dtype):
     """Rounding never takes the last sample of an axis out of the other's reach."""
     fine = Axis("x", 0.1, 0.7, samples)
     for how in resampling.INTERPOLATIONS:
-        np.testing.assert_allclose(weights(Axis("x", 0.1, 0.7, 13), fine.points, how, dtype).sum(1), 1.0, atol=2e-5)
+        np.testing.assert_allclose(
+            weights(Axis("x", 0.1, 0.7, 13), fine.points, how, dtype).sum(1), 1.0, atol=2e-5
+        )
 
 
 def test_linear_follows_straight_lines():
     points = np.linspace(0, 10, 37)
-    np.testing.assert_allclose(weights(LINE, points) @ (3 - 2 * LINE.points), 3 - 2 * points, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(
+        weights(LINE, points) @ (3 - 2 * LINE.points), 3 - 2 * points, rtol=1e-12, atol=1e-12
+    )
 
 
 def test_linear_closes_the_ring():
@@ -52,7 +56,9 @@ def test_nearest_takes_one_and_the_upper_of_two():
 
 
 def test_beyond_the_ends_there_is_nothing():
-    """Zeros follow the last sample: linear weights fall to nothing within one cell, the nearest within half of one."""
+    """Zeros follow the last sample: linear weights fall to nothing within one cell, the nearest within half
+    of one.
+    """
     assert not weights(LINE, [-1, 11, 400]).any()
     assert weights(LINE, [-0.25])[0, 0] == 0.75
     assert not weights(LINE, [-0.6, 10.5], "nearest").any()
@@ -67,7 +73,13 @@ def test_a_ring_of_one_sample_is_the_same_everywhere():
 def test_reductions():
     y = jnp.asarray(np.random.default_rng(0).random((4, 5)), jnp.float32)
     axis = Axis("y", 0, 2, 5)
-    expected = {"integral": y.sum(1) * 0.5, "sum": y.sum(1), "mean": y.mean(1), "max": y.max(1), "min": y.min(1)}
+    expected = {
+        "integral": y.sum(1) * 0.5,
+        "sum": y.sum(1),
+        "mean": y.mean(1),
+        "max": y.max(1),
+        "min": y.min(1),
+    }
     assert set(expected) == set(resampling.REDUCTIONS)
     for how, value in expected.items():
         np.testing.assert_allclose(resampling.reduce(y, 1, axis, how), value, rtol=1e-6)

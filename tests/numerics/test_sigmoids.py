@@ -17,8 +17,27 @@ from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 from deodar.numerics.sigmoids.step import Step
 
-ALL = [dd.Logistic(4.0, 0.3), dd.Logistic(1e5), Absolute(100.0, 0.3), Absolute(3.0), Step(0.3), Linear(0.7, 0.2), SemiLinear(0.7, 0.3)]
-ENDS = [(-12.0, 9.0), (-2.0, -1.0), (0.25, 0.4), (0.3, 0.3), (0.1, 0.1), (5.0, 5.001), (-9.0, -8.99), (0.29, 0.2901), (3.0, -3.0), (-40.0, -30.0)]
+ALL = [
+    dd.Logistic(4.0, 0.3),
+    dd.Logistic(1e5),
+    Absolute(100.0, 0.3),
+    Absolute(3.0),
+    Step(0.3),
+    Linear(0.7, 0.2),
+    SemiLinear(0.7, 0.3),
+]
+ENDS = [
+    (-12.0, 9.0),
+    (-2.0, -1.0),
+    (0.25, 0.4),
+    (0.3, 0.3),
+    (0.1, 0.1),
+    (5.0, 5.001),
+    (-9.0, -8.99),
+    (0.29, 0.2901),
+    (3.0, -3.0),
+    (-40.0, -30.0),
+]
 
 
 def test_the_logistic_is_relatively_exact_far_below_the_threshold():
@@ -28,7 +47,9 @@ def test_the_logistic_is_relatively_exact_far_below_the_threshold():
     assert found.dtype == np.float32
     np.testing.assert_allclose(found, exact, rtol=1e-5)
     assert np.isclose(float(dd.Logistic(4.0)(np.float32(-4.0))), 1.1253516e-07, rtol=1e-5)
-    assert float(dd.Logistic(4.0)(np.float32(-1e6))) == 0.0 and float(dd.Logistic(4.0)(np.float32(1e6))) == 1.0
+    assert (
+        float(dd.Logistic(4.0)(np.float32(-1e6))) == 0.0 and float(dd.Logistic(4.0)(np.float32(1e6))) == 1.0
+    )
 
 
 def exact_mean(g: SigmoidFunction, a: float, b: float) -> float:
@@ -44,7 +65,9 @@ def exact_mean(g: SigmoidFunction, a: float, b: float) -> float:
     threshold = getattr(g, "threshold", 0.0)
     near = [threshold + sign * k / getattr(g, "beta", 1.0) for sign in (-1, 1) for k in (0, 3, 30)]
     cuts = sorted({a, b, *(p for p in near if a < p < b)})
-    return sum(quad(f, p, q, epsabs=1e-13, epsrel=1e-12, limit=200)[0] for p, q in itertools.pairwise(cuts)) / (b - a)
+    return sum(
+        quad(f, p, q, epsabs=1e-13, epsrel=1e-12, limit=200)[0] for p, q in itertools.pairwise(cuts)
+    ) / (b - a)
 
 
 @pytest.mark.parametrize("g", ALL, ids=repr)
@@ -54,7 +77,9 @@ def test_the_mean_over_a_range(g):
     single = np.asarray(jax.jit(g.mean)(*ends.T.astype(np.float32)))
     assert single.dtype == np.float32
     scale = np.abs(ends).max(1) * getattr(g, "beta", 1.0)
-    rounded = 1e-5 + 2e-7 * np.minimum(scale, 1 / np.maximum(np.abs(ends[:, 1] - ends[:, 0]), 1e-12) + 30)  # activation has 7 digits
+    rounded = 1e-5 + 2e-7 * np.minimum(
+        scale, 1 / np.maximum(np.abs(ends[:, 1] - ends[:, 0]), 1e-12) + 30
+    )  # activation has 7 digits
     np.testing.assert_array_less(np.abs(single - exact), rounded + 1e-12)
     with jax.enable_x64(True):
         double = np.asarray(jax.jit(g.mean)(*ends.T))
@@ -67,7 +92,11 @@ def test_the_mean_of_the_logistic_is_relatively_exact_far_below_the_threshold():
         a, b = low.astype(np.float32), (low + width).astype(np.float32)
         softplus = np.log1p(np.exp(4.0 * np.stack([a, b]).astype(float)))
         d = 4.0 * (b.astype(float) - a)
-        exact = np.where(d > 0, (softplus[1] - softplus[0]) / np.where(d > 0, d, 1), 1 / (1 + np.exp(-4.0 * a.astype(float))))
+        exact = np.where(
+            d > 0,
+            (softplus[1] - softplus[0]) / np.where(d > 0, d, 1),
+            1 / (1 + np.exp(-4.0 * a.astype(float))),
+        )
         np.testing.assert_allclose(np.asarray(g.mean(a, b)), exact, rtol=3e-5)
 
 

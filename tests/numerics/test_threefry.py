@@ -56,7 +56,9 @@ def test_normals_in_a_running_model(every, trial):
     model = dd.Model("noisy")
     source = model.add(Noise("n", axes, 1.0), group="deep", ticks=every)
     ident = int(model.entry(source.id).id, 16)
-    data = dd.simulate(model, 12, seed=5, trials=[trial], record="deep.n.output", precision="float64")["deep.n.output"].values[0]
+    data = dd.simulate(model, 12, seed=5, trials=[trial], record="deep.n.output", precision="float64")[
+        "deep.n.output"
+    ].values[0]
     for tick in range(13):
         expected = plain.normals(5, trial, ident, (3, 2), tick // every) / np.sqrt(2.0) / np.sqrt(every)
         np.testing.assert_allclose(data[tick], expected, rtol=0, atol=1e-12)

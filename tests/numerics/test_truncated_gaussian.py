@@ -10,7 +10,11 @@ from deodar.couplings.convolve import Convolve
 from deodar.elements.pattern import Pattern
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 
-LINE, RING, EVEN = dd.Axis("x", 0, 30, 11), dd.Axis("phi", 0, 360, 11, periodic=True), dd.Axis("phi", 0, 360, 12, periodic=True)
+LINE, RING, EVEN = (
+    dd.Axis("x", 0, 30, 11),
+    dd.Axis("phi", 0, 360, 11, periodic=True),
+    dd.Axis("phi", 0, 360, 12, periodic=True),
+)
 
 
 def response(kernel, axis, at=5, precision="float64"):
@@ -54,7 +58,10 @@ def test_a_narrow_one_may_end_where_a_wider_one_does():
 
 
 def test_far_narrower_than_a_step_it_is_the_place_alone():
-    assert response(TruncatedGaussian(1.5, 1e-6, 5.0, normalized=True), RING).tolist() == [0] * 5 + [1.5] + [0] * 5
+    assert (
+        response(TruncatedGaussian(1.5, 1e-6, 5.0, normalized=True), RING).tolist()
+        == [0] * 5 + [1.5] + [0] * 5
+    )
 
 
 def test_without_amplitude_it_costs_nothing_and_can_come_back():

@@ -1,4 +1,6 @@
-"""Waves and Fourier transforms in place of matrices: the same convolution, cheaper, and only where it may be."""
+"""Waves and Fourier transforms in place of matrices: the same convolution, cheaper, and only where it may
+be.
+"""
 
 from __future__ import annotations
 
@@ -33,18 +35,27 @@ def test_all_waves_together_are_a_basis(boundary: str, samples: int) -> None:
 def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, planned: bool) -> np.ndarray:
     with jax.enable_x64(True):
         chosen = interaction.choices(kernels, axes) if planned else {}
-        mixture = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), chosen))
+        mixture = interaction.mix(
+            kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), chosen)
+        )
         return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), chosen))
 
 
 @pytest.mark.parametrize("way", ["waves", "fourier"])
 @pytest.mark.parametrize(("first", "second"), list(itertools.product(BOUNDARIES, repeat=2)))
-def test_every_way_gives_what_matrices_give(first: str, second: str, way: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """To 1e-5 of the sum of absolute weights, for kernels of different widths, one of them anisotropic, on a rectangle."""
+def test_every_way_gives_what_matrices_give(
+    first: str, second: str, way: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To 1e-5 of the sum of absolute weights, for kernels of different widths, one of them anisotropic, on a
+    rectangle.
+    """
     if way == "fourier" and "reflect" in (first, second):
         return  # a mirror is never transformed so
     axes = (Axis("x", 0, 39, 40), Axis("y", -1, 1, 33))
-    kernels = [dd.Gaussian(7, (3.0, 0.2), boundary=[first, second]), dd.Gaussian(-4, (5.0, 0.3), boundary=[first, second], normalized=True)]
+    kernels = [
+        dd.Gaussian(7, (3.0, 0.2), boundary=[first, second]),
+        dd.Gaussian(-4, (5.0, 0.3), boundary=[first, second], normalized=True),
+    ]
     monkeypatch.setattr(interaction, "choose", lambda *given: Choice(way, choose_waves(*given)))
     y = np.random.default_rng(1).random((40, 33))
     total = np.abs(applied(kernels, axes, np.ones((40, 33)), False)).max()
@@ -52,16 +63,24 @@ def test_every_way_gives_what_matrices_give(first: str, second: str, way: str, m
     assert np.abs(difference).max() < 1e-4 * total
 
 
-def choose_waves(axes: tuple[Axis, ...], boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], *others: int) -> tuple[Waves, ...]:
+def choose_waves(
+    axes: tuple[Axis, ...], boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], *others: int
+) -> tuple[Waves, ...]:
     from deodar.numerics.choice import _waves  # pyright: ignore[reportPrivateUsage]
 
-    return tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+    return tuple(
+        _waves(a.samples, b, low / a.step, high / a.step)
+        for a, b, (low, high) in zip(axes, boundaries, widths, strict=True)
+    )
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_taps_give_what_a_matrix_gives(boundary: str) -> None:
     axes = (Axis("x", 0, 199, 200),)
-    kernels = [dd.Gaussian(7, 3.0, boundary=[boundary]), dd.Gaussian(-4, 6.0, boundary=[boundary], normalized=True)]
+    kernels = [
+        dd.Gaussian(7, 3.0, boundary=[boundary]),
+        dd.Gaussian(-4, 6.0, boundary=[boundary], normalized=True),
+    ]
     assert [c.way for c in interaction.choices(kernels, axes).values()] == ["taps"]
     y = np.random.default_rng(1).random(200)
     total = np.abs(applied(kernels, axes, np.ones(200), False)).max()
@@ -76,14 +95,23 @@ def test_buckets_hold_their_widths() -> None:
 
 def test_what_is_chosen_where() -> None:
     line = (Axis("x", 0, 99, 100),)
-    square, large = tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"), tuple(Axis(a, 0, 399, 400, periodic=True) for a in "xy")
+    square, large = (
+        tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"),
+        tuple(Axis(a, 0, 399, 400, periodic=True) for a in "xy"),
+    )
     assert choose(line, ("zero",), ((3.0, 6.0),), 2).way == "matrices", "a small field takes its matrix"
     longer = (Axis("x", 0, 499, 500),)
     assert choose(longer, ("zero",), ((3.0, 12.0),), 2).way == "taps"
-    assert choose(longer, ("zero",), ((30.0, 90.0),), 2).way == "waves", "wide kernels have many taps and few waves"
+    assert choose(longer, ("zero",), ((30.0, 90.0),), 2).way == "waves", (
+        "wide kernels have many taps and few waves"
+    )
     assert choose(square, ("periodic",) * 2, ((3.0, 6.0),) * 2, 2).way == "waves"
-    assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).way == "fourier", "narrow kernels need many waves"
-    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).way == "matrices", "one narrow kernel gains nothing"
+    assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).way == "fourier", (
+        "narrow kernels need many waves"
+    )
+    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).way == "matrices", (
+        "one narrow kernel gains nothing"
+    )
 
 
 SQUARE = [dd.Axis("x", 0, 60, samples=61), dd.Axis("y", 0, 50, samples=51)]
@@ -91,7 +119,11 @@ SQUARE = [dd.Axis("x", 0, 60, samples=61), dd.Axis("y", 0, 50, samples=51)]
 
 def model(sigma: float = 4.0) -> dd.Model:
     made = dd.Model("square")
-    kernel = [dd.Gaussian(15, sigma, normalized=True), MexicanHat(4, 4, 2, 8, normalized=True, boundary=["reflect"]), dd.Gaussian(-0.1, 9.0)]
+    kernel = [
+        dd.Gaussian(15, sigma, normalized=True),
+        MexicanHat(4, 4, 2, 8, normalized=True, boundary=["reflect"]),
+        dd.Gaussian(-0.1, 9.0),
+    ]
     u = made.add(dd.Field("u", SQUARE, kernel=kernel, global_inhibition=0.001))
     made.add(dd.GaussianStimulus("s", SQUARE, center=[20, 48], sigma=4, amplitude=8)) >> u
     made.add(dd.GaussianStimulus("t", SQUARE, center=[59, 10], sigma=3, amplitude=7)) >> u
@@ -113,7 +145,11 @@ def test_exact_accuracy_takes_matrices_and_a_record_says_so() -> None:
     exact = dd.simulate(made, 100, precision="float64")["u.activation"].values
     asked = dd.simulate(made, 100, accuracy="exact")
     assert np.abs(asked["u.activation"].values - exact).max() < 2e-5
-    assert executable(made, accuracy="exact").plan.describe().count("waves") == 0 < executable(made).plan.describe().count("waves")
+    assert (
+        executable(made, accuracy="exact").plan.describe().count("waves")
+        == 0
+        < executable(made).plan.describe().count("waves")
+    )
     assert json.loads(asked.attrs["deodar"])["accuracy"] == "exact"
     session = dd.Session(made, accuracy="exact")
     assert session.set("u.kernel.0.sigma", 2.0) == "rebuild", "matrices hold at any width"

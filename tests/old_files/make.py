@@ -1,12 +1,14 @@
-"""How the files of `version_1` and `version_2` were made: by deodar at the last commit that wrote documents of that version.
+"""How the files of `version_1` and `version_2` were made: by deodar at the last commit that wrote documents
+of that version.
 
     git worktree add --detach OLD 792e504
     PYTHONPATH=OLD/src python tests/old_files/make.py 1 FOLDER
     git -C OLD checkout 85a2d0c
     PYTHONPATH=OLD/src python tests/old_files/make.py 2 FOLDER
 
-They are kept as those versions wrote them, with one exception: `axis` is taken out of the peak position in `version_1/choice.json`. Version 1 read
-documents that left it out, and always wrote it: the other files, which are made of this document, state the axis.
+They are kept as those versions wrote them, with one exception: `axis` is taken out of the peak position in
+`version_1/choice.json`. Version 1 read documents that left it out, and always wrote it: the other files,
+which are made of this document, state the axis.
 """
 
 from __future__ import annotations
@@ -29,11 +31,17 @@ from deodar.server.keeper import Keeper
 
 
 def choice(version: int) -> dd.Model:
-    """A field that an input brings to a peak, the place of the peak, and weights (an array) onto two nodes; the input moves in version 2."""
+    """A field that an input brings to a peak, the place of the peak, and weights (an array) onto two nodes;
+    the input moves in version 2.
+    """
     x = dd.Axis("x", 0, 20, 21)
     two = dd.Axis("two", 0, 1, 2)
     model = dd.Model("choice")
-    u = model.add(dd.Field("u", [x], tau=10, resting_level=-5, kernel=[dd.Gaussian(1.2, 2)], global_inhibition=0.6, noise=1.0))
+    u = model.add(
+        dd.Field(
+            "u", [x], tau=10, resting_level=-5, kernel=[dd.Gaussian(1.2, 2)], global_inhibition=0.6, noise=1.0
+        )
+    )
     if version == 1:
         model.add(dd.GaussianStimulus("input", [x], center=8, sigma=2, amplitude=7, windows=[(10, 60)])) >> u
     else:
@@ -55,7 +63,9 @@ def main(version: int, folder: Path) -> None:
         (folder / "choice.json").write_text(json.dumps(data, indent=2) + "\n")
     model = dd.load(folder / "choice.json")
     dd.save(model, folder / "choice.deodar")
-    record = dd.simulate(model, 40, seed=3, record=["u.activation", "place.output", "n.activation"], every=10, trials=2)
+    record = dd.simulate(
+        model, 40, seed=3, record=["u.activation", "place.output", "n.activation"], every=10, trials=2
+    )
     files.save(record, folder / "record.nc")
     if version == 1:
         files.save(record, folder / "record.zarr")

@@ -1,4 +1,6 @@
-"""Files that deodar wrote when documents had version 1 or 2 open, run and resume; `make.py` says how they were made."""
+"""Files that deodar wrote when documents had version 1 or 2 open, run and resume; `make.py` says how they
+were made.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ both = pytest.mark.parametrize("old", [OLD, OLD.with_name("version_2")], ids=lam
 
 
 def migrated(model: dd.Model, old: Path) -> bool:
-    """Whether a model has what its version did not have under this name: the axis of the place, the waypoints of the input."""
+    """Whether a model has what its version did not have under this name: the axis of the place, the waypoints
+    of the input.
+    """
     if old.name == "version_1":
         return model["place"].element.axis == X  # type: ignore[attr-defined]
     return np.array_equal(model["input"].element.waypoints.data, [[0, 8], [40, 12]])  # type: ignore[attr-defined]
@@ -47,7 +51,9 @@ def old() -> Path:
 
 @pytest.fixture
 def stopped(old: Path, tmp_path: Path) -> Path:
-    """A copy of the folder of an experiment that was stopped, as if it had been begun on this machine with these libraries."""
+    """A copy of the folder of an experiment that was stopped, as if it had been begun on this machine with
+    these libraries.
+    """
     folder = tmp_path / "stopped"
     shutil.copytree(old / "stopped", folder)
     first, *others = (folder / "trials.jsonl").read_text().split("\n")
@@ -57,11 +63,13 @@ def stopped(old: Path, tmp_path: Path) -> Path:
     return folder
 
 
-# ------------------------------------------------------------------------------------------------ documents and presets
+# -------------------------------------------------------------------------------------- documents and presets
 
 
 @both
-@pytest.mark.parametrize("name", ["choice.json", "choice.deodar", "experiment.model.json", "stopped/model.json"])
+@pytest.mark.parametrize(
+    "name", ["choice.json", "choice.deodar", "experiment.model.json", "stopped/model.json"]
+)
 def test_a_document_opens_as_the_present_version(name: str, old: Path, tmp_path: Path) -> None:
     model = dd.load(old / name)
     assert migrated(model, old)
@@ -76,7 +84,11 @@ def test_a_preset_gives_its_values(old: Path) -> None:
     model = dd.load(old / "choice.json")
     model.set("u.tau", 99.0)
     report = dd.apply_preset(model, old / "choice.deodar")
-    assert model.get("u.tau") == 10.0 and migrated(model, old) and any(line.verdict == "carried" for line in report.lines)
+    assert (
+        model.get("u.tau") == 10.0
+        and migrated(model, old)
+        and any(line.verdict == "carried" for line in report.lines)
+    )
 
 
 @both
@@ -88,7 +100,7 @@ def test_unsaved_edits_of_the_studio_are_offered_and_open(old: Path, tmp_path: P
     assert file == "choice.json" and migrated(dd.Model(document=found), old)
 
 
-# ------------------------------------------------------------------------------------------------ records
+# ---------------------------------------------------------------------------------------------------- records
 
 
 @pytest.mark.parametrize("record", ["version_1/record.nc", "version_1/record.zarr", "version_2/record.nc"])
@@ -97,11 +109,17 @@ def test_a_record_is_run_again_from_its_document(record: str) -> None:
     assert max(again.largest.values()) < 1e-4 and again.compared == 5
 
 
-def test_a_record_is_run_and_drawn_by_the_commands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_record_is_run_and_drawn_by_the_commands(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["run", str(OLD / "record.nc"), "--out", str(tmp_path / "again.nc")]) == 0
     assert main(["plot", str(OLD / "record.nc"), "--out", str(tmp_path / "record.png")]) == 0
     assert (tmp_path / "again.nc").exists() and (tmp_path / "record.png").stat().st_size > 1000
-    np.testing.assert_allclose(dd.load_record(tmp_path / "again.nc")["n.activation"], dd.load_record(OLD / "record.nc")["n.activation"], atol=1e-4)
+    np.testing.assert_allclose(
+        dd.load_record(tmp_path / "again.nc")["n.activation"],
+        dd.load_record(OLD / "record.nc")["n.activation"],
+        atol=1e-4,
+    )
 
 
 # ------------------------------------------------------------------------------------------------ experiments
@@ -125,7 +143,11 @@ def test_a_folder_that_was_stopped_is_resumed(old: Path, stopped: Path) -> None:
     assert (stopped / "trials.jsonl").read_text().split("\n")[:4] == rows, "the rows that were there stay"
     for k in range(8):
         name = f"records/{k:06}.nc"
-        np.testing.assert_allclose(dd.load_record(stopped / name)["n.activation"], dd.load_record(old / "whole" / name)["n.activation"], atol=1e-10)
+        np.testing.assert_allclose(
+            dd.load_record(stopped / name)["n.activation"],
+            dd.load_record(old / "whole" / name)["n.activation"],
+            atol=1e-10,
+        )
     assert dd.Experiment.load(old / "experiment.json").run(stopped).identical(data)
 
 
@@ -138,13 +160,17 @@ def test_a_folder_of_another_model_is_still_refused(stopped: Path) -> None:
 
 
 def test_a_folder_whose_document_was_changed_is_still_refused(stopped: Path) -> None:
-    """What the rows were made with is the document whose digest they hold, not what has been written over it."""
+    """What the rows were made with is the document whose digest they hold, not what has been written over
+    it.
+    """
     document = stopped / "model.json"
     document.write_text(document.read_text().replace('"tau": 10.0', '"tau": 11.0', 1))
     model = dd.load(document)
     assert model.get("u.tau") == 11.0
     with pytest.raises(OutputExists, match="another experiment: model differ"):
-        dd.Experiment.from_data(dd.Experiment.load(OLD / "experiment.json").to_data() | {"model": model}).run(stopped)
+        dd.Experiment.from_data(dd.Experiment.load(OLD / "experiment.json").to_data() | {"model": model}).run(
+            stopped
+        )
 
 
 def test_the_table_of_a_folder_is_read() -> None:

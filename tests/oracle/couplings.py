@@ -52,7 +52,13 @@ def project(y, source, p):
     for d in range(len(names) - 1, -1, -1):
         if names[d] not in wanted:
             step = grid(axes[d])[1]
-            reductions = {"integral": lambda v, d, h=step: h * v.sum(d), "sum": np.sum, "mean": np.mean, "max": np.max, "min": np.min}
+            reductions = {
+                "integral": lambda v, d, h=step: h * v.sum(d),
+                "sum": np.sum,
+                "mean": np.mean,
+                "max": np.max,
+                "min": np.min,
+            }
             y = reductions[p.reduce](y, d)
             del names[d], axes[d]
     for d, name in enumerate(names):
@@ -86,7 +92,9 @@ def peak_position(f, p):
     if not p.axis.periodic:
         return (x * f).sum() * step / n, n
     period = p.axis.upper - p.axis.lower
-    direction = sum(fi * np.exp(2j * math.pi * (xi - p.axis.lower) / period) for xi, fi in zip(x, f, strict=True))
+    direction = sum(
+        fi * np.exp(2j * math.pi * (xi - p.axis.lower) / period) for xi, fi in zip(x, f, strict=True)
+    )
     return p.axis.lower + (np.angle(direction) % (2 * math.pi)) * period / (2 * math.pi), n
 
 
@@ -102,7 +110,9 @@ def color_space(picture, source, p):
             continue
         for k, hue in enumerate(hues):
             away = min(abs(hue - hue_axis.lower - h * period + m * period) for m in (-1, 0, 1))
-            votes[i, j, k] = s * (math.exp(-(away**2) / (2 * p.sigma**2)) if p.sigma else max(0.0, 1 - away / step) / step)
+            votes[i, j, k] = s * (
+                math.exp(-(away**2) / (2 * p.sigma**2)) if p.sigma else max(0.0, 1 - away / step) / step
+            )
     out = np.zeros(tuple(a.samples for a in p.axes))
     x, y = [_members(a, b) for a, b in zip(source[:2], p.axes[:2], strict=True)]
     for i, j in np.ndindex(*out.shape[:2]):
@@ -117,6 +127,8 @@ def _members(fine, coarse):
     out = []
     for place in y:
         inside = [i for i, xi in enumerate(x) if -0.5 <= round((xi - place) / step, 12) < 0.5]
-        nearest = max(range(len(x)), key=lambda i: (-round(abs(x[i] - place), 12), i))  # the upper of two equally near
+        nearest = max(
+            range(len(x)), key=lambda i: (-round(abs(x[i] - place), 12), i)
+        )  # the upper of two equally near
         out.append(inside or [nearest])
     return out

@@ -42,11 +42,17 @@ def antiderivative(g, u):
 
 def mean(g, a, b):
     """The mean of g between a and b."""
-    return float(sigmoid(g, 0.5 * (a + b))) if abs(b - a) < 1e-7 else (antiderivative(g, b) - antiderivative(g, a)) / (b - a)
+    return (
+        float(sigmoid(g, 0.5 * (a + b)))
+        if abs(b - a) < 1e-7
+        else (antiderivative(g, b) - antiderivative(g, a)) / (b - a)
+    )
 
 
 def beside(u, place, d, away, axis):
-    """The sample `away` samples from a place along axis d; beyond an end a straight line through the last two."""
+    """The sample `away` samples from a place along axis d; beyond an end a straight line through the last
+    two.
+    """
     i, n = place[d] + away, axis.samples
 
     def at(k):
@@ -58,8 +64,9 @@ def beside(u, place, d, away, axis):
 
 
 def cell_means(g, u, axes):
-    """On a line weights 1, 3, 3, 1 for the halves of both neighbouring intervals, whose ends differ by what the rule's differences D give; beyond
-    one axis the range of one sample along the steepest axis."""
+    """On a line weights 1, 3, 3, 1 for the halves of both neighbouring intervals, whose ends differ by what
+    the rule's differences D give; beyond one axis the range of one sample along the steepest axis.
+    """
     out = np.zeros(u.shape)
     for place in np.ndindex(*u.shape):
         if len(axes) == 1:
@@ -75,9 +82,13 @@ def cell_means(g, u, axes):
             for k in (0, -1):
                 v[k - 0.5] = v[k] - (3 * d[k] + d[k - 1]) / 8
                 v[k - 1] = v[k - 0.5] - (d[k] + 3 * d[k - 1]) / 8
-            out[place] = sum(c / 8 * (mean(g, v[s * k], v[s * (k + 0.5)])) for s in (-1, 1) for k, c in ((0, 3), (0.5, 1)))
+            out[place] = sum(
+                c / 8 * (mean(g, v[s * k], v[s * (k + 0.5)])) for s in (-1, 1) for k, c in ((0, 3), (0.5, 1))
+            )
         else:
-            slopes = [abs(beside(u, place, d, 1, a) - beside(u, place, d, -1, a)) / 2 for d, a in enumerate(axes)]
+            slopes = [
+                abs(beside(u, place, d, 1, a) - beside(u, place, d, -1, a)) / 2 for d, a in enumerate(axes)
+            ]
             out[place] = mean(g, u[place] - max(slopes) / 2, u[place] + max(slopes) / 2)
     return out
 
@@ -104,7 +115,9 @@ class Field:
     @property
     def interaction(self):
         g = self.output
-        return (self.weights @ g.ravel()).reshape(self.shape) - self.p.global_inhibition * volume(self.p.axes) * g.sum()
+        return (self.weights @ g.ravel()).reshape(self.shape) - self.p.global_inhibition * volume(
+            self.p.axes
+        ) * g.sum()
 
     def step(self, s, dt):
         self.u = self.u + dt / self.p.tau * (-self.u + self.p.resting_level + s + self.interaction)
@@ -147,7 +160,13 @@ def attractor(a, phi, f, dt):
     x, step = grid(a.axis)
     if a.axis.periodic:
         period = a.axis.upper - a.axis.lower
-        rate = sum(period / (2 * math.pi) * math.sin(2 * math.pi * (xi - phi) / period) * fi * step for xi, fi in zip(x, f, strict=True)) / a.tau
+        rate = (
+            sum(
+                period / (2 * math.pi) * math.sin(2 * math.pi * (xi - phi) / period) * fi * step
+                for xi, fi in zip(x, f, strict=True)
+            )
+            / a.tau
+        )
     else:
         rate = sum((a.gain * xi + a.offset - phi) * fi * step for xi, fi in zip(x, f, strict=True)) / a.tau
     if a.fastest > 0:

@@ -1,4 +1,6 @@
-"""Interaction kernels as direct sums: one weight for every pair of samples, images of the source written out."""
+"""Interaction kernels as direct sums: one weight for every pair of samples, images of the source written
+out.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,9 @@ def custom(lags, steps, kernel):
     weights = kernel.weights.data
     spacing = steps if kernel.spacing is None else [each(kernel.spacing, d) for d in range(len(steps))]
     grids = [np.arange(n) - (n - 1) // 2 for n in weights.shape]
-    places = np.stack([np.round(lag / s, 12) for lag, s in zip(np.broadcast_arrays(*lags), spacing, strict=True)], axis=-1)
+    places = np.stack(
+        [np.round(lag / s, 12) for lag, s in zip(np.broadcast_arrays(*lags), spacing, strict=True)], axis=-1
+    )
     # a grid of one sample is its own neighbour on both sides
     padded, wide = weights, []
     for d, grid in enumerate(grids):
@@ -51,7 +55,9 @@ def custom(lags, steps, kernel):
             pad[d] = (1, 1)
             padded, grid = np.pad(padded, pad), np.arange(-1, 2)
         wide.append(grid)
-    return kernel.amplitude * RegularGridInterpolator(wide, padded, bounds_error=False, fill_value=0.0)(places)
+    return kernel.amplitude * RegularGridInterpolator(wide, padded, bounds_error=False, fill_value=0.0)(
+        places
+    )
 
 
 def weight(kernel, lags, steps):

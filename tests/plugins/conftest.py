@@ -18,7 +18,9 @@ Install = Callable[..., Path]
 
 @pytest.fixture
 def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
-    """Put a package on the path: its name, the text of its modules, its entry points by group, its version and requirements."""
+    """Put a package on the path: its name, the text of its modules, its entry points by group, its version
+    and requirements.
+    """
     site = tmp_path / "site"
     site.mkdir()
     before = set(sys.modules)
@@ -37,9 +39,15 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
             (site / f"{module}.py").write_text(text, encoding="utf-8")
         info = site / f"{name.replace('-', '_')}-{version}.dist-info"
         info.mkdir()
-        head = [f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}", *(f"Requires-Dist: {r}" for r in requires)]
+        head = [
+            f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}",
+            *(f"Requires-Dist: {r}" for r in requires),
+        ]
         (info / "METADATA").write_text("\n".join(head) + "\n", encoding="utf-8")
-        groups = [f"[{group}]\n" + "\n".join(f"{k} = {v}" for k, v in found.items()) for group, found in entries.items()]
+        groups = [
+            f"[{group}]\n" + "\n".join(f"{k} = {v}" for k, v in found.items())
+            for group, found in entries.items()
+        ]
         (info / "entry_points.txt").write_text("\n\n".join(groups) + "\n", encoding="utf-8")
         _forget()
         return info
@@ -47,7 +55,9 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
     _forget()
     yield put
     for module in set(sys.modules) - before:
-        if not module.startswith("deodar.") and str(getattr(sys.modules[module], "__file__", "")).startswith((str(site), str(EXAMPLE))):
+        if not module.startswith("deodar.") and str(getattr(sys.modules[module], "__file__", "")).startswith(
+            (str(site), str(EXAMPLE))
+        ):
             del sys.modules[module]
     _forget()
 

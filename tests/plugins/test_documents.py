@@ -13,7 +13,11 @@ from deodar.cli import main
 from deodar.errors import DocumentError
 from tests.plugins.conftest import Install
 
-NEEDS = {"deodar": 3, "elements": {"d": {"kind": "Detector", "tau": 3}}, "packages": {"Detector": "deodar-detector 1.2"}}
+NEEDS = {
+    "deodar": 3,
+    "elements": {"d": {"kind": "Detector", "tau": 3}},
+    "packages": {"Detector": "deodar-detector 1.2"},
+}
 
 KIND = """
 from dataclasses import dataclass
@@ -33,7 +37,9 @@ def _write(path: Path, data: object) -> Path:
 
 @pytest.mark.usefixtures("example")
 @pytest.mark.parametrize("imported", [False, True], ids=["by its name", "from its module"])
-def test_a_document_names_package_and_version_of_its_kinds_and_opens_again(imported: bool, tmp_path: Path) -> None:
+def test_a_document_names_package_and_version_of_its_kinds_and_opens_again(
+    imported: bool, tmp_path: Path
+) -> None:
     if imported:
         from deodar_change.change import Change  # pyright: ignore[reportMissingImports]
     else:
@@ -52,7 +58,9 @@ def test_a_document_of_deodar_alone_names_no_package(tmp_path: Path) -> None:
     assert "packages" not in json.loads((tmp_path / "m.json").read_text())
 
 
-def test_a_missing_package_is_the_first_problem_and_a_line_of_doctor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_package_is_the_first_problem_and_a_line_of_doctor(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = _write(tmp_path / "m.json", NEEDS)
     with pytest.raises(DocumentError) as caught:
         dd.load(path)
@@ -63,11 +71,19 @@ def test_a_missing_package_is_the_first_problem_and_a_line_of_doctor(tmp_path: P
     assert second.where == f"{path}: d"
     assert main(["doctor", str(path), "example:selection"]) == 0
     found = [line for line in capsys.readouterr().out.splitlines() if line.startswith("document")]
-    assert found == [f"document   {path}: PROBLEM: {first.what}. {first.fix}", "document   example:selection: opens"]
+    assert found == [
+        f"document   {path}: PROBLEM: {first.what}. {first.fix}",
+        "document   example:selection: opens",
+    ]
 
 
 def test_another_version_is_named_where_the_document_does_not_open(install: Install, tmp_path: Path) -> None:
-    install("deodar-detector", {"detector": KIND}, {"deodar.kinds": {"Detector": "detector:Detector"}}, version="2.0")
+    install(
+        "deodar-detector",
+        {"detector": KIND},
+        {"deodar.kinds": {"Detector": "detector:Detector"}},
+        version="2.0",
+    )
     with pytest.raises(DocumentError) as caught:
         dd.load(_write(tmp_path / "m.json", NEEDS))
     assert [p.what for p in caught.value.problems] == [

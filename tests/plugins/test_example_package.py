@@ -1,4 +1,6 @@
-"""The package in examples/package: check, run, experiment and the studio know what it brings, without a flag."""
+"""The package in examples/package: check, run, experiment and the studio know what it brings, without a
+flag.
+"""
 
 from __future__ import annotations
 
@@ -39,18 +41,35 @@ def test_nothing_is_imported_before_a_kind_is_looked_up() -> None:
     assert "deodar_change.lamp" not in sys.modules and "deodar_change.command" not in sys.modules
 
 
-def test_check_and_run_know_the_kind_and_the_world(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_and_run_know_the_kind_and_the_world(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["check", str(file)]) == 0
     out = tmp_path / "run.zarr"
-    given = ["--duration", "200", "--record", "change.output", "eye.output", "--world", "lamp:100", "--out", str(out), "--no-progress"]
+    given = [
+        "--duration",
+        "200",
+        "--record",
+        "change.output",
+        "eye.output",
+        "--world",
+        "lamp:100",
+        "--out",
+        str(out),
+        "--no-progress",
+    ]
     assert main(["run", str(file), *given]) == 0, capsys.readouterr().err
     record = dd.load_record(out)
-    np.testing.assert_allclose(record["change.output"].values[50], (1 - 1 / 50) ** 50, rtol=1e-4)  # Euler's z after 50 steps of 1 ms
+    np.testing.assert_allclose(
+        record["change.output"].values[50], (1 - 1 / 50) ** 50, rtol=1e-4
+    )  # Euler's z after 50 steps of 1 ms
     assert record["eye.output"].values[[50, 150]].tolist() == [0.0, 10.0]
 
 
 def test_an_experiment_knows_the_kind(file: Path) -> None:
-    experiment = dd.Experiment("step", str(file), 20, conditions=[dd.Crosses("answered", "change.output", 0.5)], world="lamp:100")
+    experiment = dd.Experiment(
+        "step", str(file), 20, conditions=[dd.Crosses("answered", "change.output", 0.5)], world="lamp:100"
+    )
     assert experiment.check() == []
 
 
@@ -77,4 +96,7 @@ def test_doctor_lists_what_it_brings(capsys: pytest.CaptureFixture[str]) -> None
     assert main(["doctor"]) == 0
     page = capsys.readouterr().out.splitlines()
     found = [line for line in page if line.startswith("plug-in")]
-    assert found == [f"plug-in    deodar-change 0.1.0: {what}" for what in ("kinds Change", "worlds Lamp", "commands change")]
+    assert found == [
+        f"plug-in    deodar-change 0.1.0: {what}"
+        for what in ("kinds Change", "worlds Lamp", "commands change")
+    ]

@@ -29,7 +29,10 @@ def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp
     path = files.save_record(data, tmp_path / f"record{suffix}")
     again = files.load_record(path)
     assert again.identical(data)
-    assert all(again[name].dtype == data[name].dtype and again[name].dims == data[name].dims for name in data.variables)
+    assert all(
+        again[name].dtype == data[name].dtype and again[name].dims == data[name].dims
+        for name in data.variables
+    )
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
 
@@ -37,7 +40,10 @@ def test_other_programs_open_it_without_a_warning(data: xarray.Dataset, tmp_path
     plain = data[["u.activation"]]
     files.save_record(plain, tmp_path / "record.zarr")
     files.save_record(plain, tmp_path / "record.nc")
-    for opened in (xarray.open_zarr(tmp_path / "record.zarr"), xarray.open_dataset(tmp_path / "record.nc", engine="scipy")):
+    for opened in (
+        xarray.open_zarr(tmp_path / "record.zarr"),
+        xarray.open_dataset(tmp_path / "record.nc", engine="scipy"),
+    ):
         assert opened["u.activation"].dims == plain["u.activation"].dims
         assert np.array_equal(opened["u.activation"].values, plain["u.activation"].values)
         opened.close()
@@ -50,7 +56,9 @@ def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) ->
     assert {"time", "trial", "s.amplitude"} <= set(head)
     text = path.read_text()
     value = float(data["u.activation"].isel({"s.amplitude": 1, "trial": 2, "time": 3, "x": 4}))
-    assert any(cell and abs(float(cell) - value) < 1e-6 for row in rows[1:] for cell in row[-2:] if _number(cell)), text[:400]
+    assert any(
+        cell and abs(float(cell) - value) < 1e-6 for row in rows[1:] for cell in row[-2:] if _number(cell)
+    ), text[:400]
     with pytest.raises(dd.errors.RecordError):
         files.load_record(path)
 
@@ -58,15 +66,26 @@ def test_csv_has_a_row_for_every_sample(data: xarray.Dataset, tmp_path: Path) ->
 def test_pandas_reads_the_table_as_it_is(data: xarray.Dataset, tmp_path: Path) -> None:
     path = files.save_record(data[["n.activation"]], tmp_path / "record.csv")
     table = pandas.read_csv(path)
-    assert list(table.columns) == ["s.amplitude", "trial", "time", "n.activation"] and len(table) == data["n.activation"].size
+    assert (
+        list(table.columns) == ["s.amplitude", "trial", "time", "n.activation"]
+        and len(table) == data["n.activation"].size
+    )
     kept = table.set_index(["s.amplitude", "trial", "time"])["n.activation"].to_xarray().astype(np.float32)
     assert np.array_equal(kept.transpose(*data["n.activation"].dims).values, data["n.activation"].values)
 
 
-def test_variables_over_other_dimensions_leave_cells_empty_for_pandas(data: xarray.Dataset, tmp_path: Path) -> None:
-    table = pandas.read_csv(files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv"))
+def test_variables_over_other_dimensions_leave_cells_empty_for_pandas(
+    data: xarray.Dataset, tmp_path: Path
+) -> None:
+    table = pandas.read_csv(
+        files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
+    )
     nodes, fields = table["n.activation"].notna(), table["u.activation"].notna()
-    assert nodes.sum() == data["n.activation"].size and fields.sum() == data["u.activation"].size and not (nodes & fields).any()
+    assert (
+        nodes.sum() == data["n.activation"].size
+        and fields.sum() == data["u.activation"].size
+        and not (nodes & fields).any()
+    )
 
 
 def test_the_metadata_of_a_table_stand_beside_it(data: xarray.Dataset, tmp_path: Path) -> None:
@@ -74,7 +93,11 @@ def test_the_metadata_of_a_table_stand_beside_it(data: xarray.Dataset, tmp_path:
     path = files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["record.csv", "record.csv-metadata.json"]
     told = json.loads((tmp_path / "record.csv-metadata.json").read_text())
-    assert told["@context"] == "http://www.w3.org/ns/csvw" and told["url"] == "record.csv" and told["dc:title"] == data.attrs["title"]
+    assert (
+        told["@context"] == "http://www.w3.org/ns/csvw"
+        and told["url"] == "record.csv"
+        and told["dc:title"] == data.attrs["title"]
+    )
     columns = {c["titles"]: c for c in told["tableSchema"]["columns"]}
     assert list(columns) == list(pandas.read_csv(path).columns)
     assert columns["time"]["schema:unitText"] == "ms" and columns["u.activation"]["datatype"] == "float"
@@ -123,7 +146,9 @@ def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Pat
         files.save_record(small, tmp_path / "record.xyz")
 
 
-def test_a_failure_on_the_way_leaves_nothing(data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failure_on_the_way_leaves_nothing(
+    data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 

@@ -40,9 +40,15 @@ def test_a_write_that_fails_leaves_the_data_and_no_file(suffix: str, tmp_path: P
     """A real one: the system lets no file grow beyond 1000 bytes."""
     code = SMALL.format(path=sys.path)
     command = [sys.executable, "-B", "-c", code, str(tmp_path / f"record{suffix}")]
-    done = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"DEODAR_CACHE": "off"}, check=True)
+    done = subprocess.run(
+        command, capture_output=True, text=True, env=os.environ | {"DEODAR_CACHE": "off"}, check=True
+    )
     told, same = done.stdout.splitlines()
-    assert f"record{suffix}: cannot be written: File too large" in told and "The data are still in memory" in told and same == "True"
+    assert (
+        f"record{suffix}: cannot be written: File too large" in told
+        and "The data are still in memory" in told
+        and same == "True"
+    )
     assert list(tmp_path.iterdir()) == []
 
 
@@ -56,7 +62,9 @@ def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
-def test_a_disk_that_is_full_at_the_last_moment_is_noticed(suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_disk_that_is_full_at_the_last_moment_is_noticed(
+    suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     data = record()
     full(monkeypatch)
     with pytest.raises(OutputError, match="No space left"):
@@ -64,27 +72,39 @@ def test_a_disk_that_is_full_at_the_last_moment_is_noticed(suffix: str, tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_document_in_place_survives_a_write_that_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_document_in_place_survives_a_write_that_fails(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     model = dd.Model("kept")
     dd.save(model, tmp_path / "kept.json")
     full(monkeypatch)
     with pytest.raises(OutputError, match="No space left"):
         dd.save(dd.Model("other"), tmp_path / "kept.json", force=True)
-    assert dd.load(tmp_path / "kept.json").name == "kept" and [p.name for p in tmp_path.iterdir()] == ["kept.json"]
+    assert dd.load(tmp_path / "kept.json").name == "kept" and [p.name for p in tmp_path.iterdir()] == [
+        "kept.json"
+    ]
 
 
-def test_a_file_system_without_the_call_is_no_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_system_without_the_call_is_no_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     full(monkeypatch, errno.EINVAL)
     files.save_record(record(), tmp_path / "record.zarr")
     assert files.load_record(tmp_path / "record.zarr").sizes["time"]
 
 
-def test_everything_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_everything_is_on_the_disk_before_it_gets_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Each file of a record, then its folders; the name of the record comes last."""
     events: list[tuple[str, str]] = []
     sync, rename = output._sync, Path.rename
-    monkeypatch.setattr(output, "_sync", lambda path, mode: (sync(path, mode), events.append(("sync", str(path))))[0])
-    monkeypatch.setattr(Path, "rename", lambda self, to: (events.append(("rename", str(to))), rename(self, to))[1])
+    monkeypatch.setattr(
+        output, "_sync", lambda path, mode: (sync(path, mode), events.append(("sync", str(path))))[0]
+    )
+    monkeypatch.setattr(
+        Path, "rename", lambda self, to: (events.append(("rename", str(to))), rename(self, to))[1]
+    )
     files.save_record(record(), tmp_path / "record.zarr")
     named = events.index(("rename", str(tmp_path / "record.zarr")))
     assert events[named + 1 :] == [("sync", str(tmp_path))]
@@ -92,16 +112,22 @@ def test_everything_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monke
     assert {p.name for p in (tmp_path / "record.zarr").rglob("*")} <= before
 
 
-def test_a_document_is_on_the_disk_before_it_gets_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_document_is_on_the_disk_before_it_gets_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     events: list[str] = []
     replace = Path.replace
-    monkeypatch.setattr(output, "_sync", lambda path, mode: events.append("folder" if path.is_dir() else "file"))
+    monkeypatch.setattr(
+        output, "_sync", lambda path, mode: events.append("folder" if path.is_dir() else "file")
+    )
     monkeypatch.setattr(Path, "replace", lambda self, to: (events.append("replace"), replace(self, to))[1])
     dd.save(dd.Model("m"), tmp_path / "m.json")
     assert events == ["file", "replace", "folder"]
 
 
-def test_rows_that_could_not_be_written_whole_are_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rows_that_could_not_be_written_whole_are_taken_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """So that the next row, once there is room, does not continue half a line."""
     rows = Rows(tmp_path / "rows.jsonl", {"name": "e"})
     rows.append([{"key": "1"}])

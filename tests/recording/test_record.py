@@ -17,8 +17,16 @@ def test_dimensions_coordinates_and_units() -> None:
     u = data["u.activation"]
     assert u.dims == ("s.amplitude", "trial", "time", "x") and u.shape == (3, 2, 5, 11)
     assert data["trial"].values.tolist() == [4, 2] and data["time"].values.tolist() == [0, 5, 10, 15, 20]
-    assert data["time"].attrs["units"] == "ms" and data["x"].attrs["units"] == "deg" and data["y"].attrs["periodic"] == 1
-    assert np.allclose(data["x"].values, x.points) and data["n.activation"].dims == ("s.amplitude", "trial", "time")
+    assert (
+        data["time"].attrs["units"] == "ms"
+        and data["x"].attrs["units"] == "deg"
+        and data["y"].attrs["periodic"] == 1
+    )
+    assert np.allclose(data["x"].values, x.points) and data["n.activation"].dims == (
+        "s.amplitude",
+        "trial",
+        "time",
+    )
     assert (u.values[:, :, 0] == -5).all()
 
 
@@ -47,7 +55,12 @@ def test_it_says_what_made_it() -> None:
     data = record(precision="float64", dt=0.5)
     made = about(data)
     assert made["document"] == json.loads(model().to_json()) and made["seed"] == 3 and made["dt"] == 0.5
-    assert made["precision"] == "float64" and made["every"] == 5 and made["complete"] is True and made["duration"] == 20
+    assert (
+        made["precision"] == "float64"
+        and made["every"] == 5
+        and made["complete"] is True
+        and made["duration"] == 20
+    )
     assert {"deodar", "jax", "jaxlib", "numpy", "python", "device", "machine"} <= set(made["made_by"])
 
 

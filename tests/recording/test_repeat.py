@@ -21,15 +21,24 @@ from deodar.worlds.picture import Picture
 from tests.recording.models import record, x
 
 
-@pytest.mark.parametrize("settings", [{}, {"trials": [2, 5], "sweep": {"u.tau": [8.0, 12.0]}, "precision": "float64"}])
+@pytest.mark.parametrize(
+    "settings", [{}, {"trials": [2, 5], "sweep": {"u.tau": [8.0, 12.0]}, "precision": "float64"}]
+)
 def test_the_same_bits_on_the_same_machine(settings: dict[str, object], tmp_path: Path) -> None:
     data = record(**settings)
     done = repeat(files.load_record(files.save_record(data, tmp_path / "record.zarr")), simulate)
-    assert done.same_bits and not done.differences and done.faithful and done.data.drop_attrs().identical(data.drop_attrs())
+    assert (
+        done.same_bits
+        and not done.differences
+        and done.faithful
+        and done.data.drop_attrs().identical(data.drop_attrs())
+    )
 
 
 @pytest.mark.parametrize(("version", "port"), [(2, "output"), (3, "activation")])
-def test_the_path_of_a_field_alone_means_what_it_meant_when_the_record_was_made(version: int, port: str) -> None:
+def test_the_path_of_a_field_alone_means_what_it_meant_when_the_record_was_made(
+    version: int, port: str
+) -> None:
     data = dd.simulate(dd.Model(document=document(about(record()))), 5, record=f"u.{port}")
     made = about(data)
     made |= {"record": ["u"], "document": made["document"] | {"deodar": version}}
@@ -60,7 +69,9 @@ def test_a_world_is_opened_again_and_must_be_the_same(tmp_path: Path) -> None:
     picture = np.zeros((8, 8, 3), np.uint8)
     picture[2:6, 2:6] = [255, 0, 0]
     Image.fromarray(picture).save(tmp_path / "p.png")
-    data = dd.simulate(saliency(), 50, record=["colour.activation"], every=50, world=Picture(tmp_path / "p.png"))
+    data = dd.simulate(
+        saliency(), 50, record=["colour.activation"], every=50, world=Picture(tmp_path / "p.png")
+    )
     assert repeat(data, simulate).same_bits
     picture[0, 0] = 9
     Image.fromarray(picture).save(tmp_path / "p.png")

@@ -12,5 +12,11 @@ def weighted(seed: int = 1) -> dd.Model:
     """A model with an array."""
     model = dd.Model("m")
     u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)]))
-    u >> Weights(weights=np.random.default_rng(seed).normal(size=(10, 10)), axes=[dd.Axis("x", 0, 9, samples=10)]) >> u
+    (
+        u
+        >> Weights(
+            weights=np.random.default_rng(seed).normal(size=(10, 10)), axes=[dd.Axis("x", 0, 9, samples=10)]
+        )
+        >> u
+    )
     return model

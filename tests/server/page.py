@@ -23,7 +23,13 @@ WAIT = 600.0
 
 @contextlib.contextmanager
 def studio(
-    root: Path, file: Path | None = None, host: str = "127.0.0.1", trust: bool = False, world: Any = None, token: bool = True, port: int = 0
+    root: Path,
+    file: Path | None = None,
+    host: str = "127.0.0.1",
+    trust: bool = False,
+    world: Any = None,
+    token: bool = True,
+    port: int = 0,
 ) -> Iterator[str]:
     """A studio in a thread of its own; gives its address, with the token."""
     up: list[str] = []
@@ -60,7 +66,9 @@ class Page:
         self.clocks = 0
         self._request = 0
         self._answers: dict[int, dict[str, Any]] = {}
-        self._late = False  # whether the clock does not know yet of what was told: one ends all that is told at once
+        self._late = (
+            False  # whether the clock does not know yet of what was told: one ends all that is told at once
+        )
         self._news = asyncio.Event()
 
     async def listen(self) -> None:
@@ -69,7 +77,9 @@ class Page:
             if isinstance(message, bytes):
                 stream, _, time, values = frames.unpack(message)
                 if self.forms[stream]["shape"] == [2] and not self.forms[stream]["axes"]:
-                    self.samples.setdefault(stream, []).extend((time + a, b) for a, b in values.reshape(-1, 2).tolist())
+                    self.samples.setdefault(stream, []).extend(
+                        (time + a, b) for a, b in values.reshape(-1, 2).tolist()
+                    )
                 else:
                     self.frames[stream] = (time, values.reshape(self.forms[stream]["shape"]))
             else:
@@ -145,7 +155,9 @@ class Page:
 
     async def runs(self) -> None:
         """Wait until the document that is open is compiled."""
-        await self.until(lambda: self.said.get("opened", {}).get("document") and not self._late and not self.clock["busy"])
+        await self.until(
+            lambda: self.said.get("opened", {}).get("document") and not self._late and not self.clock["busy"]
+        )
 
 
 P = TypeVar("P", bound=Page)

@@ -27,7 +27,9 @@ class Silent(Connection):
 
 @pytest.mark.parametrize("between", range(5))
 def test_the_sending_ends_when_its_page_goes_at_the_moment_of_news(between: int) -> None:
-    """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone would stay for ever."""
+    """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone
+    would stay for ever.
+    """
 
     async def main() -> None:
         one = Silent(cast("Any", None), cast("Any", SimpleNamespace(new_page=lambda: Page(1), welcome=None)))

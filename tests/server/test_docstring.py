@@ -13,16 +13,19 @@ KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.s
 
 # fmt: off
 COMMANDS = {
-    "frac", "int", "sum", "prod", "exp", "ln", "max", "min", "sqrt", "arg", "sin", "bmod", "cdot", "left", "right", "leftarrow", "mathrm",
-    "text", "operatorname", "quad", "begin", "end", "forall", "in", "langle", "rangle", "le", "ge", "alpha", "beta", "epsilon", "theta",
-    "lambda", "phi", "pi", "sigma", "tau", "xi", "Delta",
+    "frac", "int", "sum", "prod", "exp", "ln", "max", "min", "sqrt", "arg", "sin", "bmod", "cdot", "left",
+    "right", "leftarrow", "mathrm", "text", "operatorname", "quad", "begin", "end", "forall", "in", "langle",
+    "rangle", "le", "ge", "alpha", "beta", "epsilon", "theta", "lambda", "phi", "pi", "sigma", "tau", "xi",
+    "Delta",
 }
 # fmt: on
 """All commands in use; KaTeX and MathML know each. Add one here after looking at it."""
 
 
 def faults(line: str) -> list[str]:
-    """What is wrong with a line of TeX: braces and brackets that are not paired, commands that are not known."""
+    """What is wrong with a line of TeX: braces and brackets that are not paired, commands that are not
+    known.
+    """
     bare = re.sub(r"\\[\\{}_,!; ]", "", line)
     found: list[str] = []
     depth = 0
@@ -44,10 +47,17 @@ def faults(line: str) -> list[str]:
 def test_every_equation_is_sound_tex(name: str) -> None:
     lines = docstring(KINDS[name]).equation
     assert lines and not [fault for line in lines for fault in faults(line)], lines
-    assert not [line for line in lines if "$" in line or ("=" not in line and r"\quad {}" not in line and not line.endswith(r"\text{:}"))], lines
+    assert not [
+        line
+        for line in lines
+        if "$" in line or ("=" not in line and r"\quad {}" not in line and not line.endswith(r"\text{:}"))
+    ], lines
 
 
-@pytest.mark.parametrize(("line", "found"), [(r"\frac{a}{b", ["braces"]), (r"\left( a", [r"\left"]), (r"\fraq{a}{b}", ["fraq"]), (r"}{", ["braces"])])
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [(r"\frac{a}{b", ["braces"]), (r"\left( a", [r"\left"]), (r"\fraq{a}{b}", ["fraq"]), (r"}{", ["braces"])],
+)
 def test_what_cannot_be_typeset_is_found(line: str, found: list[str]) -> None:
     assert faults(line) == found
 

@@ -13,12 +13,17 @@ KERNEL = {"size": [1, 10], "sigma": 2, "amplitude": 1, "circular": 1, "normalize
 
 
 def parts(**changes: Any) -> list[dict[str, Any]]:
-    return [element("u", "NeuralField", FIELD | changes, [("k", "output")]), element("k", "GaussKernel1D", KERNEL, [("u", "output")])]
+    return [
+        element("u", "NeuralField", FIELD | changes, [("k", "output")]),
+        element("k", "GaussKernel1D", KERNEL, [("u", "output")]),
+    ]
 
 
 def test_a_file_of_another_tool_opens_runs_and_takes_a_preset(tmp_path: Path) -> None:
     written(tmp_path, parts(), name="simulator.json")
-    written(tmp_path, [*parts(h=-3)[:1], element("new", "BoostStimulus", {"amplitude": 1})], name="preset.json")
+    written(
+        tmp_path, [*parts(h=-3)[:1], element("new", "BoostStimulus", {"amplitude": 1})], name="preset.json"
+    )
     before = (tmp_path / "simulator.json").read_bytes()
 
     async def scene(p: Page) -> None:

@@ -1,4 +1,6 @@
-"""The gallery: every example has a title, a sentence and a small picture, and names from outside lead nowhere."""
+"""The gallery: every example has a title, a sentence and a small picture, and names from outside lead
+nowhere.
+"""
 
 from __future__ import annotations
 

@@ -25,7 +25,9 @@ def get(address: str, path: str = "/", token: bool = True, **headers: str) -> tu
     if token and there.query:
         headers = {"Cookie": cookie(address), **headers}
     connection = http.client.HTTPConnection(there.hostname or "", there.port, timeout=600)
-    connection.request("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
+    connection.request(
+        "GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()}
+    )
     answer = connection.getresponse()
     body = answer.read().decode(errors="replace")
     connection.close()
@@ -54,7 +56,9 @@ def socket_status(address: str, path: str = "/ws", token: bool = True, **headers
 
 def test_local_hosts() -> None:
     assert all(is_local(h) for h in ("localhost", "127.0.0.1", "127.8.0.1", "::1"))
-    assert not any(is_local(h) for h in ("0.0.0.0", "192.168.0.2", "example.org", "localhost.example.org", ""))
+    assert not any(
+        is_local(h) for h in ("0.0.0.0", "192.168.0.2", "example.org", "localhost.example.org", "")
+    )
 
 
 def test_foreign_hosts_and_origins_are_refused(root: Path) -> None:
@@ -70,7 +74,9 @@ def test_foreign_hosts_and_origins_are_refused(root: Path) -> None:
         assert socket_status(address) == 101
         assert socket_status(address, Origin=f"http://{netloc}") == 101
         assert socket_status(address, Origin="http://evil.example") == 403
-        assert socket_status(address, Origin=f"http://localhost:{port}") == 403, "another origin than the one it was called by"
+        assert socket_status(address, Origin=f"http://localhost:{port}") == 403, (
+            "another origin than the one it was called by"
+        )
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "0.0.0.0"])
@@ -85,7 +91,9 @@ def test_every_request_needs_the_token(root: Path, host: str) -> None:
             assert get(local, path)[0] == 401, path
             assert get(local, f"{path}?token=wrong")[0] == 401
             assert get(local, path, Cookie=f"deodar_token_{port}=wrong")[0] == 401
-            assert get(local, path, Cookie=f"deodar_token={token}")[0] == 401, "the name without the port is not the cookie of this studio"
+            assert get(local, path, Cookie=f"deodar_token={token}")[0] == 401, (
+                "the name without the port is not the cookie of this studio"
+            )
         assert socket_status(local) in (401, 403)
         assert socket_status(local, "/ws?token=wrong") in (401, 403)
         assert socket_status(local, f"/ws?token={token}") == 101
@@ -93,7 +101,11 @@ def test_every_request_needs_the_token(root: Path, host: str) -> None:
         assert status == 303 and headers["location"] == "/", "the token does not stay in the address"
         assert headers["referrer-policy"] == "no-referrer" and headers["cache-control"] == "no-store"
         given = headers["set-cookie"]
-        assert given.startswith(f"deodar_token_{port}={token};") and "httponly" in given.lower() and "samesite=strict" in given.lower()
+        assert (
+            given.startswith(f"deodar_token_{port}={token};")
+            and "httponly" in given.lower()
+            and "samesite=strict" in given.lower()
+        )
         mine = given.split(";")[0]
         assert get(local, "/examples/selection.png", Cookie=mine)[0] == 200
         assert get(local, f"/examples/selection.png?token={token}")[0] == 200
@@ -113,7 +125,11 @@ def test_a_browser_that_comes_from_another_site_gets_a_page_and_no_redirect(root
 def test_a_person_without_the_token_is_asked_for_it(root: Path) -> None:
     with studio(root) as address:
         status, body, headers = get(address, token=False, Accept="text/html,*/*")
-        assert status == 401 and '<input name="token"' in body and "form-action 'self'" in headers["content-security-policy"]
+        assert (
+            status == 401
+            and '<input name="token"' in body
+            and "form-action 'self'" in headers["content-security-policy"]
+        )
         token = urlsplit(address).query.removeprefix("token=")
         assert token not in body
 
@@ -179,10 +195,16 @@ def test_tokens_of_ports_that_are_no_longer_used_are_removed(tmp_path: Path) -> 
 def test_answers_forbid_frames_and_foreign_scripts(root: Path) -> None:
     with studio(root) as address:
         _, _, headers = get(address, "/examples/selection.png")
-        assert "default-src 'self'" in headers["content-security-policy"] and headers["x-content-type-options"] == "nosniff"
+        assert (
+            "default-src 'self'" in headers["content-security-policy"]
+            and headers["x-content-type-options"] == "nosniff"
+        )
 
 
-@pytest.mark.parametrize("path", ["/../pyproject.toml", "/..%2f..%2fapp.py", "/assets/../../app.py", "/examples/..%2fmake.py", "/app.py"])
+@pytest.mark.parametrize(
+    "path",
+    ["/../pyproject.toml", "/..%2f..%2fapp.py", "/assets/../../app.py", "/examples/..%2fmake.py", "/app.py"],
+)
 def test_only_the_page_is_served(root: Path, path: str) -> None:
     with studio(root) as address:
         assert get(address, path)[0] == 404
@@ -206,11 +228,23 @@ def test_a_path_of_nothing_is_not_found(root: Path) -> None:
 
 def test_a_broken_origin_is_refused(root: Path) -> None:
     with studio(root) as address:
-        for origin in ("http://[", "http://[::1", "null", "", "http://a b", "\xff", "http://127.0.0.1:99999999", "://", "javascript:0"):
+        for origin in (
+            "http://[",
+            "http://[::1",
+            "null",
+            "",
+            "http://a b",
+            "\xff",
+            "http://127.0.0.1:99999999",
+            "://",
+            "javascript:0",
+        ):
             assert get(address, Origin=origin)[0] in (400, 403), origin
 
 
 def test_small_packets_do_not_wait_for_each_other() -> None:
-    """The event loop switches Nagle's algorithm off only for sockets that say they are TCP; with it every frame takes 40 ms."""
+    """The event loop switches Nagle's algorithm off only for sockets that say they are TCP; with it every
+    frame takes 40 ms.
+    """
     with bind("127.0.0.1", 0) as bound:
         assert bound.proto == socket.IPPROTO_TCP

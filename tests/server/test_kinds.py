@@ -1,4 +1,6 @@
-"""What the page is told of every kind: enough for a form, an equation and a plot, also of kinds from outside."""
+"""What the page is told of every kind: enough for a form, an equation and a plot, also of kinds from
+outside.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,11 @@ from deodar.server.kinds import kinds, title
 from deodar.server.to_page import Kind, ParameterForm
 
 KINDS = {kind.name: kind for kind in kinds() if registry.kind(kind.name).__module__.startswith("deodar.")}
-INSIDE = [name for name in KINDS if issubclass(registry.kind(name), Part) and not issubclass(registry.kind(name), Element)]
+INSIDE = [
+    name
+    for name in KINDS
+    if issubclass(registry.kind(name), Part) and not issubclass(registry.kind(name), Element)
+]
 
 
 @pytest.fixture
@@ -54,7 +60,11 @@ def test_every_parameter_has_a_meaning_and_a_default_that_fits(name: str) -> Non
         if p.form not in ("axes", "axis", "array"):
             example = registry.kind(name).example()
             dc.replace(example, **{p.name: value_from_json(example, p.name, p.default, name, {}, {})})
-    assert all(says for port, says in KINDS[name].ports.items() if registry.kind(name) is not registry.kind("Function") or port == "output")
+    assert all(
+        says
+        for port, says in KINDS[name].ports.items()
+        if registry.kind(name) is not registry.kind("Function") or port == "output"
+    )
 
 
 @pytest.mark.parametrize("name", INSIDE)
@@ -82,21 +92,45 @@ def test_the_field() -> None:
     assert field.equation[0].startswith(r"\tau \frac{du}{dt} = -u + h")
     assert "Amari (1977)" in field.reference
     assert list(field.ports) == ["input", "output", "activation", "interaction"]
-    assert field.levels == {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+    assert field.levels == {
+        "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}
+    }
     symbols = {p.name: p.symbol for p in field.parameters}
     assert symbols == {
-        "axes": "", "tau": r"\tau", "resting_level": "h", "sigmoid": "g", "kernel": "k", "global_inhibition": "c", "noise": "q", "noise_length": "",
+        "axes": "",
+        "tau": r"\tau",
+        "resting_level": "h",
+        "sigmoid": "g",
+        "kernel": "k",
+        "global_inhibition": "c",
+        "noise": "q",
+        "noise_length": "",
         "quadrature": "",
-    }  # fmt: skip
+    }
     tau = form(field, "tau")
-    assert (tau.form, tau.cost, tau.unit, tau.lower, tau.upper, tau.default) == ("number", "live", "time", 1e-6, None, 20.0)
+    assert (tau.form, tau.cost, tau.unit, tau.lower, tau.upper, tau.default) == (
+        "number",
+        "live",
+        "time",
+        1e-6,
+        None,
+        20.0,
+    )
     assert form(field, "sigmoid").default == {"kind": "Logistic", "beta": 4.0, "threshold": 0.0}
     assert "Gaussian" in form(field, "kernel").of and "Logistic" not in form(field, "kernel").of
     assert form(field, "axes").default == [] and form(field, "kernel").default == []
 
 
 def test_parameters_stand_in_the_order_in_which_they_are_written_down() -> None:
-    assert [p.name for p in KINDS["GaussianStimulus"].parameters] == ["axes", "center", "sigma", "amplitude", "windows", "normalized", "boundary"]
+    assert [p.name for p in KINDS["GaussianStimulus"].parameters] == [
+        "axes",
+        "center",
+        "sigma",
+        "amplitude",
+        "windows",
+        "normalized",
+        "boundary",
+    ]
     assert [p.name for p in KINDS["Gaussian"].parameters] == ["amplitude", "sigma", "normalized", "boundary"]
 
 
@@ -110,7 +144,9 @@ def test_symbols_are_those_of_the_equation() -> None:
 
 def test_choices_optional_values_and_arrays() -> None:
     boundary = form(KINDS["Gaussian"], "boundary")
-    assert boundary.optional and boundary.default is None and boundary.choices == ["periodic", "zero", "reflect"]
+    assert (
+        boundary.optional and boundary.default is None and boundary.choices == ["periodic", "zero", "reflect"]
+    )
     assert form(KINDS["Project"], "rename").default == {}
     assert form(KINDS["Custom"], "weights").default is None and "weights" not in KINDS["Custom"].example
 
@@ -121,7 +157,14 @@ def test_a_world_names_its_sensors() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "words"), [("GaussianStimulus", "Gaussian stimulus"), ("DNFNode", "DNF node"), ("Field", "Field"), ("my_part", "My part"), ("K", "K")]
+    ("name", "words"),
+    [
+        ("GaussianStimulus", "Gaussian stimulus"),
+        ("DNFNode", "DNF node"),
+        ("Field", "Field"),
+        ("my_part", "My part"),
+        ("K", "K"),
+    ],
 )
 def test_titles(name: str, words: str) -> None:
     assert title(name) == words

@@ -28,7 +28,11 @@ def test_the_schema_is_a_schema_and_refuses_strangers() -> None:
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema | {"$ref": "#/$defs/ToServer"})
     validator.validate({"type": "step", "n": 5})
-    for bad in ({"type": "step", "n": 0}, {"type": "stop"}, {"type": "set", "element": "u", "parameter": "tau"}):
+    for bad in (
+        {"type": "step", "n": 0},
+        {"type": "stop"},
+        {"type": "set", "element": "u", "parameter": "tau"},
+    ):
         with pytest.raises(jsonschema.ValidationError):
             validator.validate(bad)
 

@@ -16,7 +16,9 @@ def test_the_clock_tells_how_late_the_run_is(root: Path) -> None:
         await p.do("speed", factor=1e6)  # more than any machine can do
         await p.do("play")
         await p.until(lambda: p.clock["overruns"] >= 1 and p.clock["lost"] > 0)
-        assert p.clock["lag"] > 0 and p.clock["worst"] >= 100 and p.clock["dt"] == 1, "late, and with the steps that were planned"
+        assert p.clock["lag"] > 0 and p.clock["worst"] >= 100 and p.clock["dt"] == 1, (
+            "late, and with the steps that were planned"
+        )
         await p.do("pause")
         await p.until(lambda: not p.clock["running"] and p.clock["overruns"] == 0)
 
@@ -28,7 +30,9 @@ def test_a_step_that_may_grow_grows_and_is_as_planned_after_a_pause(root: Path) 
     async def scene(p: Page) -> None:
         await p.open("open_file", path="selection.json")
         refused = await p.ask("lengthen", longest=100.0)
-        assert "longer than the time constant" in refused["problems"][0]["what"] and p.clock["longest"] is None
+        assert (
+            "longer than the time constant" in refused["problems"][0]["what"] and p.clock["longest"] is None
+        )
         await p.do("lengthen", longest=4.0)
         await p.do("speed", factor=1e6)
         await p.do("play")

@@ -25,7 +25,9 @@ from tests.server.page import Page, page, play, studio
 
 
 def test_a_newcomers_path_from_file_to_peak_to_decay_and_back(root: Path) -> None:
-    """Open, run, see a peak, turn the resting level until it is gone, take it back, save, and open what was saved."""
+    """Open, run, see a peak, turn the resting level until it is gone, take it back, save, and open what was
+    saved.
+    """
 
     async def scene(p: Page) -> None:
         await p.open("open_file", path="selection.json")
@@ -35,7 +37,9 @@ def test_a_newcomers_path_from_file_to_peak_to_decay_and_back(root: Path) -> Non
         await p.do("speed", factor=None)
         await p.do("step", n=500)
         await p.until(lambda: p.clock["tick"] == 500 and 1 in p.frames and p.frames[1][0] == 500)
-        assert p.frames[1][1].shape == (101,) and p.frames[1][1].max() > 3, "one of the two inputs has made a peak"
+        assert p.frames[1][1].shape == (101,) and p.frames[1][1].max() > 3, (
+            "one of the two inputs has made a peak"
+        )
         await p.until(lambda: p.samples.get(2) and p.samples[2][-1][0] == 500)
         assert p.samples[2][-1] == (500.0, pytest.approx(float(p.frames[1][1].max())))
         cost = await p.do("set", element=u, parameter="resting_level", value=-12, gesture=1)
@@ -45,7 +49,9 @@ def test_a_newcomers_path_from_file_to_peak_to_decay_and_back(root: Path) -> Non
         assert p.frames[1][1].max() < 0, "the peak has decayed while its input is still there"
         assert p.said["changed"]["value"] == -12 and p.said["changed"]["unsaved"]
         await p.do("undo")
-        await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == -5 and not p.document["unsaved"])
+        await p.until(
+            lambda: p.document["elements"][0]["values"]["resting_level"] == -5 and not p.document["unsaved"]
+        )
         await p.do("redo")
         done = await p.do("save", path="mine")
         assert done["file"] == "mine.json"
@@ -101,10 +107,18 @@ def test_a_warning_appears_and_goes_as_a_slider_is_dragged(root: Path) -> None:
         level = p.document["elements"][0]["values"]["resting_level"]
         for value, warned in ((30, True), (level, False)):
             await p.do("set", element=p.element("u"), parameter="resting_level", value=value)
-            await p.until(lambda warned=warned: "checked" in p.said and (p.said["checked"]["problems"] != before) == warned)
+            await p.until(
+                lambda warned=warned: (
+                    "checked" in p.said and (p.said["checked"]["problems"] != before) == warned
+                )
+            )
             if warned:
                 (problem,) = p.said["checked"]["problems"]
-                assert problem["element"] == p.element("u") and problem["severity"] == "warning" and "always above" in problem["what"]
+                assert (
+                    problem["element"] == p.element("u")
+                    and problem["severity"] == "warning"
+                    and "always above" in problem["what"]
+                )
         assert p.said["checked"]["version"] == p.said["changed"]["version"]
 
     with studio(root, root / "node.json") as address:
@@ -119,10 +133,19 @@ def test_a_structural_change_compiles_beside_the_run_and_keeps_the_state(root: P
         await p.do("step", n=500)
         await p.until(lambda: 1 in p.frames and p.frames[1][0] == 500)
         before = p.frames[1][1]
-        kernel = [{"kind": "Gaussian", "amplitude": 12, "sigma": 5, "normalized": True}, {"kind": "Gaussian", "amplitude": -0.1, "sigma": 20}]
+        kernel = [
+            {"kind": "Gaussian", "amplitude": 12, "sigma": 5, "normalized": True},
+            {"kind": "Gaussian", "amplitude": -0.1, "sigma": 20},
+        ]
         done = await p.do("set", element=u, parameter="kernel", value=kernel)
         assert done["cost"] == "recompile"
-        await p.until(lambda: len(p.document["elements"][0]["values"]["kernel"]) == 2 and not p.clock["busy"] and 1 in p.frames)
+        await p.until(
+            lambda: (
+                len(p.document["elements"][0]["values"]["kernel"]) == 2
+                and not p.clock["busy"]
+                and 1 in p.frames
+            )
+        )
         np.testing.assert_array_equal(p.frames[1][1], before)
         assert p.clock["tick"] == 500
         done = await p.do("set", element=u, parameter="kernel.1.amplitude", value=-0.2)
@@ -188,7 +211,9 @@ def test_the_layout_is_kept_with_the_document(root: Path) -> None:
         await p.runs()
         await p.do("arrange", layout={"panels": {"a": 1}}, undoable=False)
         await p.until(lambda: p.document["layout"] == {"panels": {"a": 1}})
-        assert not p.document["unsaved"] and p.document["undo"] == 0, "how panels stand is nothing to ask about"
+        assert not p.document["unsaved"] and p.document["undo"] == 0, (
+            "how panels stand is nothing to ask about"
+        )
         await p.do("arrange", layout={"pins": [{"element": "e", "parameter": "tau"}]})
         await p.until(lambda: p.document["unsaved"] and p.document["undo"] == 1)
         await p.do("save")
@@ -269,12 +294,20 @@ def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
         await p.do("play")
         await p.until(lambda: p.clock["failure"])
         failure = p.clock["failure"][0]
-        assert failure["element"] in (p.element("grow"), p.element("grow>Gain")) and "infinite" in failure["what"]
+        assert (
+            failure["element"] in (p.element("grow"), p.element("grow>Gain"))
+            and "infinite" in failure["what"]
+        )
         assert not p.clock["running"]
         await p.do("watch", stream=1, element=p.element("u"), port="activation")
         await p.until(lambda: 1 in p.frames)
         assert np.isfinite(p.frames[1][1])
-        await p.do("set", element=next(e["id"] for e in p.document["elements"] if e["kind"] == "Gain"), parameter="factor", value=0)
+        await p.do(
+            "set",
+            element=next(e["id"] for e in p.document["elements"] if e["kind"] == "Gain"),
+            parameter="factor",
+            value=0,
+        )
         await p.do("reset")
         await p.do("step", n=50)
         await p.until(lambda: p.clock["tick"] == 50 and not p.clock["failure"])
@@ -331,7 +364,9 @@ def test_an_oversized_message_ends_only_that_connection(root: Path) -> None:
     async def main(address: str) -> None:
         async with page(address) as p:
             with contextlib.suppress(websockets.ConnectionClosed):
-                await p.socket.send(json.dumps({"type": "open_text", "name": "x", "text": "x" * (65 * 2**20)}))
+                await p.socket.send(
+                    json.dumps({"type": "open_text", "name": "x", "text": "x" * (65 * 2**20)})
+                )
             await asyncio.wait_for(p.socket.wait_closed(), 600)
         async with page(address) as p:
             assert p.document is None
@@ -349,7 +384,11 @@ def test_trouble_lists_every_problem_and_a_good_file_ends_it(root: Path) -> None
     async def scene(p: Page) -> None:
         await p.until(lambda: "trouble" in p.said and p.said["trouble"]["problems"])
         problems = p.said["trouble"]["problems"]
-        assert len(problems) == 2 and any("u.tau" in q["where"] for q in problems) and any("GaussianStimulus" in q["fix"] for q in problems)
+        assert (
+            len(problems) == 2
+            and any("u.tau" in q["where"] for q in problems)
+            and any("GaussianStimulus" in q["fix"] for q in problems)
+        )
         assert p.document is None
         await p.do("open_file", path="gone.json")
         await p.until(lambda: "no such file" in p.said["trouble"]["problems"][0]["what"])
@@ -364,7 +403,11 @@ def test_leaving_unsaved_edits_asks(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("set", element=p.element("u"), parameter="tau", value=30)
-        for wish in ({"type": "open_file", "path": "node.json"}, {"type": "close"}, {"type": "open_example", "name": "detection"}):
+        for wish in (
+            {"type": "open_file", "path": "node.json"},
+            {"type": "close"},
+            {"type": "open_example", "name": "detection"},
+        ):
             assert (await p.ask(**wish))["ask"] == "unsaved"
         await p.do("close", discard=True)
         await p.until(lambda: p.said["opened"]["document"] is None)
@@ -391,7 +434,9 @@ def test_saving_over_what_changed_on_disk_asks(root: Path) -> None:
     assert dd.load(root / "selection.json").get("u.tau") == 31
 
 
-def test_nothing_outside_the_root_is_read_or_written(root: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_nothing_outside_the_root_is_read_or_written(
+    root: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
     outside = tmp_path_factory.mktemp("outside")
     shutil.copy(root / "node.json", outside / "secret.json")
     (root / "link.json").symlink_to(outside / "secret.json")
@@ -399,7 +444,13 @@ def test_nothing_outside_the_root_is_read_or_written(root: Path, tmp_path_factor
 
     async def scene(p: Page) -> None:
         await p.runs()
-        for path in (str(outside / "secret.json"), "../x.json", "link.json", "folder/secret.json", "/etc/passwd"):
+        for path in (
+            str(outside / "secret.json"),
+            "../x.json",
+            "link.json",
+            "folder/secret.json",
+            "/etc/passwd",
+        ):
             refused = await p.ask("open_file", path=path)
             assert "outside the folder" in refused["problems"][0]["what"], path
             refused = await p.ask("save", path=path)
@@ -426,7 +477,9 @@ def test_a_dropped_document_is_content_and_saved_only_under_a_name(root: Path) -
         refused = await p.ask("save")
         assert "no file yet" in refused["problems"][0]["what"]
         await p.do("save", path="kept")
-        await p.do("open_text", name="broken.json", text='{"deodar": 1, "elements": {"u": {"kind": "Nothing"}}}')
+        await p.do(
+            "open_text", name="broken.json", text='{"deodar": 1, "elements": {"u": {"kind": "Nothing"}}}'
+        )
         assert p.said["trouble"]["file"] == "broken.json"
 
     with studio(root) as address:
@@ -451,10 +504,18 @@ def test_a_package_that_is_dropped_is_opened_with_its_arrays(root: Path) -> None
     assert dd.load(root / "mine.deodar").document == weighted().document
 
 
-def test_a_document_with_a_function_is_shown_and_never_run_without_trust(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "strange_module.py").write_text("from pathlib import Path\nPath(__file__).with_name('ran').touch()\ndef f(u, i, t): return u\n")
+def test_a_document_with_a_function_is_shown_and_never_run_without_trust(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "strange_module.py").write_text(
+        "from pathlib import Path\nPath(__file__).with_name('ran').touch()\ndef f(u, i, t): return u\n"
+    )
     monkeypatch.syspath_prepend(str(tmp_path))
-    document = {"deodar": 1, "name": "m", "elements": {"f": {"kind": "Function", "id": "00000001", "function": "strange_module:f"}}}
+    document = {
+        "deodar": 1,
+        "name": "m",
+        "elements": {"f": {"kind": "Function", "id": "00000001", "function": "strange_module:f"}},
+    }
     (root / "stranger.json").write_text(json.dumps(document))
 
     async def scene(p: Page) -> None:
@@ -483,7 +544,12 @@ def test_sensors_read_an_example_until_a_picture_is_dropped(root: Path) -> None:
         assert "example" in p.clock["world"]
         sensor = next(e for e in p.document["elements"] if e["kind"] == "Sensor")
         await p.do("watch", stream=1, element=sensor["id"], port="output", most=16)
-        await p.do("use_world_content", kind="Picture", name="red.png", content=base64.b64encode(red.getvalue()).decode())
+        await p.do(
+            "use_world_content",
+            kind="Picture",
+            name="red.png",
+            content=base64.b64encode(red.getvalue()).decode(),
+        )
         await p.until(lambda: "red.png" in p.clock["world"])
         await p.do("step")
         await p.until(lambda: 1 in p.frames and p.frames[1][1][8, 8, 0] == 1)
@@ -504,13 +570,19 @@ def test_unsaved_edits_survive_a_crash(root: Path, own_state: Path) -> None:
     with studio(root, root / "selection.json") as address:
         play(address, first)
     note = next((own_state / "unsaved").glob("*.note"))
-    note.write_text(json.dumps(json.loads(note.read_text()) | {"process": [0, 0]}))  # the process that kept them is gone
+    note.write_text(
+        json.dumps(json.loads(note.read_text()) | {"process": [0, 0]})
+    )  # the process that kept them is gone
 
     async def second(p: Page) -> None:
         kept = p.said["gallery"]["recoveries"]
         assert [k["title"] for k in kept] == ["selection"]
         await p.open("recover", name=kept[0]["name"])
-        assert p.document["elements"][0]["values"]["tau"] == 44 and p.document["unsaved"] and p.document["file"] == "selection.json"
+        assert (
+            p.document["elements"][0]["values"]["tau"] == 44
+            and p.document["unsaved"]
+            and p.document["file"] == "selection.json"
+        )
         await p.do("save", replace=True)
 
     with studio(root) as address:

@@ -36,7 +36,13 @@ def shown(made: dd.Model) -> Any:
 def test_elements_with_their_values_ports_and_axes() -> None:
     seen = {e.path: e for e in shown(model()).elements}
     u, s = seen["g.u"], seen["s"]
-    assert (u.name, u.group, u.kind, u.inputs, u.outputs) == ("u", ["g"], "Field", ["input"], ["output", "activation", "interaction"])
+    assert (u.name, u.group, u.kind, u.inputs, u.outputs) == (
+        "u",
+        ["g"],
+        "Field",
+        ["input"],
+        ["output", "activation", "interaction"],
+    )
     assert u.axes == {"input": ["x"], "output": ["x"], "activation": ["x"], "interaction": ["x"]}
     assert u.values["tau"] == 3 and u.values["axes"] == ["x"] and u.values["kernel"][0]["sigma"] == 5
     assert u.values["kernel"][1]["weights"] == {"array": "array", "shape": [3], "min": 1, "max": 1}
@@ -47,8 +53,12 @@ def test_elements_with_their_values_ports_and_axes() -> None:
 def test_document_parameters_and_connections_by_id() -> None:
     made = model()
     seen = shown(made)
-    assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.knobs] == [("gain", 3, [(made["g.u"].id, "tau")])]
-    assert {(c.source, c.target) for c in seen.connections} == {(c.source, c.target) for c in made.document.connections}
+    assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.knobs] == [
+        ("gain", 3, [(made["g.u"].id, "tau")])
+    ]
+    assert {(c.source, c.target) for c in seen.connections} == {
+        (c.source, c.target) for c in made.document.connections
+    }
 
 
 def test_problems_belong_to_elements() -> None:
@@ -70,7 +80,9 @@ def test_a_document_with_problems_is_shown_with_them() -> None:
 
 def test_a_warning_is_shown_as_one() -> None:
     made = dd.Model("m")
-    made.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> made.add(dd.Field("u", [X]))
+    made.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> made.add(
+        dd.Field("u", [X])
+    )
     (found,) = shown(made).problems
     assert found.severity == "warning" and found.element == made["s"].id
 
@@ -78,10 +90,16 @@ def test_a_warning_is_shown_as_one() -> None:
 @pytest.mark.parametrize(
     ("parameter", "value"),
     [
-        ("tau", 12.5), ("kernel.0.sigma", 7), ("kernel.0.sigma", [7]), ("kernel", []), ("axes", ["y"]), ("axes", []),
-        ("sigmoid", {"kind": "Step", "threshold": 1}), ("kernel.1", {"kind": "Gaussian", "amplitude": 2, "sigma": 3}),
+        ("tau", 12.5),
+        ("kernel.0.sigma", 7),
+        ("kernel.0.sigma", [7]),
+        ("kernel", []),
+        ("axes", ["y"]),
+        ("axes", []),
+        ("sigmoid", {"kind": "Step", "threshold": 1}),
+        ("kernel.1", {"kind": "Gaussian", "amplitude": 2, "sigma": 3}),
     ],
-)  # fmt: skip
+)
 def test_values_come_back_as_they_were_said(parameter: str, value: Any) -> None:
     made = model()
     made.unlink("g.u.tau")
@@ -105,12 +123,16 @@ def test_a_list_of_kernels_keeps_its_arrays() -> None:
 @pytest.mark.parametrize(
     ("parameter", "value", "says"),
     [
-        ("kernel", 3, "needs a list"), ("kernel", [{"kind": "Logistic"}], "cannot stand here"),
+        ("kernel", 3, "needs a list"),
+        ("kernel", [{"kind": "Logistic"}], "cannot stand here"),
         ("kernel", [{"kind": "Gaussian", "sigma": -1}], "below"),
-        ("axes", "x", "not among"), ("axes", [1], "not among"), ("sigmoid", {"kind": 4}, "kind"), ("nonsense", 1, "no parameter"),
+        ("axes", "x", "not among"),
+        ("axes", [1], "not among"),
+        ("sigmoid", {"kind": 4}, "kind"),
+        ("nonsense", 1, "no parameter"),
         ("resting_level.x", 1, "inside"),
     ],
-)  # fmt: skip
+)
 def test_wrong_values_say_what_is_wrong(parameter: str, value: Any, says: str) -> None:
     made = model()
     doc, entry = made.document, made.document.by_id()[made["g.u"].id]

@@ -19,7 +19,9 @@ from deodar.server.workspace import UNREADABLE, Workspace
 from tests.server.models import weighted
 
 
-@pytest.mark.parametrize("path", ["..", "../x.json", "/etc/passwd", "a/../../x.json", "link/x.json", "a\0b", "folder/../../../x"])
+@pytest.mark.parametrize(
+    "path", ["..", "../x.json", "/etc/passwd", "a/../../x.json", "link/x.json", "a\0b", "folder/../../../x"]
+)
 def test_paths_outside_are_refused(tmp_path: Path, path: str) -> None:
     root = tmp_path / "root"
     root.mkdir()
@@ -44,7 +46,12 @@ def test_a_folder_lists_what_can_be_opened(tmp_path: Path) -> None:
     (tmp_path / "sub").mkdir()
     (tmp_path / "sub" / "c.json").touch()
     listed = Workspace(tmp_path).listed(7, "")
-    assert (listed.files, listed.folders, listed.pictures, listed.path) == (["A.JSON", "b.json"], ["sub"], ["photo.JPG"], "")
+    assert (listed.files, listed.folders, listed.pictures, listed.path) == (
+        ["A.JSON", "b.json"],
+        ["sub"],
+        ["photo.JPG"],
+        "",
+    )
     assert Workspace(tmp_path).listed(7, "sub").path == "sub"
     with pytest.raises(DocumentError, match="no such folder"):
         Workspace(tmp_path).listed(7, "gone")
@@ -130,7 +137,9 @@ def test_a_link_that_appears_after_the_check_is_not_followed(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("exchanged", ["folder", "document", "arrays"])
-def test_a_link_that_appears_while_a_document_is_opened_is_not_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, exchanged: str) -> None:
+def test_a_link_that_appears_while_a_document_is_opened_is_not_followed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, exchanged: str
+) -> None:
     """The exchange happens at the last moment: just before the file is opened."""
     root, outside = tmp_path / "root", tmp_path / "outside"
     for folder in (root / "sub", outside):
@@ -168,7 +177,12 @@ def test_a_package_that_was_dropped_is_read_from_its_content(tmp_path: Path) -> 
     dd.save(weighted(1), tmp_path / "m.deodar")
     dropped = base64.b64encode((tmp_path / "m.deodar").read_bytes()).decode()
     assert content.read_package(dropped, "m.deodar") == weighted(1).document
-    for wrong, why in (("?", "base64"), ("", "no package"), (base64.b64encode(b"{}").decode(), "no package"), (dropped[:400], "damaged")):
+    for wrong, why in (
+        ("?", "base64"),
+        ("", "no package"),
+        (base64.b64encode(b"{}").decode(), "no package"),
+        (dropped[:400], "damaged"),
+    ):
         with pytest.raises(DocumentError, match=why):
             content.read_package(wrong, "m.deodar")
 

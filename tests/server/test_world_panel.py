@@ -58,7 +58,15 @@ def test_a_page_is_shown_the_world_and_where_the_robot_went(file: Path) -> None:
     async def story(one: Page) -> None:
         await shown(one)
         assert scene(one)["unit"] == "m" and scene(one)["border"] == [0, 0, 3, 2]
-        assert box(one, "crate") == {"name": "crate", "x": 0.8, "y": 1.5, "width": 0.2, "height": 0.2, "color": [0.7, 0.5, 0.3], "fixed": False}
+        assert box(one, "crate") == {
+            "name": "crate",
+            "x": 0.8,
+            "y": 1.5,
+            "width": 0.2,
+            "height": 0.2,
+            "color": [0.7, 0.5, 0.3],
+            "fixed": False,
+        }
         assert scene(one)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
         assert "bodies" not in one.said, "it did not ask"
         await one.do("watch_world", on=True)
@@ -68,7 +76,11 @@ def test_a_page_is_shown_the_world_and_where_the_robot_went(file: Path) -> None:
         body = one.said["bodies"]["bodies"][0]
         assert body["name"] == "e-puck" and body["radius"] == pytest.approx(0.037)
         gaps = [math.dist(a, b) for a, b in zip(way(one), way(one)[1:], strict=False)]
-        assert way(one)[0] == pytest.approx([0.2, 1.0]) and len(gaps) > 5 and math.dist(way(one)[-1], (body["x"], body["y"])) < 0.02
+        assert (
+            way(one)[0] == pytest.approx([0.2, 1.0])
+            and len(gaps) > 5
+            and math.dist(way(one)[-1], (body["x"], body["y"])) < 0.02
+        )
         scenes = [m for m in one.all if m["type"] == "scene" and m["scene"]]
         assert len(scenes) == 1, "what stands still is sent once"
         async with page_of(one) as late:
@@ -100,7 +112,9 @@ def test_a_thing_that_is_moved_while_it_runs_stops_the_robot(file: Path) -> None
         await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.06)
         tick = one.clock["tick"]
         await one.until(lambda: one.clock["tick"] > tick + 30)
-        assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), "it stands before the crate"
+        assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), (
+            "it stands before the crate"
+        )
         await one.do("move_thing", name="goal", x=2.0, y=0.4)
         await one.until(lambda: scene(one)["marks"][0]["x"] == 2.0)
         await one.do("remove_thing", name="crate")

@@ -12,11 +12,27 @@ y = dd.Axis("y", 0, 20, samples=11)
 
 
 def mixed(order: int = 1, prefix: str = "", extra: int = 0) -> dd.Model:
-    """Fields of one and two dimensions, a node, couplings, several rates, noise; `order` -1 declares all the other way round."""
+    """Fields of one and two dimensions, a node, couplings, several rates, noise; `order` -1 declares all the
+    other way round.
+    """
     name = (prefix + "{}").format
     elements = {
-        "u": dd.Field(name("u"), [x], tau=10, kernel=[dd.Gaussian(1.0, 4), dd.Gaussian(-0.3, 9)], global_inhibition=0.05, noise=0.3),
-        "v": dd.Field(name("v"), [x, y], tau=12, kernel=[dd.Gaussian(8, (4, 3), normalized=True)], noise=0.4, noise_length=3),
+        "u": dd.Field(
+            name("u"),
+            [x],
+            tau=10,
+            kernel=[dd.Gaussian(1.0, 4), dd.Gaussian(-0.3, 9)],
+            global_inhibition=0.05,
+            noise=0.3,
+        ),
+        "v": dd.Field(
+            name("v"),
+            [x, y],
+            tau=12,
+            kernel=[dd.Gaussian(8, (4, 3), normalized=True)],
+            noise=0.4,
+            noise_length=3,
+        ),
         "n": dd.Field(name("n"), [], tau=8, resting_level=-1, kernel=[dd.Gaussian(2)], noise=0.2),
         "slow": dd.Field(name("slow"), [x], tau=40, resting_level=-2, noise=0.3),
         "s": GaussianStimulus(name("s"), [x], center=20, sigma=4, amplitude=7, windows=[(5, 60), (90, 300)]),
@@ -28,7 +44,11 @@ def mixed(order: int = 1, prefix: str = "", extra: int = 0) -> dd.Model:
     for key in list(elements)[::order]:
         handles[key] = model.add(elements[key], ticks=rates.get(key, 1))
     for k in range(extra):
-        model.add(dd.Field(f"neighbour{k}", [x], tau=10, kernel=[dd.Gaussian(1.0, 4), dd.Gaussian(-0.3, 9)], noise=0.3))
+        model.add(
+            dd.Field(
+                f"neighbour{k}", [x], tau=10, kernel=[dd.Gaussian(1.0, 4), dd.Gaussian(-0.3, 9)], noise=0.3
+            )
+        )
     couplings = [
         ("u", dd.Gain(1.5, name=name("u>v")), "v"),
         ("v", Convolve([dd.Gaussian(0.2, 2)], name=name("v>u")), "u"),
@@ -42,4 +62,12 @@ def mixed(order: int = 1, prefix: str = "", extra: int = 0) -> dd.Model:
     return model
 
 
-RECORD = ["u.activation", "v.output", "n.activation", "slow.activation", "xi.output", "u.input", "u.interaction"]
+RECORD = [
+    "u.activation",
+    "v.output",
+    "n.activation",
+    "slow.activation",
+    "xi.output",
+    "u.input",
+    "u.interaction",
+]

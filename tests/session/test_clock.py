@@ -1,4 +1,7 @@
-"""Running paced to the clock on the wall: lateness, catching up, steps that grow. The clock is a false one but in the last test."""
+"""Running paced to the clock on the wall: lateness, catching up, steps that grow.
+
+The clock is a false one but in the last test.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +33,9 @@ def session(every: int = 1, dt: float = 1.0, unit: str = "ms") -> dd.Session:
 class Wall:
     """A clock that goes on when somebody sleeps or steps; steps take what is stated."""
 
-    def __init__(self, one: dd.Session, cost: float = 0.0, hiccups: dict[int, float] | None = None, drowsy: float = 0.0) -> None:
+    def __init__(
+        self, one: dd.Session, cost: float = 0.0, hiccups: dict[int, float] | None = None, drowsy: float = 0.0
+    ) -> None:
         self.now, self.cost, self.hiccups, self.drowsy = 0.0, cost, hiccups or {}, drowsy
         self.session, self.bursts = one, [0]
         self.pace = Pace(lambda: self.now)
@@ -68,7 +73,8 @@ def test_with_time_enough_nothing_is_late_and_nothing_adds_up() -> None:
 
 
 @pytest.mark.parametrize(
-    ("speed", "unit", "dt", "seconds"), [(0.1, "ms", 1, 2.0), (4, "ms", 1, 0.05), (1, "1 = 64 ms", 1, 12.8), (2, "s", 0.5, 100.0)]
+    ("speed", "unit", "dt", "seconds"),
+    [(0.1, "ms", 1, 2.0), (4, "ms", 1, 0.05), (1, "1 = 64 ms", 1, 12.8), (2, "s", 0.5, 100.0)],
 )
 def test_slow_motion_fast_motion_and_other_units(speed: float, unit: str, dt: float, seconds: float) -> None:
     wall = Wall(session(dt=dt, unit=unit), cost=0.0001)
@@ -80,7 +86,11 @@ def test_slow_motion_fast_motion_and_other_units(speed: float, unit: str, dt: fl
 def test_as_fast_as_possible_never_waits_and_is_never_late() -> None:
     wall = Wall(session(), cost=0.0005)
     meter = wall.live(1000, None)
-    assert wall.now == pytest.approx(0.5) and meter.factor == pytest.approx(2) and meter.lag == meter.overruns == 0
+    assert (
+        wall.now == pytest.approx(0.5)
+        and meter.factor == pytest.approx(2)
+        and meter.lag == meter.overruns == 0
+    )
 
 
 def test_a_hiccup_is_one_overrun_and_is_caught_up_with_steps_as_they_are() -> None:
@@ -96,7 +106,9 @@ def test_a_long_pause_is_given_up_and_not_run_after() -> None:
     meter = wall.live(1000)
     assert meter.lost == pytest.approx(3.6e6 - 1e3 * MOST_LAG, rel=1e-3) and meter.overruns == 1
     assert max(wall.bursts) <= EXCHANGE / wall.cost + 1, "no unbounded burst"
-    assert wall.now == pytest.approx(3601 - MOST_LAG, abs=0.01) and meter.drift == pytest.approx(meter.lost, abs=1)
+    assert wall.now == pytest.approx(3601 - MOST_LAG, abs=0.01) and meter.drift == pytest.approx(
+        meter.lost, abs=1
+    )
 
 
 def test_too_slow_a_machine_falls_behind_and_says_so() -> None:
@@ -192,10 +204,14 @@ def test_what_is_set_between_exchanges_counts_and_may_end_the_run() -> None:
 @pytest.mark.parametrize(
     ("how", "says"),
     [
-        ({"speed": 0}, "above 0"), ({"speed": "fast"}, "above 0"), ({"longest_step": 0.5}, "not below the planned step of 1"),
-        ({"longest_step": 30}, "longer than the time constant tau = 20"), ({"duration": 10.5}, "not a multiple"), ({"duration": -1}, "0 or above"),
+        ({"speed": 0}, "above 0"),
+        ({"speed": "fast"}, "above 0"),
+        ({"longest_step": 0.5}, "not below the planned step of 1"),
+        ({"longest_step": 30}, "longer than the time constant tau = 20"),
+        ({"duration": 10.5}, "not a multiple"),
+        ({"duration": -1}, "0 or above"),
     ],
-)  # fmt: skip
+)
 def test_what_makes_no_sense_is_refused_before_it_begins(how: dict[str, float], says: str) -> None:
     one = session()
     with pytest.raises(TimeError, match=says):

@@ -1,4 +1,6 @@
-"""What each element costs: all are there, the dear ones come first, the parts add up to the whole, and the run is not touched."""
+"""What each element costs: all are there, the dear ones come first, the parts add up to the whole, and the
+run is not touched.
+"""
 
 from __future__ import annotations
 
@@ -40,13 +42,19 @@ def test_every_element_is_listed_once_with_its_group() -> None:
     assert {e.path for e in session.document.entries} <= set(by)
     assert {c.path: c.kind for c in found.elements}["v>u"] == "Convolve"
     alike = [by[name] for name in ("u", "neighbour0", "neighbour1")]
-    assert {c.alike for c in alike} == {3} and len({c.us for c in alike}) == 1, "equal structure: they share the time"
+    assert {c.alike for c in alike} == {3} and len({c.us for c in alike}) == 1, (
+        "equal structure: they share the time"
+    )
     assert [c.us for c in found.elements] == sorted((c.us for c in found.elements), reverse=True)
-    assert all(c.us >= 0 for c in found.elements) and sum(found.share(c) for c in found.elements) == pytest.approx(1)
+    assert all(c.us >= 0 for c in found.elements) and sum(
+        found.share(c) for c in found.elements
+    ) == pytest.approx(1)
 
 
 class Work:
-    """In place of a clock: the operations of all programs that were called, as the compiler counts them, so that no load on the machine matters."""
+    """In place of a clock: the operations of all programs that were called, as the compiler counts them, so
+    that no load on the machine matters.
+    """
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.done, self.known = 0.0, dict[int, float]()
@@ -54,7 +62,9 @@ class Work:
 
         def counted(program: Executable, executable: Any, *args: Any) -> Any:
             whole = len(args) == 7  # the step of the whole model, not of a part
-            steps = args[-2][WHOLE.index("head")] if whole else args[-1] if isinstance(args[-1], np.int32) else 0
+            steps = (
+                args[-2][WHOLE.index("head")] if whole else args[-1] if isinstance(args[-1], np.int32) else 0
+            )
             about = executable.cost_analysis() or {}
             self.done += 1e-9 * (about.get("flops", 0.0) + about.get("transcendentals", 0.0)) * int(steps)
             return call(program, executable, *args)
@@ -94,7 +104,10 @@ def test_a_part_that_runs_seldom_costs_less_on_the_mean(monkeypatch: pytest.Monk
 def test_the_parts_add_up_to_the_whole(work: Work) -> None:
     """The figures that are shown are those of `deodar run FILE --cost`; here only what is computed counts."""
     model = dd.Model("m")
-    fields = [model.add(dd.Field(f"u{k}", [X, Y], kernel=[dd.Gaussian(1, 5), dd.Gaussian(-0.5, 9)])) for k in range(3)]
+    fields = [
+        model.add(dd.Field(f"u{k}", [X, Y], kernel=[dd.Gaussian(1, 5), dd.Gaussian(-0.5, 9)]))
+        for k in range(3)
+    ]
     for k in range(3):
         fields[k] >> Convolve([dd.Gaussian(0.2, 3)]) >> fields[k - 1]
     found = dd.Session(model).costs(QUICK)
@@ -131,10 +144,21 @@ def test_an_element_goes_by_the_name_it_has_now() -> None:
 
 
 def test_the_table_and_its_numbers() -> None:
-    found = Costs((Cost("1", "u", "Field", 3.0, 1, False), Cost("2", "v", "Field", 1.0, 2, False), Cost("3", "s", "BoxStimulus", 0.0, 1, True)), 4.5)
+    found = Costs(
+        (
+            Cost("1", "u", "Field", 3.0, 1, False),
+            Cost("2", "v", "Field", 1.0, 2, False),
+            Cost("3", "s", "BoxStimulus", 0.0, 1, True),
+        ),
+        4.5,
+    )
     assert found.sum == 4 and [found.share(c) for c in found.elements] == [0.75, 0.25, 0]
     text = str(found).splitlines()
-    assert text[1].split() == ["u", "Field", "3.000", "75.0", "%"] and text[3].endswith("once a chunk") and "4.500 us" in text[-1]
+    assert (
+        text[1].split() == ["u", "Field", "3.000", "75.0", "%"]
+        and text[3].endswith("once a chunk")
+        and "4.500 us" in text[-1]
+    )
     data = found.data()
     assert data["sum_us"] == 4 and data["step_us"] == 4.5 and data["elements"][1]["share"] == 0.25
     assert Costs((), 0.0).sum == 0

@@ -30,7 +30,12 @@ def test_a_snapshot_goes_back_over_changes_of_noise_and_structure() -> None:
     s = dd.Session(model, seed=2, precision="float64")
     s.step(5)
     kept = s.snapshot()
-    for path, value in (("u.noise", 0.3), ("v.kernel", [dd.Gaussian(1, 3)]), ("u.noise_length", 2.0), ("s.windows", [(0, 7)])):
+    for path, value in (
+        ("u.noise", 0.3),
+        ("v.kernel", [dd.Gaussian(1, 3)]),
+        ("u.noise_length", 2.0),
+        ("s.windows", [(0, 7)]),
+    ):
         s.set(path, value)
         s.step(3)
     s.restore(kept)
@@ -90,7 +95,9 @@ def test_a_value_that_means_off_is_another_program_not_a_limit() -> None:
 
 def test_an_attractor_never_overshoots() -> None:
     model = two()
-    model.add(Attractor("phi", x, tau=1.0))  # the integral of the input is far above 1, so that the step is longer than the relaxation time
+    model.add(
+        Attractor("phi", x, tau=1.0)
+    )  # the integral of the input is far above 1, so that the step is longer than the relaxation time
     model["s"] >> model["phi"]
     phi = dd.simulate(model, 20, record=["phi.output"])["phi.output"].values
     assert phi[0] == 0 and np.allclose(phi[1:], 10, atol=1e-3)
@@ -171,7 +178,9 @@ def test_a_coupling_that_is_not_finite_is_named() -> None:
 
 def test_numbers_that_the_precision_cannot_hold_are_refused() -> None:
     s = dd.Session(two())
-    with pytest.raises(dd.errors.ParameterError, match=r"s\.amplitude: is 1e\+300, beyond what float32.*float64"):
+    with pytest.raises(
+        dd.errors.ParameterError, match=r"s\.amplitude: is 1e\+300, beyond what float32.*float64"
+    ):
         s.set("s.amplitude", 1e300)
     s.step(1)
     assert s.get("s.amplitude") == 4

@@ -1,4 +1,6 @@
-"""When a model and its world exchange: the rule of every part with a step of its own, however the run is cut."""
+"""When a model and its world exchange: the rule of every part with a step of its own, however the run is
+cut.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ x = dd.Axis("x", 0, 4, samples=5)
 
 
 class Tank(World):
-    """What flows in stays: the level moves by a tenth of a fifth of the flow less the level, in each period of 4 ms."""
+    """What flows in stays: the level moves by a tenth of a fifth of the flow less the level, in each period
+    of 4 ms.
+    """
 
     sensors: Mapping[str, Signal] = {"level": Signal("level", (5,))}
     motors: Mapping[str, Signal] = {"flow": Signal("flow", (5,))}
@@ -48,14 +52,18 @@ class Tank(World):
 
 
 def closed(outside: bool, **options: Any) -> dd.Model:
-    """A field that drives a tank and sees its level: outside, or as an element that runs at every fourth step."""
+    """A field that drives a tank and sees its level: outside, or as an element that runs at every fourth
+    step.
+    """
     model = dd.Model("tank", **options)
     u = model.add(dd.Field("u", [x], tau=15, resting_level=1.0))
     if outside:
         u >> dd.Gain(2.0) >> model.add(Motor("pump", [x], "flow"))
         level = model.add(Sensor("level", [x], "level"))
     else:
-        flow = model.add(Function("tank", [x], function="deodar.elements.function:leaky", values={"rate": 0.02}), ticks=4)
+        flow = model.add(
+            Function("tank", [x], function="deodar.elements.function:leaky", values={"rate": 0.02}), ticks=4
+        )
         u >> dd.Gain(2.0) >> flow
         level = flow
     level >> dd.Gain(-3.0) >> u
@@ -65,7 +73,10 @@ def closed(outside: bool, **options: Any) -> dd.Model:
 
 @pytest.mark.parametrize("every", [1, 3])
 def test_a_world_is_a_part_with_a_step_of_its_own(every: int) -> None:
-    """Law: read at multiples of k, visible k ticks later. The same plant as a world and as an element gives the same run."""
+    """Law: read at multiples of k, visible k ticks later.
+
+    The same plant as a world and as an element gives the same run.
+    """
     options: dict[str, Any] = dict(record=["u.activation"], every=every, precision="float64")
     world = Tank()
     outside = dd.simulate(closed(True), 120, world=world, **options)["u.activation"].values

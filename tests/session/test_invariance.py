@@ -25,7 +25,11 @@ def agree(data: object, reference: dict[str, np.ndarray], prefix: str = "") -> N
 
 
 def test_the_model_does_something(reference: dict[str, np.ndarray]) -> None:
-    assert reference["u.activation"].max() > 1 and reference["v.output"].std() > 0 and reference["xi.output"].std() > 0.1
+    assert (
+        reference["u.activation"].max() > 1
+        and reference["v.output"].std() > 0
+        and reference["xi.output"].std() > 0.1
+    )
 
 
 def test_declaration_order(reference: dict[str, np.ndarray]) -> None:
@@ -44,7 +48,9 @@ def test_rename_move_and_grouping(reference: dict[str, np.ndarray]) -> None:
     record = [f"inner.group.{dd.quote('new name of ' + p.split('.')[0])}.{p.split('.')[1]}" for p in RECORD]
     data = dd.simulate(model, STEPS, seed=3, record=record, precision="float64")
     for variable, path in zip(data.data_vars.values(), RECORD, strict=True):
-        assert np.abs(variable.values - reference[path]).max() <= 1e-10 * max(1.0, np.abs(reference[path]).max()), path
+        assert np.abs(variable.values - reference[path]).max() <= 1e-10 * max(
+            1.0, np.abs(reference[path]).max()
+        ), path
 
 
 def test_noise_has_the_same_bits_under_another_name_order_and_batch() -> None:
@@ -70,7 +76,10 @@ def test_cuts_of_a_session(reference: dict[str, np.ndarray]) -> None:
 
     def same(session: dd.Session) -> None:
         for path in paths:
-            assert np.abs(session.read(path) - reference[path][session.tick]).max() <= 1e-10 * 20, (path, session.tick)
+            assert np.abs(session.read(path) - reference[path][session.tick]).max() <= 1e-10 * 20, (
+                path,
+                session.tick,
+            )
 
     one = dd.Session(model, seed=3, precision="float64")
     for _ in range(STEPS):
@@ -112,39 +121,67 @@ def test_trials_alone_in_batches_and_split() -> None:
     """Away from a decision: one stimulus, one peak, 1,000 steps."""
     model = dd.Model("trials")
     axis = dd.Axis("x", 0, 60, samples=31)
-    u = model.add(dd.Field("u", [axis], tau=10, kernel=[dd.Gaussian(1.0, 4)], global_inhibition=0.1, noise=0.3))
+    u = model.add(
+        dd.Field("u", [axis], tau=10, kernel=[dd.Gaussian(1.0, 4)], global_inhibition=0.1, noise=0.3)
+    )
     model.add(dd.GaussianStimulus("s", [axis], center=30, sigma=4, amplitude=8)) >> u
 
     def run(trials: list[int]) -> np.ndarray:
-        return dd.simulate(model, 1000, record=["u.activation"], every=100, trials=trials, precision="float64")["u.activation"].values
+        return dd.simulate(
+            model, 1000, record=["u.activation"], every=100, trials=trials, precision="float64"
+        )["u.activation"].values
 
     whole = run(list(range(8)))
     for split in ([[3]], [[0, 1, 2], [3, 4, 5, 6, 7]], [[7, 3, 5]]):
         for part in split:
             assert np.abs(run(part) - whole[part]).max() <= 1e-10
-    single = dd.simulate(model, 1000, record=["u.activation"], every=100, precision="float64")["u.activation"].values
+    single = dd.simulate(model, 1000, record=["u.activation"], every=100, precision="float64")[
+        "u.activation"
+    ].values
     assert np.abs(single - whole[0]).max() <= 1e-10 and np.abs(whole[1] - whole[0]).max() > 0.1
 
 
 def test_sweeps_equal_single_runs() -> None:
     model = mixed()
     model.parameter("strength", 1.0)
-    model.link("n>slow.factor", "strength") if "n>slow" in model else model.link('"n>slow".factor', "strength")
+    model.link("n>slow.factor", "strength") if "n>slow" in model else model.link(
+        '"n>slow".factor', "strength"
+    )
     sweep = {"s.amplitude": [5.0, 7.0], "u.kernel.0.sigma": [3.0, 4.0], "strength": [0.5]}
-    data = dd.simulate(model, 60, seed=2, record=["u.activation", "slow.activation"], every=20, trials=2, sweep=sweep, precision="float64")
+    data = dd.simulate(
+        model,
+        60,
+        seed=2,
+        record=["u.activation", "slow.activation"],
+        every=20,
+        trials=2,
+        sweep=sweep,
+        precision="float64",
+    )
     assert data["u.activation"].dims == ("s.amplitude", "u.kernel.0.sigma", "strength", "trial", "time", "x")
     single = mixed()
     single.set("s.amplitude", 7.0)
     single.set("u.kernel.0.sigma", 3.0)
     single.set('"n>slow".factor', 0.5)
-    alone = dd.simulate(single, 60, seed=2, record=["u.activation", "slow.activation"], every=20, trials=[1], precision="float64")
+    alone = dd.simulate(
+        single,
+        60,
+        seed=2,
+        record=["u.activation", "slow.activation"],
+        every=20,
+        trials=[1],
+        precision="float64",
+    )
     for path in ("u.activation", "slow.activation"):
         point = data[path].values[1, 0, 0, 1]
         assert np.abs(point - alone[path].values[0]).max() <= 1e-10
 
 
 def test_both_precisions_live_side_by_side_and_no_flag_changes() -> None:
-    before = {name: getattr(jax.config, name) for name in ("jax_enable_x64", "jax_compilation_cache_dir", "jax_default_matmul_precision")}
+    before = {
+        name: getattr(jax.config, name)
+        for name in ("jax_enable_x64", "jax_compilation_cache_dir", "jax_default_matmul_precision")
+    }
     model = mixed()
     narrow, wide = dd.Session(model, seed=1), dd.Session(model, seed=1, precision="float64")
     for _ in range(5):
@@ -159,7 +196,9 @@ def test_both_precisions_live_side_by_side_and_no_flag_changes() -> None:
 
 @pytest.mark.parametrize("every", [1, 2])
 def test_noise_drawn_in_pairs_is_the_same_in_any_chunks(every: int) -> None:
-    """A field large enough that two steps share one drawing: single steps, odd pieces and one go give the same bits."""
+    """A field large enough that two steps share one drawing: single steps, odd pieces and one go give the
+    same bits.
+    """
     axes = [dd.Axis("x", 0, 60, samples=60), dd.Axis("y", 0, 50, samples=50)]
     model = dd.Model("large")
     u = model.add(dd.Field("u", axes, kernel=[dd.Gaussian(5, 3, normalized=True)], noise=1.0))

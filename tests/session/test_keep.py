@@ -19,10 +19,16 @@ LEARNED = {"h": "weights", "a": "weights", "p": "trace", "g": "gains"}
 def model():
     """One of everything that learns, between two fields with peaks."""
     m = dd.Model("learning", dt=1)
-    u, v = (m.add(dd.Field(n, [a], resting_level=-5, kernel=[dd.Gaussian(1, 2)], noise=0.5)) for n, a in (("u", X), ("v", Z)))
+    u, v = (
+        m.add(dd.Field(n, [a], resting_level=-5, kernel=[dd.Gaussian(1, 2)], noise=0.5))
+        for n, a in (("u", X), ("v", Z))
+    )
     m.add(dd.GaussianStimulus("to u", [X], center=6, sigma=2, amplitude=8)) >> u
     m.add(dd.GaussianStimulus("to v", [Z], center=4, sigma=2, amplitude=8)) >> v
-    for w in (Hebbian([Z], rate=0.01, random=True, initial=0.1, name="h"), AdaptiveWeights([Z], rate=0.01, name="a")):
+    for w in (
+        Hebbian([Z], rate=0.01, random=True, initial=0.1, name="h"),
+        AdaptiveWeights([Z], rate=0.01, name="a"),
+    ):
         handle = m.add(w)
         m.connect(u, handle["input"])
         m.connect(v, handle["post"])

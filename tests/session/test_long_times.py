@@ -1,4 +1,6 @@
-"""Document time after 30 days at a step of 1 ms: in single precision everything happens in the step that double precision says."""
+"""Document time after 30 days at a step of 1 ms: in single precision everything happens in the step that
+double precision says.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,10 @@ def begun(t0: float, dt: float = 1.0) -> Model:
 
 
 def both(model: Model, path: str, duration: float = 12.0, **others: object) -> tuple[np.ndarray, np.ndarray]:
-    single, double = (dd.simulate(model, duration, record=[path], precision=p, **others)[path].values for p in ("float32", "float64"))
+    single, double = (
+        dd.simulate(model, duration, record=[path], precision=p, **others)[path].values
+        for p in ("float32", "float64")
+    )
     assert single.dtype == np.float32
     return single, double
 
@@ -73,7 +78,11 @@ def test_a_window_that_is_changed_swept_or_linked_keeps_its_digits() -> None:
 def test_a_moving_stimulus_goes_on_moving(velocity: float) -> None:
     t0 = 30 * DAY
     model = begun(t0)
-    model.add(MovingGaussian("s", [RING], center=20.0, sigma=30.0, velocity=velocity, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]))
+    model.add(
+        MovingGaussian(
+            "s", [RING], center=20.0, sigma=30.0, velocity=velocity, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]
+        )
+    )
     single, double = both(model, "s.output")
     np.testing.assert_allclose(single, double, atol=2e-6)
     time = t0 + np.arange(13)
@@ -116,7 +125,12 @@ def test_a_step_that_is_no_binary_fraction_counts_right() -> None:
 def test_times_that_are_not_told_apart_are_refused(precision: str) -> None:
     model = begun(2.0**45)
     model.add(dd.Field("u", []))
-    with pytest.raises(TimeError, match=r"time 3.51844e\+13 ms is 3.52e\+13 steps of dt = 1 from time 0; times are exact up to 1.76e\+13"):
+    with pytest.raises(
+        TimeError,
+        match=(
+            r"time 3.51844e\+13 ms is 3.52e\+13 steps of dt = 1 from time 0; times are exact up to 1.76e\+13"
+        ),
+    ):
         dd.simulate(model, 10, precision=precision)
     with pytest.raises(TimeError, match="times are exact up to"):
         dd.Session(model, precision=precision)
@@ -126,7 +140,13 @@ def test_times_that_are_not_told_apart_are_refused(precision: str) -> None:
         session.run(2.0**45)
 
 
-MULTIPLY_THE_STEP = {("Attractor", "fastest"), ("Integrator", "rate"), ("AdaptiveWeights", "rate"), ("Hebbian", "rate"), ("Hebbian", "decay")}
+MULTIPLY_THE_STEP = {
+    ("Attractor", "fastest"),
+    ("Integrator", "rate"),
+    ("AdaptiveWeights", "rate"),
+    ("Hebbian", "rate"),
+    ("Hebbian", "decay"),
+}
 """Rates that multiply the step and never the time that has passed: single precision is enough for them."""
 
 
@@ -156,20 +176,31 @@ SCENES: dict[str, Callable[[float], Model]] = {
     "DelayLine": lambda t0: alone(t0, DelayLine("example", [], 4.0, 4), RISING),
     "History": lambda t0: alone(t0, History("example", [], SLOTS, interval=3.0), RISING),
     "MovingGaussian": lambda t0: alone(
-        t0, MovingGaussian("example", [RING], center=20.0, sigma=30.0, velocity=0.1, waypoints=[[t0, 0.0], [t0 + 6, 60.0]])
+        t0,
+        MovingGaussian(
+            "example", [RING], center=20.0, sigma=30.0, velocity=0.1, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]
+        ),
     ),
     "RewardGate": lambda t0: alone(t0, RewardGate(duration=4.0, name="example"), (RISING == 3) * 1.0),
-    "SampledHistory": lambda t0: alone(t0, SampledHistory("example", [], SLOTS, t0 + np.array([2.0, 5.0, 9.0])), RISING),
-    "TimeSeries": lambda t0: alone(t0, TimeSeries("example", [], t0 + np.array([1.0, 3.0, 3.5, 6.0]), [1.0, 2.0, -3.0, 5.0])),
+    "SampledHistory": lambda t0: alone(
+        t0, SampledHistory("example", [], SLOTS, t0 + np.array([2.0, 5.0, 9.0])), RISING
+    ),
+    "TimeSeries": lambda t0: alone(
+        t0, TimeSeries("example", [], t0 + np.array([1.0, 3.0, 3.5, 6.0]), [1.0, 2.0, -3.0, 5.0])
+    ),
 }
-"""For each kind that reads time in another way than by windows a model in which something happens within twelve steps after t0."""
+"""For each kind that reads time in another way than by windows a model in which something happens within
+twelve steps after t0.
+"""
 
 LONG = 30 * DAY + 7
 LASTING: dict[str, Callable[[], Model]] = {
     "DelayLine": lambda: alone(0.0, DelayLine("example", [], LONG, 2, initial=-1.0), RISING + 5),
     "History": lambda: alone(0.0, History("example", [], SLOTS, interval=LONG), RISING + 5),
     "RewardGate": lambda: alone(0.0, RewardGate(duration=LONG, name="example"), (RISING == 0) * 1.0),
-    "TimeSeries": lambda: alone(0.0, TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=LONG)),
+    "TimeSeries": lambda: alone(
+        0.0, TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=LONG)
+    ),
 }
 """For each kind with a duration a model whose output changes when it has lasted 30 days and 7 ms."""
 
@@ -216,7 +247,10 @@ def test_every_kind_that_reads_time_is_among_those_that_are_tested() -> None:
 @pytest.mark.parametrize("kind", sorted({*WINDOWED, *SCENES}))
 def test_what_a_kind_does_does_not_depend_on_how_late_it_is(kind: str) -> None:
     scene = SCENES.get(kind, lambda t0: windowed(kind, t0))
-    seen, late = (dd.simulate(scene(t0), 12, dt=1, record=["example.output"])["example.output"].values for t0 in (0.0, 30 * DAY))
+    seen, late = (
+        dd.simulate(scene(t0), 12, dt=1, record=["example.output"])["example.output"].values
+        for t0 in (0.0, 30 * DAY)
+    )
     assert np.abs(np.diff(seen, axis=0)).max() > 0.01
     np.testing.assert_allclose(late, seen, atol=1e-5 * np.abs(seen).max())
 
@@ -227,7 +261,9 @@ def test_a_duration_of_a_month_ends_in_its_step(kind: str, precision: str) -> No
     session = dd.Session(LASTING[kind](), precision=precision)
     session.step(5)
     then = session.snapshot()
-    session.restore(dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5)))  # what counts steps in its state misses the days between
+    session.restore(
+        dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5))
+    )  # what counts steps in its state misses the days between
     seen: list[float] = []
     for _ in range(12):
         seen.append(float(np.ravel(session.read("example.output"))[0]))

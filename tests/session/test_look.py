@@ -27,7 +27,9 @@ def test_a_look_sees_what_single_readings_see() -> None:
     model = ring(4)
     session = dd.Session(model, precision="float64")
     session.step(20)
-    places = [(h.id, port) for h in model for port in ("activation", "output", "input") if hasattr(h.element, "tau")]
+    places = [
+        (h.id, port) for h in model for port in ("activation", "output", "input") if hasattr(h.element, "tau")
+    ]
     seen = session.look(look(session.program, places), places)
     assert set(seen) == set(places)
     for h in model:

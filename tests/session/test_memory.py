@@ -14,7 +14,8 @@ def grown(steps, **record):
     before = psutil.Process().memory_info().rss
     kept = dd.simulate(model, steps, **record)
     return (psutil.Process().memory_info().rss - before) / 2**20, kept.nbytes / 2**20
-# what compiling and the first buffers take is not counted: the smallest growth of two like runs; buffers of 16 MiB come and go
+# what compiling and the first buffers take is not counted: the smallest growth of two like runs;
+# buffers of 16 MiB come and go
 silent = min(grown(16000)[0] for _ in range(4))
 sparse, size = min(grown(16000, record=["u.activation"], every=100) for _ in range(2))
 dense, large = min(grown(16000, record=["u.activation"]) for _ in range(2))

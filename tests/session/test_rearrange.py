@@ -39,7 +39,9 @@ def test_things_move_come_and_go_and_the_journal_tells() -> None:
     session.move("goal", (2.5, 0.6))
     scene = session.scene()
     assert scene is not None
-    assert [b.name for b in scene.boxes] == ["crate", "block"] and np.allclose([b.center for b in scene.boxes], [(0.7, 1.5), (1.0, 1.5)])
+    assert [b.name for b in scene.boxes] == ["crate", "block"] and np.allclose(
+        [b.center for b in scene.boxes], [(0.7, 1.5), (1.0, 1.5)]
+    )
     assert scene.marks[0].center == pytest.approx((2.5, 0.6))
     session.remove("block")
     assert [(c.tick, c.what, c.value) for c in session.journal] == [
@@ -103,7 +105,9 @@ def test_a_track_follows_the_bodies_and_begins_anew_with_the_run() -> None:
     assert (np.hypot(*np.diff(places, axis=0).T) >= FINE * 3).all() and len(places) > 10
     track.follow(session)
     track.follow(session)
-    assert track.way is way and len(way.places) - len(places) <= 1, "what stands still is not taken down again"
+    assert track.way is way and len(way.places) - len(places) <= 1, (
+        "what stands still is not taken down again"
+    )
     session.reset()
     track.follow(session)
     assert track.way is not way and np.allclose(track.way.places, [(0.2, 1.0)])

@@ -1,4 +1,6 @@
-"""Refining a grid changes cost, not behaviour: places, thresholds and switching rates at 1x, 2x and 4x the samples."""
+"""Refining a grid changes cost, not behaviour: places, thresholds and switching rates at 1x, 2x and 4x the
+samples.
+"""
 
 from __future__ import annotations
 
@@ -19,22 +21,42 @@ def axes(dimensions: int, finer: int) -> list[dd.Axis]:
 
 
 def localised(dimensions: int, finer: int, former: float) -> dd.Model:
-    """A bistable field with a tested input; `former` is the strength of one that makes a peak first, and goes."""
+    """A bistable field with a tested input; `former` is the strength of one that makes a peak first, and
+    goes.
+    """
     over = axes(dimensions, finer)
     model = dd.Model("resolution")
-    kernel = [dd.Gaussian(11 if dimensions == 1 else 18, 4, normalized=True), dd.Gaussian(-6, 9, normalized=True)]
-    u = model.add(dd.Field("u", over, tau=10, resting_level=-5, sigmoid=dd.Logistic(2), kernel=kernel, global_inhibition=0.01))
+    kernel = [
+        dd.Gaussian(11 if dimensions == 1 else 18, 4, normalized=True),
+        dd.Gaussian(-6, 9, normalized=True),
+    ]
+    u = model.add(
+        dd.Field(
+            "u", over, tau=10, resting_level=-5, sigmoid=dd.Logistic(2), kernel=kernel, global_inhibition=0.01
+        )
+    )
     for name, amplitude, windows in (("former", former, [(0, 150)]), ("tested", 0.0, [])):
-        model.add(dd.GaussianStimulus(name, over, center=PLACE[dimensions], sigma=3, amplitude=amplitude, windows=windows)) >> u
+        (
+            model.add(
+                dd.GaussianStimulus(
+                    name, over, center=PLACE[dimensions], sigma=3, amplitude=amplitude, windows=windows
+                )
+            )
+            >> u
+        )
     model["u"]["activation"] >> model.add(dd.Project([], reduce="max", name="top"))
     return model
 
 
 def lowest_with_a_peak(model: dd.Model, low: float, high: float) -> float:
-    """The smallest tested amplitude, to 1/121 of the range, at which the field has a peak at the end: by two sweeps, of which the second is finer."""
+    """The smallest tested amplitude, to 1/121 of the range, at which the field has a peak at the end: by two
+    sweeps, of which the second is finer.
+    """
     for _ in range(2):
         amplitudes = np.linspace(low, high, 12)
-        data = dd.simulate(model, 900, record=["top.output"], every=900, sweep={"tested.amplitude": amplitudes})
+        data = dd.simulate(
+            model, 900, record=["top.output"], every=900, sweep={"tested.amplitude": amplitudes}
+        )
         peak = data["top.output"].values[:, -1] > 0
         assert peak[-1] and not peak[0], "the threshold lies outside the range that is searched"
         first = int(np.argmax(peak))
@@ -61,7 +83,9 @@ def test_places_and_thresholds(dimensions: int) -> None:
     for finer, found in zip(FINER, places, strict=True):
         assert np.abs(found - places[-1]).max() <= step / 2, finer
         assert np.abs(found - PLACE[dimensions]).max() <= step / 2, finer
-    assert np.mean(forgetting) < 0.9 * np.mean(detection), "without hysteresis the two thresholds would be one"
+    assert np.mean(forgetting) < 0.9 * np.mean(detection), (
+        "without hysteresis the two thresholds would be one"
+    )
     for thresholds in (detection, forgetting):
         assert max(thresholds) / min(thresholds) <= 1.03, thresholds
 
@@ -82,7 +106,9 @@ def noisy(dimensions: int, finer: int) -> dd.Model:
 def test_switching_rate_under_correlated_noise(dimensions: int, trials: int) -> None:
     rates, events = [], []
     for finer in FINER:
-        top = dd.simulate(noisy(dimensions, finer), 200, record=["top.output"], every=2, trials=trials)["top.output"].values
+        top = dd.simulate(noisy(dimensions, finer), 200, record=["top.output"], every=2, trials=trials)[
+            "top.output"
+        ].values
         peak = top > 1.0
         waited = np.where(peak.any(1), peak.argmax(1), peak.shape[1]) * 2.0
         events.append(int(peak.any(1).sum()))

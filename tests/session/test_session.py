@@ -20,7 +20,9 @@ x = dd.Axis("x", 0, 20, samples=21)
 
 def relaxing(every: int = 1, **parameters: float) -> dd.Model:
     model = dd.Model("relaxing")
-    model.add(dd.Field("u", [x], **({"tau": 10.0, "resting_level": 1.0, "noise": 0.0} | parameters)), ticks=every)
+    model.add(
+        dd.Field("u", [x], **({"tau": 10.0, "resting_level": 1.0, "noise": 0.0} | parameters)), ticks=every
+    )
     model.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=0)) >> model["u"]
     return model
 
@@ -37,7 +39,12 @@ def test_a_change_acts_from_the_next_step_and_is_journalled() -> None:
     s.step(2)
     s.restore(kept)
     s.reset()
-    assert [(c.tick, c.what) for c in s.journal] == [(3, "u.resting_level"), (4, "u.kernel"), (6, "restore"), (4, "reset")]
+    assert [(c.tick, c.what) for c in s.journal] == [
+        (3, "u.resting_level"),
+        (4, "u.kernel"),
+        (6, "restore"),
+        (4, "reset"),
+    ]
 
 
 def test_dt_changes_without_moving_time() -> None:
@@ -65,7 +72,9 @@ def test_a_changed_dt_waits_for_the_tick_common_to_all_parts() -> None:
 
 
 def test_time_keeps_its_digits_over_a_day_in_float32() -> None:
-    """A pulse of eight steps (the distance of neighbouring float32 there) is seen in exactly these steps, a day after the start."""
+    """A pulse of eight steps (the distance of neighbouring float32 there) is seen in exactly these steps, a
+    day after the start.
+    """
     model = relaxing(tau=1.0, resting_level=0.0)
     model.describe(t0=86_399_990.0)
     model.set("s.amplitude", 1.0)
@@ -100,7 +109,11 @@ def test_structural_changes_keep_states_by_id() -> None:
     edited.remove("v")
     edited.add(dd.Field("w", [x], resting_level=-7))
     s.edit(edited.document)
-    assert np.array_equal(s.read("renamed.activation"), before) and (s.read("w.activation") == -7).all() and s.tick == 50
+    assert (
+        np.array_equal(s.read("renamed.activation"), before)
+        and (s.read("w.activation") == -7).all()
+        and s.tick == 50
+    )
 
 
 def test_documents_are_not_changed_by_a_session() -> None:
@@ -117,10 +130,14 @@ def test_documents_are_not_changed_by_a_session() -> None:
 def test_not_finite_names_element_step_and_remedy() -> None:
     model = dd.Model("explosive")
     u = model.add(dd.Field("fine", [x]))
-    v = model.add(dd.Field("v", [x], tau=1, resting_level=1, sigmoid=Linear(3.0), kernel=[dd.Gaussian(50, 5)]))
+    v = model.add(
+        dd.Field("v", [x], tau=1, resting_level=1, sigmoid=Linear(3.0), kernel=[dd.Gaussian(50, 5)])
+    )
     u >> dd.Gain(0.0) >> v
     s = dd.Session(model)
-    with pytest.raises(dd.errors.NotFinite, match=r"^v became infinite or undefined in step (\d+) .*smaller dt") as caught:
+    with pytest.raises(
+        dd.errors.NotFinite, match=r"^v became infinite or undefined in step (\d+) .*smaller dt"
+    ) as caught:
         s.step(500)
     step = int(str(caught.value).split("step ")[1].split()[0])
     again = dd.Session(model)

@@ -42,12 +42,17 @@ def begun(*args: Any, trials: Any = (0,), seed: int = 0, precision: str = "float
 
 
 def avoiding() -> dd.Model:
-    """Wheels that turn where less is seen: what the right sensors see slows the left wheel, and the other way round; in front it turns left."""
+    """Wheels that turn where less is seen: what the right sensors see slows the left wheel, and the other way
+    round; in front it turns left.
+    """
     model = dd.Model("avoiding", dt=64)
     eyes = model.add(Sensor("eyes", [EIGHT], "infrared"))
     model.add(Sensor("pose", [POSE], "pose"))
     model.add(Sensor("touching", [], "touching"))
-    for name, weights in (("left", [-1.5, -1, -0.5, 0, 0, 0, 0, -1.5]), ("right", [0, 0, 0, 0, 0, -0.5, -1, 0])):
+    for name, weights in (
+        ("left", [-1.5, -1, -0.5, 0, 0, 0, 0, -1.5]),
+        ("right", [0, 0, 0, 0, 0, -0.5, -1, 0]),
+    ):
         wheel = model.add(Motor(name, [], name))
         eyes >> dd.Gain(0.5) >> Weights(np.asarray(weights), axes=()) >> wheel
         model.add(Boost(f"go {name}", [], 400.0)) >> wheel
@@ -80,7 +85,12 @@ def test_it_never_leaves_the_maze_and_slides_or_sticks_at_its_walls() -> None:
         assert world.sense("touching", (), 0.0)[0] in (0, 1)
         left, low, right, high = load("z").border
         x, y = poses[0, :, 0], poses[0, :, 1]
-        assert x.min() > left + 0.0369 and x.max() < right - 0.0369 and y.min() > low + 0.0369 and y.max() < high - 0.0369
+        assert (
+            x.min() > left + 0.0369
+            and x.max() < right - 0.0369
+            and y.min() > low + 0.0369
+            and y.max() < high - 0.0369
+        )
         boxes = np.asarray([t.box for t in load("z").things])
         away = np.hypot(
             np.maximum(np.maximum(boxes[:, 0] - x[:, None], x[:, None] - boxes[:, 2]), 0),
@@ -92,7 +102,9 @@ def test_it_never_leaves_the_maze_and_slides_or_sticks_at_its_walls() -> None:
 
 
 def test_a_closed_loop_keeps_clear_of_walls() -> None:
-    data = dd.simulate(avoiding(), 64 * 600, record=["pose.output", "eyes.output", "touching.output"], world=Arena("z"))
+    data = dd.simulate(
+        avoiding(), 64 * 600, record=["pose.output", "eyes.output", "touching.output"], world=Arena("z")
+    )
     pose = data["pose.output"].values
     assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum() > 1.0, "it goes on driving"
     assert data["eyes.output"].values[300:].max() > 100, "it meets walls"
@@ -110,17 +122,24 @@ def test_a_copy_alone_is_the_copy_in_a_batch(precision: str) -> None:
     np.testing.assert_allclose(a[3], b[0], atol=tolerance)
     assert np.abs(a[0] - a[1]).max() > 1e-3, "trials differ in their noise"
     for sensor, axes in (("infrared", (EIGHT,)), ("place", (PAIR,)), ("encoders", (PAIR,))):
-        np.testing.assert_allclose(many.sense(sensor, axes, 0.0)[1], alone.sense(sensor, axes, 0.0)[0], rtol=1e-4)
+        np.testing.assert_allclose(
+            many.sense(sensor, axes, 0.0)[1], alone.sense(sensor, axes, 0.0)[0], rtol=1e-4
+        )
 
 
 def test_noise_has_the_size_that_was_given() -> None:
-    world = begun(EMPTY, trials=range(400), unit="cm", start=(150, 150, 0), place_noise=2.0, slip=0.1, encoder_noise=0.2)
+    world = begun(
+        EMPTY, trials=range(400), unit="cm", start=(150, 150, 0), place_noise=2.0, slip=0.1, encoder_noise=0.2
+    )
     places = []
     for _ in range(20):
         places.append(world.sense("place", (PAIR,), 0.0) - world.sense("pose", (POSE,), 0.0)[:, :2])
         world.act({}, 0.0)
     np.testing.assert_allclose(np.std(places), 2.0, rtol=0.03)
-    assert abs(np.mean(places)) < 0.05 and abs(np.corrcoef(np.ravel(places[:-1]), np.ravel(places[1:]))[0, 1]) < 0.03
+    assert (
+        abs(np.mean(places)) < 0.05
+        and abs(np.corrcoef(np.ravel(places[:-1]), np.ravel(places[1:]))[0, 1]) < 0.03
+    )
     world.act({"left": np.full(400, 100.0), "right": np.full(400, 100.0)}, 0.0)
     rolled = world.sense("encoders", (PAIR,), 0.0)
     np.testing.assert_allclose(rolled.std(), 6.4 * np.hypot(0.1, 0.2), rtol=0.1)
@@ -146,7 +165,9 @@ def test_infrared_noise_can_be_silenced() -> None:
 
 
 def test_obstacles_from_above_are_the_map_of_the_published_maze() -> None:
-    """On cells of 1 cm; a cell counts as wall where something stands on a part of it, and so does all that lies outside."""
+    """On cells of 1 cm; a cell counts as wall where something stands on a part of it, and so does all that
+    lies outside.
+    """
     y, x = dd.Axis("y", 5, 104, 100, unit="cm"), dd.Axis("x", -104, -5, 100, unit="cm")
     world = begun("z", unit="cm")
     seen = world.sense("obstacles", (y, x), 0.0)[0]
@@ -159,7 +180,9 @@ def test_obstacles_from_above_are_the_map_of_the_published_maze() -> None:
     boxes = [t.box for t in walls if t.name in ("Maze_Wall4", "Maze_Wall5", "Maze_Wall2")]
     for k, a in enumerate(boxes):
         for b in boxes[k + 1 :]:
-            overlap += max(0.0, min(a[2], b[2]) - max(a[0], b[0])) * max(0.0, min(a[3], b[3]) - max(a[1], b[1]))
+            overlap += max(0.0, min(a[2], b[2]) - max(a[0], b[0])) * max(
+                0.0, min(a[3], b[3]) - max(a[1], b[1])
+            )
     np.testing.assert_allclose(free.sum() / 1e4, inside - overlap, rtol=0.03)
     turned = world.sense("obstacles", (x, y), 0.0)[0]
     np.testing.assert_array_equal(turned, seen.T)
@@ -173,13 +196,17 @@ def test_blocks_from_above_have_their_colours() -> None:
     np.testing.assert_allclose(seen[5, 40], [0.96, 0.96, 0.94], atol=1e-5)
 
 
-# ------------------------------------------------------------------------------------------------ changes while it runs
+# -------------------------------------------------------------------------------------- changes while it runs
 
 
 def test_things_come_move_and_go_without_a_new_program() -> None:
     world = begun(EMPTY, start=(1.5, 1.5, 0.0), goal=(2.5, 2.5))
     drive(world, 1)
-    for sensor, axes in (("obstacles", Arena.example_axes("obstacles")), ("infrared", (EIGHT,)), ("goal", (PAIR,))):
+    for sensor, axes in (
+        ("obstacles", Arena.example_axes("obstacles")),
+        ("infrared", (EIGHT,)),
+        ("goal", (PAIR,)),
+    ):
         world.sense(sensor, axes, 0.0)
     compiled = {key: function._cache_size() for key, function in world._compiled.items()}
     world.place("wall", (1.7, 1.5), (0.1, 1.0))
@@ -197,7 +224,9 @@ def test_things_come_move_and_go_without_a_new_program() -> None:
 
 def test_a_thing_with_windows_stands_between_them_for_each_trial_its_own() -> None:
     world = Arena(EMPTY, start=(1.3, 1.5, 0.0))
-    world.place("gate", (1.5, 1.5), (0.1, 2.9), windows=[(0, 64 * 200), (64 * 100, 64 * 200), (64 * 200, 64 * 300)])
+    world.place(
+        "gate", (1.5, 1.5), (0.1, 2.9), windows=[(0, 64 * 200), (64 * 100, 64 * 200), (64 * 200, 64 * 300)]
+    )
     world.reset(0, [0, 1, 2])
     poses = drive(world, 150)
     assert poses[0, -1, 0] < 1.42 and poses[1, -1, 0] > 1.6 and poses[2, -1, 0] > 1.6
@@ -221,15 +250,27 @@ def test_a_thing_put_on_the_vehicle_pushes_it_aside() -> None:
         (lambda w: w.place("p", (1, float("nan")), (1, 1)), WorldError, "p.center: .*two finite numbers"),
         (lambda w: w.place("p", 5, (1, 1)), WorldError, "p.center: is 5"),
         (lambda w: w.place("p", (1, 1), (1, 1), color=(1, 2, 3)), WorldError, "p.color"),
-        (lambda w: w.place("p", (1, 1), (1, 1), windows=(5, 1)), WorldError, "windows of p: begins after it ends"),
+        (
+            lambda w: w.place("p", (1, 1), (1, 1), windows=(5, 1)),
+            WorldError,
+            "windows of p: begins after it ends",
+        ),
         (lambda w: w.place("p", (1, 1), (1, 1), windows="ever"), WorldError, "windows of p: is 'ever'"),
         (lambda w: w.move("crat", (1, 1)), UnknownName, "Did you mean 'crate'"),
         (lambda w: w.move("crate", (1, None)), WorldError, "crate.center"),
         (lambda w: w.remove("nothing"), UnknownName, "nothing in the arena is called 'nothing'"),
         (lambda w: w.aim((0.92, 0.22)), WorldError, r"goal: \(0.92, 0.22\) lies inside 'crate'"),
-        (lambda w: w.aim((5, 0.22)), WorldError, r"goal: \(5, 0.22\) lies outside the arena, 0 to 1.2, 0 to 0.8 m"),
+        (
+            lambda w: w.aim((5, 0.22)),
+            WorldError,
+            r"goal: \(5, 0.22\) lies outside the arena, 0 to 1.2, 0 to 0.8 m",
+        ),
         (lambda w: w.aim("there"), WorldError, "goal: is 'there'"),
-        (lambda w: [w.place(f"p{k}", (0.1, 0.7), (0.01, 0.01)) for k in range(17)], WorldError, "p16: the arena is full"),
+        (
+            lambda w: [w.place(f"p{k}", (0.1, 0.7), (0.01, 0.01)) for k in range(17)],
+            WorldError,
+            "p16: the arena is full",
+        ),
     ],
 )
 def test_changes_that_cannot_be(change: Any, error: type[Exception], says: str) -> None:
@@ -241,16 +282,22 @@ def test_changes_that_cannot_be(change: Any, error: type[Exception], says: str) 
         assert world.describe() == before
 
 
-# ------------------------------------------------------------------------------------------------ what cannot be
+# --------------------------------------------------------------------------------------------- what cannot be
 
 CLOSED = {**EMPTY, "walls": [{"name": "all across", "center": [1.5, 1.5], "size": [0.05, 4]}]}
-GAP = {**EMPTY, "walls": [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center": [1.5, 2.25], "size": [0.05, 1.6]}]}
+GAP = {
+    **EMPTY,
+    "walls": [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center": [1.5, 2.25], "size": [0.05, 1.6]}],
+}
 
 
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        (dict(start=(0.6, 0.5, 0)), r"blocks: start: \(0.6, 0.5\) lies inside 'divide'; the vehicle needs 0.037 m around it"),
+        (
+            dict(start=(0.6, 0.5, 0)),
+            r"blocks: start: \(0.6, 0.5\) lies inside 'divide'; the vehicle needs 0.037 m around it",
+        ),
         (dict(start=(0.02, 0.5, 0)), "lies outside the arena"),
         (dict(start=(0.25, 0.59, 0)), "lies inside 'red'; the vehicle needs"),
         (dict(goal=(0.6, 0.5)), "goal: .*lies inside 'divide'"),
@@ -259,9 +306,15 @@ GAP = {**EMPTY, "walls": [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center"
         (dict(start=(0.2, 0.3)), "start: .*3 finite numbers"),
         (dict(start=(0.2, 0.3, float("nan"))), "start: .*3 finite numbers"),
         (dict(goal="there"), "goal: is 'there'"),
-        (dict(layout=CLOSED, start=(0.5, 0.5, 0), goal=(2.5, 0.5)), r"goal: \(2.5, 0.5\) is out of reach from \(0.5, 0.5\)"),
+        (
+            dict(layout=CLOSED, start=(0.5, 0.5, 0), goal=(2.5, 0.5)),
+            r"goal: \(2.5, 0.5\) is out of reach from \(0.5, 0.5\)",
+        ),
         (dict(layout=GAP, start=(0.5, 0.5, 0), goal=(2.5, 0.5)), "out of reach"),
-        (dict(layout={"arena": {"x": [0, 0.05], "y": [0, 0.05]}}), "the e-puck fits nowhere: it is 0.074 m wide"),
+        (
+            dict(layout={"arena": {"x": [0, 0.05], "y": [0, 0.05]}}),
+            "the e-puck fits nowhere: it is 0.074 m wide",
+        ),
         (dict(unit="ft"), "unit is 'ft'; it is one of m, cm, mm"),
         (dict(contact="slied"), "Did you mean 'slide'"),
         (dict(period=0), "period is 0; it is a finite number, above 0"),
@@ -277,7 +330,11 @@ def test_arenas_that_cannot_be(options: dict[str, Any], says: str) -> None:
 
 
 def test_walls_may_overlap_and_stand_outside_and_a_way_may_lead_round() -> None:
-    over = [{"center": [1.5, 1.5], "size": [0.05, 2.0]}, {"center": [1.5, 1.4], "size": [0.5, 0.05]}, {"center": [9, 9], "size": [1, 1]}]
+    over = [
+        {"center": [1.5, 1.5], "size": [0.05, 2.0]},
+        {"center": [1.5, 1.4], "size": [0.5, 0.05]},
+        {"center": [9, 9], "size": [1, 1]},
+    ]
     Arena({**EMPTY, "walls": over}, start=(0.5, 0.5, 0), goal=(2.5, 0.5))
     gap = [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center": [1.5, 2.25], "size": [0.05, 1.5]}]
     Arena({**EMPTY, "walls": gap}, start=(0.5, 0.5, 0), goal=(2.5, 0.5))
@@ -322,5 +379,7 @@ class Broken(Arena):
 def test_a_world_inside_the_step_that_is_lost_is_named():
     model = dd.Model("watching", dt=64)
     model.add(Sensor("heading", sensor="heading"))
-    with pytest.raises(dd.errors.NotFinite, match=r"^position of the world Broken became infinite or undefined in step 8 "):
+    with pytest.raises(
+        dd.errors.NotFinite, match=r"^position of the world Broken became infinite or undefined in step 8 "
+    ):
         dd.simulate(model, 64 * 30, world=Broken(), record="heading.output")

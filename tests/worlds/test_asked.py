@@ -15,7 +15,9 @@ def test_a_layout_alone():
 
 
 def test_settings_are_those_of_the_arena():
-    arena = Arena.open("z, unit=cm, start=-45 55 1.5, goal=-65 65, place_noise=0.5, place_every=2, contact=stick")
+    arena = Arena.open(
+        "z, unit=cm, start=-45 55 1.5, goal=-65 65, place_noise=0.5, place_every=2, contact=stick"
+    )
     again = Arena("z", (-45, 55, 1.5), (-65, 65), "cm", place_noise=0.5, place_every=2, contact="stick")
     assert arena.describe()["settings"] == again.describe()["settings"]
     np.testing.assert_array_equal(arena.starts, again.starts)

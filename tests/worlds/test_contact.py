@@ -19,7 +19,11 @@ TOLERANCE = 2e-5
 def mover(sticks: bool):
     def many(positions, steps, boxes, present):
         def one(p, path):
-            return jax.lax.scan(lambda q, s: (lambda r: (r[0], r))(_contact.move(q, s, boxes, present, RADIUS, sticks)), p, path)[1]
+            return jax.lax.scan(
+                lambda q, s: (lambda r: (r[0], r))(_contact.move(q, s, boxes, present, RADIUS, sticks)),
+                p,
+                path,
+            )[1]
 
         return jax.vmap(one)(positions, steps)
 
@@ -27,7 +31,9 @@ def mover(sticks: bool):
 
 
 def chamber(rng: np.random.Generator, boxes: int = 12) -> np.ndarray:
-    """A closed room of one metre with walls of a few millimetres, thin and thick boxes in it, and a free outside."""
+    """A closed room of one metre with walls of a few millimetres, thin and thick boxes in it, and a free
+    outside.
+    """
     t = rng.uniform(0.001, 0.01)
     walls = [(0, 0, 1, t), (0, 1 - t, 1, 1), (0, 0, t, 1), (1 - t, 0, 1, 1)]
     for _ in range(boxes):
@@ -49,7 +55,9 @@ def free(rng: np.random.Generator, boxes: np.ndarray, n: int) -> np.ndarray:
 
 
 def gap(positions: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-    """The smallest gap between the disc and a box, in double precision; a middle inside a box counts as -radius."""
+    """The smallest gap between the disc and a box, in double precision; a middle inside a box counts as
+    -radius.
+    """
     p = np.asarray(positions, np.float64)[..., None, :]
     away = p - np.clip(p, boxes[:, :2].astype(float), boxes[:, 2:].astype(float))
     return np.sqrt((away**2).sum(-1)).min(-1) - RADIUS
@@ -74,7 +82,9 @@ def test_it_stays_in_its_half_of_the_room_behind_a_wall_thinner_than_the_step() 
     rng = np.random.default_rng(1)
     boxes = np.asarray([(0.5, -1, 0.5005, 2)], np.float32)
     start = np.stack([rng.uniform(0.1, 0.45, 200), rng.uniform(0, 1, 200)], -1).astype(np.float32)
-    steps = np.stack([rng.uniform(0, 3, (200, 20)), rng.uniform(-0.02, 0.02, (200, 20))], -1).astype(np.float32)
+    steps = np.stack([rng.uniform(0, 3, (200, 20)), rng.uniform(-0.02, 0.02, (200, 20))], -1).astype(
+        np.float32
+    )
     ends, touched = mover(False)(start, steps, boxes, np.ones(1, bool))
     assert np.asarray(ends)[..., 0].max() < 0.5 - RADIUS + TOLERANCE and np.asarray(touched).any(axis=1).all()
 
@@ -95,10 +105,17 @@ def test_it_slides_along_a_wall_and_sticks_where_it_shall() -> None:
 def test_it_rounds_a_corner_and_stops_in_one() -> None:
     box = np.asarray([(0, 0, 1, 1)], np.float32)
     # a grazing path that meets the round corner slides off it
-    end, touched = mover(False)(np.asarray([[-0.5, -0.03]], np.float32), np.asarray([[[1.0, 0.0]]], np.float32), box, np.ones(1, bool))
+    end, touched = mover(False)(
+        np.asarray([[-0.5, -0.03]], np.float32), np.asarray([[[1.0, 0.0]]], np.float32), box, np.ones(1, bool)
+    )
     assert touched[0, 0] and end[0, 0, 1] < -0.03 and gap(np.asarray(end), box).min() > -TOLERANCE
     notch = np.asarray([(0, -1, 1, 1), (-1, 0, 1, 1)], np.float32)
-    end, _ = mover(False)(np.asarray([[-0.3, -0.4]], np.float32), np.asarray([[[5.0, 4.0]]], np.float32), notch, np.ones(2, bool))
+    end, _ = mover(False)(
+        np.asarray([[-0.3, -0.4]], np.float32),
+        np.asarray([[[5.0, 4.0]]], np.float32),
+        notch,
+        np.ones(2, bool),
+    )
     np.testing.assert_allclose(end[0, 0], [-RADIUS, -RADIUS], atol=1e-5)
 
 
@@ -114,7 +131,11 @@ def test_what_is_not_there_is_not_met_and_what_is_put_on_it_pushes_it_out() -> N
 def test_rays_end_at_the_nearest_box_that_is_there() -> None:
     boxes = jnp.asarray([(1.0, -1, 2, 1), (0.5, -1, 0.6, 1), (-3, -1, -2, 1)])
     origins, looks = jnp.zeros((3, 2)), jnp.asarray([[1.0, 0], [-1.0, 0], [0.0, 1.0]])
-    np.testing.assert_allclose(_contact.rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6)
-    np.testing.assert_allclose(_contact.rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6)
+    np.testing.assert_allclose(
+        _contact.rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6
+    )
+    np.testing.assert_allclose(
+        _contact.rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6
+    )
     inside = _contact.rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
     np.testing.assert_array_equal(inside, [0.0])

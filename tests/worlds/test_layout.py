@@ -12,15 +12,24 @@ import pytest
 from deodar.errors import WorldError
 from deodar.worlds._layout import Layout, builtin, load
 
-ROOM: dict[str, Any] = {"arena": {"x": [0, 2], "y": [0, 1]}, "walls": [{"name": "w", "center": [1, 0.5], "size": [0.1, 0.4]}]}
+ROOM: dict[str, Any] = {
+    "arena": {"x": [0, 2], "y": [0, 1]},
+    "walls": [{"name": "w", "center": [1, 0.5], "size": [0.1, 0.4]}],
+}
 
 
 def test_the_published_mazes_are_read_as_they_are() -> None:
-    """Cells of the publication: 100 (x + 0.95) + 10 on the first axis, 100 (0.95 - z) + 10 on the second; north is less, east more."""
+    """Cells of the publication: 100 (x + 0.95) + 10 on the first axis, 100 (0.95 - z) + 10 on the second;
+    north is less, east more.
+    """
     raw = builtin()
     for name, count, start in (("z", 5, (0.1, 1.0)), ("large", 17, (-1.0, 1.0))):
         layout = load(name)
-        assert len(layout.things) == count == len(raw[name]["walls"]) and layout.border[0] == -start[1] and layout.border[2] == -start[0]
+        assert (
+            len(layout.things) == count == len(raw[name]["walls"])
+            and layout.border[0] == -start[1]
+            and layout.border[2] == -start[0]
+        )
         for thing, wall in zip(layout.things, raw[name]["walls"], strict=True):
             first, second = 100 * (wall["center"][0] + 0.95) + 10, 100 * (0.95 - wall["center"][1]) + 10
             x, y = thing.center
@@ -31,9 +40,27 @@ def test_the_published_mazes_are_read_as_they_are() -> None:
 
 def test_files_units_and_names(tmp_path: Path) -> None:
     one, many = tmp_path / "one.json", tmp_path / "many.json"
-    centimetres = {"unit": "cm", "arena": {"x": [0, 200], "y": [0, 100]}, "walls": [{"name": "w", "center": [100, 50], "size": [10, 40]}]}
+    centimetres = {
+        "unit": "cm",
+        "arena": {"x": [0, 200], "y": [0, 100]},
+        "walls": [{"name": "w", "center": [100, 50], "size": [10, 40]}],
+    }
     one.write_text(json.dumps(centimetres))
-    many.write_text(json.dumps({"a": ROOM, "b": {**ROOM, "start": [0.3, 0.4], "heading": 1.5, "goal": [1.8, 0.5], "blocks": [], "note": 1}}))
+    many.write_text(
+        json.dumps(
+            {
+                "a": ROOM,
+                "b": {
+                    **ROOM,
+                    "start": [0.3, 0.4],
+                    "heading": 1.5,
+                    "goal": [1.8, 0.5],
+                    "blocks": [],
+                    "note": 1,
+                },
+            }
+        )
+    )
     assert load(one) == load(ROOM) == load(f"{many}#a")
     assert load(f"{many}#b").start == (0.3, 0.4, 1.5) and load(f"{many}#b").goal == (1.8, 0.5)
     for wrong, says in ((many, "holds several arenas"), (f"{many}#c", "holds no arena 'c'")):
@@ -44,23 +71,36 @@ def test_files_units_and_names(tmp_path: Path) -> None:
 def test_what_it_says_of_itself_is_read_as_the_same() -> None:
     for name in builtin():
         again = load(load(name).to_data())
-        assert again.border == load(name).border and again.goal == load(name).goal and again.start == load(name).start
+        assert (
+            again.border == load(name).border
+            and again.goal == load(name).goal
+            and again.start == load(name).start
+        )
         assert [t.box for t in again.things] == [t.box for t in load(name).things]
 
 
 @pytest.mark.parametrize(
     ("changed", "says"),
     [
-        ({"walls": [{"center": [1, 0.5], "size": [0, 0.4]}]}, r"walls.0: has the size \[0, 0.4\]; both are above 0, or it has no area"),
+        (
+            {"walls": [{"center": [1, 0.5], "size": [0, 0.4]}]},
+            r"walls.0: has the size \[0, 0.4\]; both are above 0, or it has no area",
+        ),
         ({"walls": [{"center": [1, 0.5], "size": [-1, 0.4]}]}, "has no area"),
-        ({"walls": [{"center": [float("nan"), 0.5], "size": [1, 1]}]}, r"walls.0.center: is \[nan, 0.5\]; it is two finite numbers"),
+        (
+            {"walls": [{"center": [float("nan"), 0.5], "size": [1, 1]}]},
+            r"walls.0.center: is \[nan, 0.5\]; it is two finite numbers",
+        ),
         ({"walls": [{"center": [1, 0.5], "size": [float("inf"), 1]}]}, "walls.0.size.*two finite numbers"),
         ({"walls": [{"center": [1], "size": [1, 1]}]}, "walls.0.center"),
         ({"walls": [{"center": "ab", "size": [1, 1]}]}, "walls.0.center: is 'ab'"),
         ({"walls": ["w"]}, "walls.0: is 'w'; it is an object"),
         ({"walls": {"w": 1}}, "walls: .*it is a list"),
         ({"boxes": ROOM["walls"]}, "w: is the name of two things"),
-        ({"blocks": [{"center": [1, 1], "size": [1, 1], "color": [2, 0, 0]}]}, "blocks.0.color: .*each from 0 to 1"),
+        (
+            {"blocks": [{"center": [1, 1], "size": [1, 1], "color": [2, 0, 0]}]},
+            "blocks.0.color: .*each from 0 to 1",
+        ),
         ({"blocks": [{"center": [1, 1], "size": [1, 1], "color": "red"}]}, "blocks.0.color"),
         ({"arena": {"x": [0, 2]}}, "arena: "),
         ({"arena": {"x": [2, 0], "y": [0, 1]}}, "arena.x: .*the lower end comes first"),
@@ -80,13 +120,24 @@ def test_what_cannot_be_is_named(changed: dict[str, Any], says: str) -> None:
 
 def test_all_that_is_wrong_is_said_at_once() -> None:
     with pytest.raises(WorldError) as caught:
-        load({"arena": {"x": [1, 0], "y": [0, 1]}, "walls": [{"center": [0, 0], "size": [0, 0]}, {"size": [1, 1]}], "unit": "ft"})
+        load(
+            {
+                "arena": {"x": [1, 0], "y": [0, 1]},
+                "walls": [{"center": [0, 0], "size": [0, 0]}, {"size": [1, 1]}],
+                "unit": "ft",
+            }
+        )
     assert len(caught.value.problems) == 4
 
 
 @pytest.mark.parametrize(
     ("text", "says"),
-    [("{", "cannot be read as JSON"), ("[]", "an arena is an object"), ("{}", "holds no arena"), ('{"a": 3}', "is 3; an arena is an object")],
+    [
+        ("{", "cannot be read as JSON"),
+        ("[]", "an arena is an object"),
+        ("{}", "holds no arena"),
+        ('{"a": 3}', "is 3; an arena is an object"),
+    ],
 )
 def test_files_that_are_no_arena(tmp_path: Path, text: str, says: str) -> None:
     file = tmp_path / "arena.json"

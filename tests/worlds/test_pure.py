@@ -67,4 +67,6 @@ def test_what_a_world_becomes_later_does_not_reach_another_one() -> None:
     assert counted(one) == [4.0]
     one.by = 9.0
     assert counted(one) == [9.0]
-    assert counted(Counter(4.0), copies=2) == [4.0, 4.0], "another number of copies: traced anew, from the copy that was taken"
+    assert counted(Counter(4.0), copies=2) == [4.0, 4.0], (
+        "another number of copies: traced anew, from the copy that was taken"
+    )

@@ -37,7 +37,14 @@ def driving() -> dd.Model:
 
 
 def recorded(**options: Any) -> Any:
-    return dd.simulate(driving(), 640, record=["eyes.output", "u.activation", "left.output"], seed=4, world=Arena("blocks"), **options)
+    return dd.simulate(
+        driving(),
+        640,
+        record=["eyes.output", "u.activation", "left.output"],
+        seed=4,
+        world=Arena("blocks"),
+        **options,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +53,9 @@ def run() -> Any:
 
 
 def test_the_same_model_does_what_it_did(run: Any) -> None:
-    again = dd.simulate(driving(), 640, record=["eyes.output", "u.activation", "left.output"], seed=4, world=Recording(run))
+    again = dd.simulate(
+        driving(), 640, record=["eyes.output", "u.activation", "left.output"], seed=4, world=Recording(run)
+    )
     np.testing.assert_array_equal(run["eyes.output"].values, again["eyes.output"].values)
     for name in run.data_vars:  # another program: it may add in another order
         np.testing.assert_allclose(run[name].values, again[name].values, rtol=1e-5)
@@ -54,7 +63,9 @@ def test_the_same_model_does_what_it_did(run: Any) -> None:
 
 def test_in_double_precision_it_does_so_to_the_tenth_digit() -> None:
     run = recorded(precision="float64")
-    again = dd.simulate(driving(), 640, record=["u.activation"], seed=4, world=Recording(run), precision="float64")
+    again = dd.simulate(
+        driving(), 640, record=["u.activation"], seed=4, world=Recording(run), precision="float64"
+    )
     np.testing.assert_allclose(run["u.activation"].values, again["u.activation"].values, atol=1e-10)
 
 
@@ -96,7 +107,9 @@ def test_trials_read_their_own() -> None:
 
 def test_what_cannot_be_replayed(run: Any) -> None:
     with pytest.raises(WorldError, match="ends at 640 ms, and the run goes on to 704 ms"):
-        dd.simulate(driving(), 1280, record=["u.activation"], world=Recording(run.isel(time=slice(None, None, 4))))
+        dd.simulate(
+            driving(), 1280, record=["u.activation"], world=Recording(run.isel(time=slice(None, None, 4)))
+        )
     with pytest.raises(WorldError, match="holds the output of no sensor"):
         Recording(run[["u.activation"]].assign_attrs(run.attrs))
     with pytest.raises(WorldError, match="does not say what made it"):
@@ -105,5 +118,7 @@ def test_what_cannot_be_replayed(run: Any) -> None:
         Recording(run["eyes.output"])
     model = dd.Model("other")
     model.add(Sensor("eye", Picture.example_axes("picture"), "picture"))
-    with pytest.raises(WorldError, match=r"no sensor 'picture'\. It has: infrared|no sensor 'picture'\. There is: infrared"):
+    with pytest.raises(
+        WorldError, match=r"no sensor 'picture'\. It has: infrared|no sensor 'picture'\. There is: infrared"
+    ):
         dd.Session(model, world=Recording(run))

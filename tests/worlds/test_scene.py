@@ -29,7 +29,11 @@ LAYOUT: dict[str, Any] = {
 
 
 def test_places_that_fit_are_taken() -> None:
-    for name, center, size in [("crate", (0.31, 0.3), (0.2, 0.2)), ("new", (1.5, 0.2), (0.1, 0.1)), ("goal", (1.8, 0.51), None)]:
+    for name, center, size in [
+        ("crate", (0.31, 0.3), (0.2, 0.2)),
+        ("new", (1.5, 0.2), (0.1, 0.1)),
+        ("goal", (1.8, 0.51), None),
+    ]:
         SCENE.require_room(name, center, size)
     SCENE.require_room("crate", (1.4, 0.5), (0.1, 0.1))  # it touches the robot
 
@@ -65,9 +69,15 @@ def test_an_arena_shows_its_things_its_goal_and_its_vehicle_in_its_unit() -> Non
     arena.reset(0)
     scene = arena.scene()
     assert scene.unit == "cm" and np.allclose(scene.border, (0, 0, 120, 80))
-    assert [b.name for b in scene.boxes] == ["crate"] and np.allclose((*scene.boxes[0].center, *scene.boxes[0].size), (30, 40, 10, 20))
+    assert [b.name for b in scene.boxes] == ["crate"] and np.allclose(
+        (*scene.boxes[0].center, *scene.boxes[0].size), (30, 40, 10, 20)
+    )
     assert np.allclose(scene.marks[0].center, (110, 40)) and not scene.marks[0].fixed
-    assert scene.bodies[0].name == "e-puck" and np.allclose(scene.bodies[0].center, (90, 40)) and scene.bodies[0].radius == pytest.approx(3.7)
+    assert (
+        scene.bodies[0].name == "e-puck"
+        and np.allclose(scene.bodies[0].center, (90, 40))
+        and scene.bodies[0].radius == pytest.approx(3.7)
+    )
     arena.act({"left": np.asarray([500.0]), "right": np.asarray([500.0])}, 0.0)
     assert arena.scene().bodies[0].center[0] > 90.3
 
@@ -91,4 +101,6 @@ def test_the_goal_of_an_arena_moves_by_its_name() -> None:
     assert np.allclose(arena.scene().marks[0].center, (100, 60))
     arena.place("goal", (60, 20), (5, 5))
     arena.move("goal", (60, 30))  # a thing of that name goes first
-    assert np.allclose(arena.scene().marks[0].center, (100, 60)) and np.allclose(arena.scene().boxes[1].center, (60, 30))
+    assert np.allclose(arena.scene().marks[0].center, (100, 60)) and np.allclose(
+        arena.scene().boxes[1].center, (60, 30)
+    )

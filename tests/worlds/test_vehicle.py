@@ -25,7 +25,9 @@ def test_the_axle_runs_on_a_circle(steps: tuple[float, float]) -> None:
     heading = 0.7
     left, right = (s * EPUCK.step_length for s in steps)
     radius, angle = EPUCK.axle / 2 * (right + left) / (right - left), (right - left) / EPUCK.axle
-    expected = radius * np.array([np.sin(heading + angle) - np.sin(heading), np.cos(heading) - np.cos(heading + angle)])
+    expected = radius * np.array(
+        [np.sin(heading + angle) - np.sin(heading), np.cos(heading) - np.cos(heading + angle)]
+    )
     way, turn = drive(EPUCK, jnp.asarray(heading), jnp.asarray(steps))
     np.testing.assert_allclose(way, expected, atol=2e-7)
     np.testing.assert_allclose(turn, angle, rtol=1e-5)
@@ -57,9 +59,13 @@ def test_the_sensors_look_away_from_the_middle_the_first_one_to_the_right_of_the
     s = EPUCK.infrared
     looks = np.asarray(ahead(jnp.asarray(s.angles))).T
     stands = np.stack([s.forward, s.left], -1)
-    assert (np.sum(looks * stands, 1) / np.linalg.norm(stands, axis=1) > 0.7).all()  # those at the back look 30 degrees past it
+    assert (
+        np.sum(looks * stands, 1) / np.linalg.norm(stands, axis=1) > 0.7
+    ).all()  # those at the back look 30 degrees past it
     assert s.left[0] < 0 < s.left[-1] and looks[0, 0] > 0.9 and looks[0, 1] < 0
-    assert (np.linalg.norm(stands, axis=1) < EPUCK.radius).all(), "they stand inside the body, so that a wall is never behind them"
+    assert (np.linalg.norm(stands, axis=1) < EPUCK.radius).all(), (
+        "they stand inside the body, so that a wall is never behind them"
+    )
 
 
 def test_a_wall_in_front_is_seen_by_the_front_at_its_distance_over_the_reflection() -> None:
@@ -68,7 +74,9 @@ def test_a_wall_in_front_is_seen_by_the_front_at_its_distance_over_the_reflectio
     by_hand = (0.10 - 0.030) / np.cos(EPUCK.infrared.angles[0]) / 0.5
     np.testing.assert_allclose(seen[[0, 7]], by_hand, rtol=5e-3)
     assert (seen[[2, 3, 4, 5]] > 10 * 0.07).all()
-    turned = np.asarray(distances(EPUCK.infrared, jnp.zeros(2), jnp.asarray(np.pi / 2), *wall, jnp.asarray(0.5)))
+    turned = np.asarray(
+        distances(EPUCK.infrared, jnp.zeros(2), jnp.asarray(np.pi / 2), *wall, jnp.asarray(0.5))
+    )
     assert turned.argmin() == 2, "turned to the left it has the wall on its right"
 
 
@@ -78,7 +86,9 @@ def test_readings_follow_the_table_with_noise_that_grows_with_distance() -> None
     np.testing.assert_allclose(readings(s, at, jnp.zeros(len(at))), s.readings, rtol=1e-6)
     np.testing.assert_allclose(readings(s, jnp.asarray([0.015]), jnp.zeros(1)), [(2211 + 676) / 2], rtol=1e-6)
     np.testing.assert_allclose(readings(s, jnp.asarray([1.0]), jnp.zeros(1)), [34], rtol=1e-6)
-    np.testing.assert_allclose(readings(s, at, jnp.ones(len(at))), np.asarray(s.readings) * (1 + np.asarray(s.noise)), rtol=1e-6)
+    np.testing.assert_allclose(
+        readings(s, at, jnp.ones(len(at))), np.asarray(s.readings) * (1 + np.asarray(s.noise)), rtol=1e-6
+    )
     assert (np.asarray(readings(s, at, jnp.full(len(at), -9.0))) >= 0).all()
 
 

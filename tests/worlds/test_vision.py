@@ -56,7 +56,9 @@ def test_after_its_end_it_stands_still_or_begins_again(film: Path) -> None:
 
 def test_a_film_travels_to_another_process(film: Path) -> None:
     world = pickle.loads(pickle.dumps(Video(film)))
-    np.testing.assert_array_equal(world.sense("picture", AXES, 200.0), Video(film).sense("picture", AXES, 200.0))
+    np.testing.assert_array_equal(
+        world.sense("picture", AXES, 200.0), Video(film).sense("picture", AXES, 200.0)
+    )
 
 
 def test_a_record_names_the_film(film: Path) -> None:
@@ -78,7 +80,9 @@ def test_files_that_are_no_film(tmp_path: Path) -> None:
 def test_a_camera_gives_its_newest_picture_and_never_waits(film: Path) -> None:
     camera = Camera(str(film), patience=60.0)
     camera.reset(0)
-    while abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0:  # a film as a camera is read as fast as it goes, to its last picture
+    while (
+        abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0
+    ):  # a film as a camera is read as fast as it goes, to its last picture
         time.sleep(0.01)
     camera.sense("picture", FINE, 0.0)  # no picture will come after it, and this does not wait for one
     camera.close()

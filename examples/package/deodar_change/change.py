@@ -45,8 +45,12 @@ class Change(dd.Element):
     def init(self, at: dd.Setting) -> dd.Arrays:
         return {"z": at.full(tuple(self.axes), 0.0)}
 
-    def output(self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any) -> dd.Arrays:
+    def output(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
         return {"output": jnp.maximum(0.0, inputs["input"] - state["z"])}
 
-    def advance(self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any) -> dd.Arrays:
+    def advance(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
         return {"z": dd.euler(state["z"], -state["z"] + inputs["input"], self.tau, time.dt)}

@@ -1,7 +1,8 @@
 """Measuring: peaks, instabilities, regimes, phase plots, paths, statistics.
 
-The functions are `dd.peaks`, `dd.regimes` and so on; `dd.analysis` holds them too, and the classes of what they return. Where a file and its
-function share a name, the function is what `deodar.analysis` gives; import from the file what else it holds.
+The functions are `dd.peaks`, `dd.regimes` and so on; `dd.analysis` holds them too, and the classes of what
+they return. Where a file and its function share a name, the function is what `deodar.analysis` gives; import
+from the file what else it holds.
 """
 
 from deodar.analysis.figures import phase_figure, regimes_figure

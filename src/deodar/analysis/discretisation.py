@@ -15,12 +15,20 @@ from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.custom import Custom
 
 MOST = 20_000
-"""Samples of the finer grid up to which it is measured: about a minute on one core (a guess from 75 microseconds a step of 100 x 100 samples)."""
+"""Samples of the finer grid up to which it is measured: about a minute on one core (a guess from 75
+microseconds a step of 100 x 100 samples).
+"""
 
 
 def refined(field: Field) -> Field:
-    """The field with twice as many steps along each axis: 2 n - 1 samples, or 2 n on a periodic axis. Every sample of the field is one of the new."""
-    axes = [dc.replace(a, samples=2 * a.samples if a.periodic else 2 * a.samples - 1) if a.samples > 1 else a for a in field.axes]
+    """The field with twice as many steps along each axis: 2 n - 1 samples, or 2 n on a periodic axis.
+
+    Every sample of the field is one of the new.
+    """
+    axes = [
+        dc.replace(a, samples=2 * a.samples if a.periodic else 2 * a.samples - 1) if a.samples > 1 else a
+        for a in field.axes
+    ]
     return dc.replace(field, axes=tuple(axes))
 
 
@@ -40,9 +48,14 @@ def obstacle(isolated: Isolated) -> str:
 
 
 def discretisation(
-    isolated: Isolated, found: Mapping[str, Transition], strength: float, accuracy: float = 0.01, limit: float = LIMIT
+    isolated: Isolated,
+    found: Mapping[str, Transition],
+    strength: float,
+    accuracy: float = 0.01,
+    limit: float = LIMIT,
 ) -> dict[str, float | None]:
-    """How far each threshold moves on a grid twice as fine: its value there less its value here; None where it does not exist there.
+    """How far each threshold moves on a grid twice as fine: its value there less its value here; None where
+    it does not exist there.
 
     Args:
         isolated: the field.
@@ -52,7 +65,13 @@ def discretisation(
         limit: of each settling, in time constants.
     """
     session = isolated.session
-    fine = isolate(refined(isolated.field), sigma=isolated.sigma, center=isolated.center, precision=session.precision, dt=session.dt)
+    fine = isolate(
+        refined(isolated.field),
+        sigma=isolated.sigma,
+        center=isolated.center,
+        precision=session.precision,
+        dt=session.dt,
+    )
     both = thresholds(fine, accuracy=accuracy, limit=limit)
     there: dict[str, Transition | None] = {"detection": both.detection, "reverse": both.reverse}
     if both.detection is not None:

@@ -16,7 +16,15 @@ from deodar.errors import OutputError
 from deodar.numerics.axes import Axis
 
 # Okabe & Ito's colours, which people of every colour vision can tell apart
-BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, GREY = "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#999999"
+BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, GREY = (
+    "#000000",
+    "#E69F00",
+    "#56B4E9",
+    "#009E73",
+    "#0072B2",
+    "#D55E00",
+    "#999999",
+)
 FORMATS = (".png", ".svg", ".pdf")
 UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 """The same figure gives the same file."""
@@ -40,7 +48,9 @@ STYLE: Any = {
 
 
 def regimes_figure(found: Regimes) -> Figure:
-    """Two panels: the hysteresis of the field over its input, and its patterns (of a node: its phase plots)."""
+    """Two panels: the hysteresis of the field over its input, and its patterns (of a node: its phase
+    plots).
+    """
     with rc_context(STYLE):
         figure = Figure(figsize=(7.0, 2.9), layout="constrained")
         FigureCanvasAgg(figure)
@@ -76,16 +86,23 @@ def save(figure: Figure, path: Path) -> None:
 def require_format(path: Path) -> None:
     """Refuse a file ending that no figure is written as."""
     if path.suffix.lower() not in FORMATS:
-        raise OutputError(f"a figure is written as {', '.join(FORMATS)}, not as {path.suffix or 'a file without an ending'}", where=str(path))
+        raise OutputError(
+            f"a figure is written as {', '.join(FORMATS)}, not as"
+            f" {path.suffix or 'a file without an ending'}",
+            where=str(path),
+        )
 
 
-# ------------------------------------------------------------------------------------------------ panels
+# ----------------------------------------------------------------------------------------------------- panels
 
 
 def _hysteresis(axes: Any, found: Regimes) -> None:
     swept, threshold = found.ramp, found.isolated.threshold
     axes.axhline(threshold, color=GREY, linewidth=0.6)
-    for branch, color, label, style in ((swept.down, VERMILION, "input falls", "-"), (swept.up, BLUE, "input grows", "--")):
+    for branch, color, label, style in (
+        (swept.down, VERMILION, "input falls", "-"),
+        (swept.up, BLUE, "input grows", "--"),
+    ):
         axes.plot(swept.values, branch.activation, style, color=color, label=label)
     axes.margins(x=0.02, y=0.12)
     bottom, top = axes.get_ylim()
@@ -104,9 +121,17 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
             align = "left"  # centred there it would cover the labels of the axis
         axes.axvline(value, color=color, linewidth=0.7, linestyle=":")
         axes.annotate(
-            f"{label}\n{value:.3g}", (value, 1.0), xycoords=("data", "axes fraction"), ha=align, va="top", color=color, fontsize=7,
-            xytext=({"left": 3, "right": -3}.get(align, 0), 0), textcoords="offset points", backgroundcolor=(1, 1, 1, 0.8),
-        )  # fmt: skip
+            f"{label}\n{value:.3g}",
+            (value, 1.0),
+            xycoords=("data", "axes fraction"),
+            ha=align,
+            va="top",
+            color=color,
+            fontsize=7,
+            xytext=({"left": 3, "right": -3}.get(align, 0), 0),
+            textcoords="offset points",
+            backgroundcolor=(1, 1, 1, 0.8),
+        )
     axes.set_xlabel("strength of the localised input" if found.isolated.axes else "input")
     axes.set_ylabel("highest activation" if found.isolated.axes else "activation")
     axes.set_title("a")
@@ -123,7 +148,10 @@ def _profiles(axes: Any, found: Regimes) -> None:
     if found.memory is not None:
         _profile(axes, found, found.memory.activation, VERMILION, "--", "after the input is gone")
     axes.set_xlabel(_label(axis))
-    others = [f"{a.name} = {c:g}{' ' + a.unit if a.unit else ''}" for a, c in zip(isolated.axes[1:], isolated.center[1:], strict=True)]
+    others = [
+        f"{a.name} = {c:g}{' ' + a.unit if a.unit else ''}"
+        for a, c in zip(isolated.axes[1:], isolated.center[1:], strict=True)
+    ]
     axes.set_ylabel("activation" + (f" at {', '.join(others)}" if others else ""))
     axes.margins(x=0.0, y=0.08)
     bottom, top = axes.get_ylim()
@@ -143,7 +171,9 @@ def _phases(axes: Any, found: Regimes) -> None:
     inputs = [(0.0, BLACK, "no input")]
     marks = [("detection", found.detection, BLUE), ("reverse detection", found.reverse, VERMILION)]
     marks = [("the threshold", found.detection, BLUE)] if found.graded else marks
-    inputs += [(value, color, f"at {label}, input {value:.3g}") for label, value, color in marks if value is not None]
+    inputs += [
+        (value, color, f"at {label}, input {value:.3g}") for label, value, color in marks if value is not None
+    ]
     each = [phase(field, value) for value, _, _ in inputs]
     span = (min(p.u[0] for p in each), max(p.u[-1] for p in each))
     plots = [(phase(field, value, span), color, label) for value, color, label in inputs]
@@ -156,11 +186,23 @@ def _phase_axes(axes: Any, plots: list[tuple[Phase, str, str]], time_unit: str) 
     for shown, color, label in plots:
         axes.plot(shown.u, shown.rate, color=color, label=label)
         for p in shown.fixed_points:
-            axes.plot(p.u, 0.0, "o", markersize=4.5, color=color, markerfacecolor=color if p.stable else "white", zorder=3)
+            axes.plot(
+                p.u,
+                0.0,
+                "o",
+                markersize=4.5,
+                color=color,
+                markerfacecolor=color if p.stable else "white",
+                zorder=3,
+            )
     axes.plot([], [], "o", markersize=4.5, color=GREY, label="stable")
     axes.plot([], [], "o", markersize=4.5, color=GREY, markerfacecolor="white", label="unstable")
     axes.set_xlabel("activation u")
-    axes.set_ylabel(f"du/dt (1/{time_unit})" if time_unit.isalpha() and time_unit != "abstract" else "du/dt (per time unit)")
+    axes.set_ylabel(
+        f"du/dt (1/{time_unit})"
+        if time_unit.isalpha() and time_unit != "abstract"
+        else "du/dt (per time unit)"
+    )
     axes.margins(x=0.0, y=0.08)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.45 * (top - bottom))

@@ -29,11 +29,15 @@ from deodar.numerics.axes import Axes, shape
 from deodar.session.session import Session, Snapshot
 
 Knob = Literal["input", "boost"]
-"""What is turned: the strength of the localised input, or a homogeneous boost (on a node the two are the same)."""
+"""What is turned: the strength of the localised input, or a homogeneous boost (on a node the two are the
+same).
+"""
 
 
 WHOLE = 0.75
-"""Share of a field's volume from which on a region is no peak: excitation has spread until the borders stopped it."""
+"""Share of a field's volume from which on a region is no peak: excitation has spread until the borders
+stopped it.
+"""
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,9 @@ class Isolated:
 
     @property
     def threshold(self) -> float:
-        """Activation above which there is a peak: the threshold of the output function, 0 where it has none."""
+        """Activation above which there is a peak: the threshold of the output function, 0 where it has
+        none.
+        """
         return float(getattr(self.field.sigmoid, "threshold", 0.0))
 
     @property
@@ -84,7 +90,9 @@ class Isolated:
         self.put(**({"input": 0.0, "second": 0.0, "boost": 0.0} | amplitudes))
 
     def settle(self, tolerance: float | None = None, limit: float = LIMIT) -> Settled:
-        """Run until the field stands still; by default to 2e-4 of the distance between resting level and threshold."""
+        """Run until the field stands still; by default to 2e-4 of the distance between resting level and
+        threshold.
+        """
         return settle(self.session, tolerance or 2e-4 * self.scale, limit)
 
     def activation(self) -> np.ndarray:
@@ -96,7 +104,9 @@ class Isolated:
         return peaks(self.activation(), self.axes, self.threshold)
 
     def covers(self, found: Peaks) -> bool:
-        """Whether one peak fills the field (three quarters of it: borders may stay silent), which makes it no peak any more."""
+        """Whether one peak fills the field (three quarters of it: borders may stay silent), which makes it no
+        peak any more.
+        """
         whole = math.prod(a.range for a in self.axes)
         return bool(self.axes) and any(p.size >= WHOLE * whole for p in found)
 
@@ -124,11 +134,13 @@ def isolate(
     Args:
         model: the model, or a field that stands in none.
         path: the field in the model.
-        sigma: width of the localised input, one or one for each axis; none: that of the interaction kernel's excitation.
-        center: where the localised input stands, one number for each axis; none: the sample nearest to the middle.
+        sigma: width of the localised input, one or one for each axis; none: that of the interaction kernel's
+            excitation.
+        center: where the localised input stands, one number for each axis; none: the sample nearest to the
+            middle.
         precision: float32 or float64.
-        dt: Euler step; none: the document's own, kept between a hundredth and a tenth of the time constant (where the field
-            settles does not depend on it).
+        dt: Euler step; none: the document's own, kept between a hundredth and a tenth of the time constant
+            (where the field settles does not depend on it).
         inputs: paths of sources (and of couplings between them and the field) to keep as constant input.
 
     Raises:
@@ -144,10 +156,18 @@ def isolate(
     if not isinstance(entry.element, Field):
         fields = [e.path for e in doc.entries if isinstance(e.element, Field)]
         near = did_you_mean(entry.path, fields) or "The model has no field"
-        raise AnalysisError(f"{type(entry.element).__name__} is not a Field; only fields and nodes can be measured", where=entry.path, fix=near)
+        raise AnalysisError(
+            f"{type(entry.element).__name__} is not a Field; only fields and nodes can be measured",
+            where=entry.path,
+            fix=near,
+        )
     field = dc.replace(entry.element, name="field", noise=0.0, noise_length=0.0)
     axes = tuple(field.axes)
-    center = tuple(float(c) for c in center) if center is not None else tuple(float(a.points[a.samples // 2]) for a in axes)
+    center = (
+        tuple(float(c) for c in center)
+        if center is not None
+        else tuple(float(a.points[a.samples // 2]) for a in axes)
+    )
     widths = _widths(field, sigma)
     small = Model(doc.name, time_unit=doc.time_unit, trusted=model.trusted)
     target = small.add(field)
@@ -157,7 +177,9 @@ def isolate(
     small.connect(small.add(Boost("boost", axes, amplitude=0.0)), target)
     kept = _keep(small, doc, entry, [find.element(doc, p) for p in inputs])
     step = dt if dt is not None else min(max(doc.step, field.tau / 100), field.tau / 10)
-    return Isolated(entry.path, field, Session(small, dt=step, precision=precision), center, widths, doc.time_unit, kept)
+    return Isolated(
+        entry.path, field, Session(small, dt=step, precision=precision), center, widths, doc.time_unit, kept
+    )
 
 
 def _keep(small: Model, doc: Document, field: Entry, entries: Sequence[Entry]) -> tuple[str, ...]:
@@ -166,15 +188,25 @@ def _keep(small: Model, doc: Document, field: Entry, entries: Sequence[Entry]) -
     for e in entries:
         element: Element = dc.replace(e.element, windows=()) if isinstance(e.element, Stimulus) else e.element  # type: ignore[call-arg]
         if element.stateful or isinstance(element, Sensor) or not element.steady() or e.id == field.id:
-            raise AnalysisError(f"{type(element).__name__} gives no constant input", where=e.path, fix="Keep stimuli and stateless couplings only")
+            raise AnalysisError(
+                f"{type(element).__name__} gives no constant input",
+                where=e.path,
+                fix="Keep stimuli and stateless couplings only",
+            )
         new[e.id] = small.add(element, group=display(("background", *e.group))).path
     for c in doc.connections:
         if c.source in new and c.source != field.id and c.target in new:
-            small.connect(_port(small, new[c.source], c.source_port), _port(small, new[c.target], c.target_port), c.reads)
+            small.connect(
+                _port(small, new[c.source], c.source_port),
+                _port(small, new[c.target], c.target_port),
+                c.reads,
+            )
     ends = {c.source for c in doc.connections if c.target in new}
     for e in entries:
         if e.id not in ends:
-            raise AnalysisError(f"does not reach {field.path}", where=e.path, fix="Name the couplings between the two as well")
+            raise AnalysisError(
+                f"does not reach {field.path}", where=e.path, fix="Name the couplings between the two as well"
+            )
     return tuple(e.path for e in entries)
 
 
@@ -183,18 +215,24 @@ def _port(model: Model, path: str, port: str) -> Handle:
 
 
 def _widths(field: Field, sigma: Any) -> tuple[float, ...]:
-    """Width of the input on each axis: as given, else that of the Gaussian with the kernel's half-width, at least one step."""
+    """Width of the input on each axis: as given, else that of the Gaussian with the kernel's half-width, at
+    least one step.
+    """
     axes = tuple(field.axes)
     if sigma is not None:
         widths = tuple(float(s) for s in (sigma if np.ndim(sigma) else (sigma,) * len(axes)))
         if len(widths) != len(axes) or any(not s > 0 for s in widths):
-            raise ParameterError(f"sigma is {sigma!r}; it is a number above 0, or one for each of the {len(axes)} axes")
+            raise ParameterError(
+                f"sigma is {sigma!r}; it is a number above 0, or one for each of the {len(axes)} axes"
+            )
         return widths
     return tuple(max(a.step, _excitation(field, d) or a.range / 20) for d, a in enumerate(axes))
 
 
 def _excitation(field: Field, d: int) -> float | None:
-    """Width of the kernel's excitation along one axis, from its response to a single active sample; None where there is none."""
+    """Width of the kernel's excitation along one axis, from its response to a single active sample; None
+    where there is none.
+    """
     axes = tuple(field.axes)
     middle = tuple(a.samples // 2 for a in axes)
     single = np.zeros(shape(axes), np.float32)

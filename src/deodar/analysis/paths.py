@@ -1,4 +1,6 @@
-"""Paths of a robot in the plane: how long they are, where they enter a disc, how far from things they keep."""
+"""Paths of a robot in the plane: how long they are, where they enter a disc, how far from things they
+keep.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,8 @@ def path_length(path: Any) -> float:
 
 
 def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
-    """The path up to where it first enters the disc round a goal, the last point on its edge; None: it never does.
+    """The path up to where it first enters the disc round a goal, the last point on its edge; None: it never
+    does.
 
     Args:
         path: rows of x and y.
@@ -48,8 +51,11 @@ def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> 
     return np.concatenate([line[:k], [line[k - 1] + np.clip(share, 0.0, 1.0) * (line[k] - line[k - 1])]])
 
 
-def path_divergence(path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float) -> float | None:
-    """Lp / Lo: the length of a path over that of the shortest one, both ending where they enter the disc round the goal.
+def path_divergence(
+    path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float
+) -> float | None:
+    """Lp / Lo: the length of a path over that of the shortest one, both ending where they enter the disc
+    round the goal.
 
     None where the path never enters it, or where the shortest begins inside.
 
@@ -63,7 +69,8 @@ def path_divergence(path: Any, shortest: Any, goal: Sequence[float] | np.ndarray
 
 
 def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
-    """Distance of each place to the nearest box or to the border, negative nowhere: 0 inside a box or outside the border.
+    """Distance of each place to the nearest box or to the border, negative nowhere: 0 inside a box or outside
+    the border.
 
     Args:
         places: (..., 2).
@@ -75,12 +82,17 @@ def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
     left, low, right, high = border
     nearest = np.minimum(np.minimum(x - left, right - x), np.minimum(y - low, high - y))
     for x0, y0, x1, y1 in np.asarray(boxes, float).reshape(-1, 4):
-        nearest = np.minimum(nearest, np.hypot(np.maximum(np.maximum(x0 - x, x - x1), 0), np.maximum(np.maximum(y0 - y, y - y1), 0)))
+        nearest = np.minimum(
+            nearest,
+            np.hypot(np.maximum(np.maximum(x0 - x, x - x1), 0), np.maximum(np.maximum(y0 - y, y - y1), 0)),
+        )
     return np.maximum(nearest, 0.0)
 
 
 def speeds(path: Any, times: Any, over: int = 1) -> np.ndarray:
-    """Speed at each point but the first `over`: the way from the point `over` before, in the unit of the path over that of time."""
+    """Speed at each point but the first `over`: the way from the point `over` before, in the unit of the path
+    over that of time.
+    """
     line, at = points(path), np.asarray(times, float)
     return np.linalg.norm(line[over:] - line[:-over], axis=1) / (at[over:] - at[:-over])
 

@@ -23,10 +23,11 @@ class Peak:
     """One connected region above the threshold.
 
     Attributes:
-        position: its centre in axis units, one number for each axis: the centroid, weighted by the activation above threshold.
-        width: its extent along each axis, in axis units, where it is highest: the length of the cut through the highest
-            sample, between the places where the activation crosses the threshold (interpolated). On one axis this is the
-            width of the region.
+        position: its centre in axis units, one number for each axis: the centroid, weighted by the activation
+            above threshold.
+        width: its extent along each axis, in axis units, where it is highest: the length of the cut through
+            the highest sample, between the places where the activation crosses the threshold (interpolated).
+            On one axis this is the width of the region.
         amplitude: its highest activation.
         size: its volume in the product of the axis units (on one axis the width; 1 for a node).
         samples: number of samples above threshold.
@@ -41,7 +42,10 @@ class Peak:
     def __repr__(self) -> str:
         if not self.position:
             return f"Peak(amplitude={self.amplitude:.4g})"
-        return f"Peak(at={_tuple(self.position)}, width={_tuple(self.width)}, amplitude={self.amplitude:.4g}, size={self.size:.4g})"
+        return (
+            f"Peak(at={_tuple(self.position)}, width={_tuple(self.width)}, amplitude={self.amplitude:.4g},"
+            f" size={self.size:.4g})"
+        )
 
 
 @dataclass(frozen=True)
@@ -62,27 +66,38 @@ class Peaks(Sequence[Peak]):
         return self.found[index]
 
     def __repr__(self) -> str:
-        return f"<{len(self)} peak{'' if len(self) == 1 else 's'} above {self.threshold:g}" + "".join(f"\n  {p!r}" for p in self) + ">"
+        return (
+            f"<{len(self)} peak{'' if len(self) == 1 else 's'} above {self.threshold:g}"
+            + "".join(f"\n  {p!r}" for p in self)
+            + ">"
+        )
 
     def _repr_html_(self) -> str:
         units = [f" ({html.escape(a.unit)})" if a.unit else "" for a in self.axes]
         names = [html.escape(a.name) for a in self.axes]
-        heads = [f"{n}{u}" for n, u in zip(names, units, strict=True)] + [f"width of {n}{u}" for n, u in zip(names, units, strict=True)]
+        heads = [f"{n}{u}" for n, u in zip(names, units, strict=True)] + [
+            f"width of {n}{u}" for n, u in zip(names, units, strict=True)
+        ]
         rows = [[*p.position, *p.width, p.amplitude, p.size] for p in self]
         head = "".join(f"<th>{h}</th>" for h in [*heads, "amplitude", "size"])
         body = "".join("<tr>" + "".join(f"<td>{v:.4g}</td>" for v in row) + "</tr>" for row in rows)
-        caption = f"<caption>{len(self)} peak{'' if len(self) == 1 else 's'} above {self.threshold:g}</caption>"
+        caption = (
+            f"<caption>{len(self)} peak{'' if len(self) == 1 else 's'} above {self.threshold:g}</caption>"
+        )
         return f"<table>{caption}<tr>{head}</tr>{body}</table>"
 
 
-def peaks(activation: np.ndarray | xarray.DataArray, axes: Sequence[Axis] | None = None, threshold: float = 0.0) -> Peaks:
+def peaks(
+    activation: np.ndarray | xarray.DataArray, axes: Sequence[Axis] | None = None, threshold: float = 0.0
+) -> Peaks:
     """The peaks of an activation pattern.
 
-    Samples above the threshold that share a face belong together, over the border of a periodic axis too. A node has one peak
-    while its activation is above the threshold.
+    Samples above the threshold that share a face belong together, over the border of a periodic axis too. A
+    node has one peak while its activation is above the threshold.
 
     Args:
-        activation: an array over the axes; or a variable of a record, at one time (`data["u.activation"].isel(time=-1)`).
+        activation: an array over the axes; or a variable of a record, at one time
+            (`data["u.activation"].isel(time=-1)`).
         axes: its axes, in order; none for a variable of a record, whose coordinates say what they are.
         threshold: in units of activation; usually where the output function is half on.
 
@@ -97,7 +112,9 @@ def peaks(activation: np.ndarray | xarray.DataArray, axes: Sequence[Axis] | None
     else:
         u, found_axes = np.asarray(activation, np.float64), tuple(axes)
     if u.shape != shape(found_axes):
-        raise AnalysisError(f"the activation has the shape {list(u.shape)}; the axes are {describe(found_axes)}")
+        raise AnalysisError(
+            f"the activation has the shape {list(u.shape)}; the axes are {describe(found_axes)}"
+        )
     if not np.isfinite(u).all():
         raise AnalysisError("the activation holds values that are not finite numbers")
     above = u - threshold
@@ -107,7 +124,7 @@ def peaks(activation: np.ndarray | xarray.DataArray, axes: Sequence[Axis] | None
     return Peaks(tuple(sorted(found, key=lambda p: (-p.amplitude, p.position))), found_axes, float(threshold))
 
 
-# ------------------------------------------------------------------------------------------------ regions
+# ---------------------------------------------------------------------------------------------------- regions
 
 
 def _regions(mask: np.ndarray, axes: Axes) -> np.ndarray:
@@ -142,24 +159,33 @@ def _places(labels: np.ndarray) -> list[np.ndarray]:
 
 
 def _reach(above: np.ndarray, labels: np.ndarray, d: int, axis: Axis) -> np.ndarray:
-    """How much of axis d each sample of a region stands for, in steps: half on each side towards a sample of the region, else
-    as far as the threshold crossing; nothing beyond a border that does not wrap.
+    """How much of axis d each sample of a region stands for, in steps: half on each side towards a sample of
+    the region, else as far as the threshold crossing; nothing beyond a border that does not wrap.
     """
     total = np.zeros(above.shape)
     for side in (1, -1):
         neighbour = np.roll(above, -side, axis=d)
         crossing = (above > 0) & (neighbour <= 0)
-        part = np.where(neighbour > 0, 0.5, np.where(crossing, above, 0.0) / np.where(crossing, above - neighbour, 1.0))
+        part = np.where(
+            neighbour > 0, 0.5, np.where(crossing, above, 0.0) / np.where(crossing, above - neighbour, 1.0)
+        )
         if not axis.periodic:
             part[(slice(None),) * d + (-1 if side == 1 else 0,)] = 0.0
         total += part
     return np.where(labels > 0, total, 0.0)
 
 
-# ------------------------------------------------------------------------------------------------ measures of one region
+# ------------------------------------------------------------------------------------- measures of one region
 
 
-def _peak(above: np.ndarray, threshold: float, labels: np.ndarray, places: np.ndarray, axes: Axes, reach: list[np.ndarray]) -> Peak:
+def _peak(
+    above: np.ndarray,
+    threshold: float,
+    labels: np.ndarray,
+    places: np.ndarray,
+    axes: Axes,
+    reach: list[np.ndarray],
+) -> Peak:
     weights = above.ravel()[places]
     highest = int(places[int(np.argmax(weights))])
     amplitude = float(weights.max() + threshold)
@@ -167,19 +193,26 @@ def _peak(above: np.ndarray, threshold: float, labels: np.ndarray, places: np.nd
         return Peak((), (), amplitude, 1.0, 1)
     index = np.unravel_index(places, above.shape)
     top = np.unravel_index(highest, above.shape)
-    position = tuple(_centre(axis, axis.points[i], weights, axis.points[t]) for axis, i, t in zip(axes, index, top, strict=True))
+    position = tuple(
+        _centre(axis, axis.points[i], weights, axis.points[t])
+        for axis, i, t in zip(axes, index, top, strict=True)
+    )
     width = tuple(_cut(labels, reach[d], axis, d, top) for d, axis in enumerate(axes))
     size = float(reach[-1].ravel()[places].sum()) * cell(axes)
     return Peak(position, width, amplitude, size, len(places))
 
 
 def _centre(axis: Axis, points: np.ndarray, weights: np.ndarray, top: float) -> float:
-    """Centroid; on a ring that of the distances from the circular mean, which is exact for regions shorter than half the ring."""
+    """Centroid; on a ring that of the distances from the circular mean, which is exact for regions shorter
+    than half the ring.
+    """
     if not axis.periodic:
         return float(np.average(points, weights=weights))
     turn = 2 * math.pi / axis.range
     mean = np.average(np.exp(1j * turn * (points - axis.lower)), weights=weights)
-    middle = axis.lower + float(np.angle(mean)) / turn if abs(mean) > 1e-9 else top  # a region all round has no middle of its own
+    middle = (
+        axis.lower + float(np.angle(mean)) / turn if abs(mean) > 1e-9 else top
+    )  # a region all round has no middle of its own
     away = points - middle
     away = away - axis.range * np.round(away / axis.range)
     centre = middle + float(np.average(away, weights=weights)) if abs(mean) > 1e-9 else top
@@ -201,19 +234,22 @@ def _cut(labels: np.ndarray, reach: np.ndarray, axis: Axis, d: int, top: tuple[A
     return float(reach[line][run].sum()) * axis.step
 
 
-# ------------------------------------------------------------------------------------------------ variables of a record
+# -------------------------------------------------------------------------------------- variables of a record
 
 
 def _variable(variable: Any) -> tuple[np.ndarray, Axes]:
     """The array and the axes of a variable of a record; other dimensions may have one entry left."""
     if not hasattr(variable, "coords") or not hasattr(variable, "dims"):
-        raise AnalysisError("an array alone does not say what its axes are", fix="Give them: peaks(activation, [x])")
+        raise AnalysisError(
+            "an array alone does not say what its axes are", fix="Give them: peaks(activation, [x])"
+        )
     left = [str(d) for d in variable.dims if not _is_axis(variable, d)]
     many = [d for d in left if variable.sizes[d] != 1]
     if many:
         fix = ", ".join(f"{d}=-1" for d in many)
         raise AnalysisError(
-            f"{variable.name} still has the dimension{'s' if len(many) > 1 else ''} {', '.join(many)}", fix=f"Choose one: .isel({fix})"
+            f"{variable.name} still has the dimension{'s' if len(many) > 1 else ''} {', '.join(many)}",
+            fix=f"Choose one: .isel({fix})",
         )
     variable = variable.isel(dict.fromkeys(left, 0))
     return np.asarray(variable.values, np.float64), tuple(_axis(variable, d) for d in variable.dims)
@@ -227,11 +263,17 @@ def _axis(variable: Any, dim: Any) -> Axis:
     coordinate = variable.coords[dim]
     about, points = coordinate.attrs, np.asarray(coordinate.values, float)
     unit = str(about.get("units", ""))
-    axis = Axis(str(dim), float(about["lower"]), float(about["upper"]), len(points), bool(about["periodic"]), unit)
+    axis = Axis(
+        str(dim), float(about["lower"]), float(about["upper"]), len(points), bool(about["periodic"]), unit
+    )
     if np.allclose(axis.points, points, rtol=0, atol=1e-6 * axis.range):
         return axis
     # a part of the axis: it begins and ends where its samples do, and no longer wraps
-    if len(points) < 2 or not np.allclose(np.diff(points), points[1] - points[0], rtol=1e-6, atol=0) or points[1] <= points[0]:
+    if (
+        len(points) < 2
+        or not np.allclose(np.diff(points), points[1] - points[0], rtol=1e-6, atol=0)
+        or points[1] <= points[0]
+    ):
         raise AnalysisError(f"the values of {dim} are not evenly spaced and growing")
     return Axis(str(dim), float(points[0]), float(points[-1]), len(points), False, unit)
 

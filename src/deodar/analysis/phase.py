@@ -58,8 +58,8 @@ class Phase:
 def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = None) -> Phase:
     """The phase plot of a node: du/dt = (-u + h + s + (k - c) g(u)) / tau, in float64.
 
-    Fixed points are the sign changes of du/dt on a grid that is fine near the output function's threshold, each refined to
-    1e-12. Two of them that touch (exactly at an instability) count as none.
+    Fixed points are the sign changes of du/dt on a grid that is fine near the output function's threshold,
+    each refined to 1e-12. Two of them that touch (exactly at an instability) count as none.
 
     Args:
         node: a field without axes; its noise is left out.
@@ -70,10 +70,13 @@ def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = No
         AnalysisError: if the field has axes, or its activation grows without bound.
 
     Reference:
-        Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 1 (dynamics of a self-excited neuron).
+        Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 1 (dynamics of a
+        self-excited neuron).
     """
     if node.axes:
-        raise AnalysisError(f"a phase plot is for a node; this field has {len(node.axes)} axes", where=node.name)
+        raise AnalysisError(
+            f"a phase plot is for a node; this field has {len(node.axes)} axes", where=node.name
+        )
     rate = _rate(node, float(input))
     low, high = _range(rate, node, float(input)) if span is None else (float(span[0]), float(span[1]))
     if not low < high:
@@ -91,14 +94,22 @@ def _rate(node: Field, s: float) -> Callable[[Any], np.ndarray]:
         with jax.enable_x64(True):
             u = jax.numpy.asarray(u, np.float64)
             g = node.sigmoid(u)
-            change = -u + node.resting_level + s + interaction.apply(interaction.mix(node.kernel, (), []), (), g) - node.global_inhibition * g
+            change = (
+                -u
+                + node.resting_level
+                + s
+                + interaction.apply(interaction.mix(node.kernel, (), []), (), g)
+                - node.global_inhibition * g
+            )
             return np.asarray(change / node.tau)
 
     return rate
 
 
 def _range(rate: Callable[[Any], np.ndarray], node: Field, s: float) -> tuple[float, float]:
-    """Activations at which the rate points inwards on both sides, a little beyond the outermost fixed points."""
+    """Activations at which the rate points inwards on both sides, a little beyond the outermost fixed
+    points.
+    """
     middle, reach = node.resting_level + s, 1.0 + abs(node.resting_level)
     ends: list[float] = []
     for side in (-1, 1):
@@ -110,7 +121,9 @@ def _range(rate: Callable[[Any], np.ndarray], node: Field, s: float) -> tuple[fl
             away *= 2
         else:
             raise AnalysisError(
-                "the activation grows without bound: the output function's slope times the self-excitation exceeds 1", where=node.name
+                "the activation grows without bound: the output function's slope times the self-excitation"
+                " exceeds 1",
+                where=node.name,
             )
         ends.append(middle + side * away)
     roots = [p.u for p in _fixed_points(rate, np.linspace(ends[0], ends[1], COARSE))]

@@ -42,8 +42,9 @@ def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: 
         limit: of settling, in time constants.
 
     Reference:
-        Erlhagen & Schöner (2002), Dynamic field theory of movement preparation, Psychol. Rev. 109 (pre-shape); Schöner, Spencer & the DFT
-        Research Group (2016), Dynamic Thinking, chapter 2 (boost-driven detection).
+        Erlhagen & Schöner (2002), Dynamic field theory of movement preparation, Psychol. Rev. 109
+        (pre-shape); Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2
+        (boost-driven detection).
     """
     isolated.reset(input=preshape)
     isolated.settle(limit=limit)
@@ -52,9 +53,13 @@ def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: 
         return Boosted(preshape, None, None, False)
     isolated.restore(found.state)
     made = isolated.peaks()
-    return Boosted(preshape, found.value, made, len(made) == 1 and not isolated.covers(made) and _there(isolated, made))
+    return Boosted(
+        preshape, found.value, made, len(made) == 1 and not isolated.covers(made) and _there(isolated, made)
+    )
 
 
 def _there(isolated: Isolated, made: Peaks) -> bool:
     """Whether the peak stands at the input, to within its width."""
-    return all(abs(p - c) <= 2 * s for p, c, s in zip(made[0].position, isolated.center, isolated.sigma, strict=True))
+    return all(
+        abs(p - c) <= 2 * s for p, c, s in zip(made[0].position, isolated.center, isolated.sigma, strict=True)
+    )

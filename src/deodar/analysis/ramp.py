@@ -18,7 +18,8 @@ class Branch:
     Attributes:
         count: number of peaks.
         activation: highest activation anywhere, with or without a peak.
-        width: of the highest peak along the first axis, in axis units; not a number where there is none, or on a node.
+        width: of the highest peak along the first axis, in axis units; not a number where there is none, or
+            on a node.
         settled: whether it stood still before the limit.
     """
 
@@ -50,7 +51,9 @@ class Ramp:
         return self.values[self.up.count != self.down.count]
 
 
-def ramp(isolated: Isolated, values: Sequence[float] | np.ndarray, by: Knob = "input", limit: float = LIMIT) -> Ramp:
+def ramp(
+    isolated: Isolated, values: Sequence[float] | np.ndarray, by: Knob = "input", limit: float = LIMIT
+) -> Ramp:
     """Settle a field at each value of its input, going up from rest and then down again.
 
     Args:
@@ -63,7 +66,9 @@ def ramp(isolated: Isolated, values: Sequence[float] | np.ndarray, by: Knob = "i
     isolated.reset()
     up = _branch(isolated, steps, by, limit)
     down = _branch(isolated, steps[::-1], by, limit)
-    return Ramp(by, steps, up, Branch(down.count[::-1], down.activation[::-1], down.width[::-1], down.settled[::-1]))
+    return Ramp(
+        by, steps, up, Branch(down.count[::-1], down.activation[::-1], down.width[::-1], down.settled[::-1])
+    )
 
 
 def _branch(isolated: Isolated, values: np.ndarray, by: Knob, limit: float) -> Branch:

@@ -39,14 +39,20 @@ class Regimes:
         above: activation just above detection; None where there is none.
         driven: the peaks just above detection.
         memory: what is left of a peak after its input is gone; None where no input makes a peak.
-        forgetting: homogeneous input below which no peak outlives its input; None where none does, and on a node.
-        suppression: localised input below which a peak that outlives its input vanishes; None where there is no such peak, and on a node.
+        forgetting: homogeneous input below which no peak outlives its input; None where none does, and on a
+            node.
+        suppression: localised input below which a peak that outlives its input vanishes; None where there is
+            no such peak, and on a node.
         selection: what two inputs end in; None where no input makes a peak, and on a node.
-        separation: smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None where there is none.
-        boosts: pre-shapes, and the homogeneous boost that makes a peak of each; empty on a node, where a boost is an input.
+        separation: smallest distance, as a share of each axis' range, at which two equal inputs both keep a
+            peak; None where there is none.
+        boosts: pre-shapes, and the homogeneous boost that makes a peak of each; empty on a node, where a
+            boost is an input.
         ramp: the field over a slow ramp of its input.
-        transitions: the thresholds that exist with their intervals: `detection`, `reverse`, `forgetting`, `suppression`.
-        discretisation: how far each of these moves on a grid twice as fine (None: it does not exist there); None where that was not measured.
+        transitions: the thresholds that exist with their intervals: `detection`, `reverse`, `forgetting`,
+            `suppression`.
+        discretisation: how far each of these moves on a grid twice as fine (None: it does not exist there);
+            None where that was not measured.
         coarse_alone: why it was not measured; empty where it was.
     """
 
@@ -78,8 +84,9 @@ class Regimes:
 
     @property
     def bistable(self) -> tuple[float, float] | None:
-        """Range of inputs with and without a peak, depending on the past; None where there is none. On a field it begins at 0
-        or above, as localised inhibition would only push the peak aside.
+        """Range of inputs with and without a peak, depending on the past; None where there is none.
+
+        On a field it begins at 0 or above, as localised inhibition would only push the peak aside.
         """
         up, down = self.thresholds.detection, self.thresholds.reverse
         if up is None or (down is not None and not up.jump):
@@ -89,7 +96,9 @@ class Regimes:
 
     @property
     def graded(self) -> bool:
-        """Whether activation grows through the threshold without a jump: there is no detection instability."""
+        """Whether activation grows through the threshold without a jump: there is no detection
+        instability.
+        """
         return self.thresholds.detection is not None and not self.thresholds.detection.jump
 
     @property
@@ -100,7 +109,11 @@ class Regimes:
     @property
     def unbounded(self) -> bool:
         """Whether excitation spreads over the whole field once there is a peak."""
-        patterns = [self.driven, self.memory.driven if self.memory else None, self.memory.left if self.memory else None]
+        patterns = [
+            self.driven,
+            self.memory.driven if self.memory else None,
+            self.memory.left if self.memory else None,
+        ]
         return any(self.isolated.covers(p) for p in patterns if p is not None)
 
     @property
@@ -132,7 +145,14 @@ class Regimes:
             return (first, f"selective (two inputs, one {kind})")
         if different == 1:
             return (first, "selective between different inputs, multi-peak for equal ones")
-        return (first, "multi-peak (each input has its peak)" if equal >= 2 else "two inputs merge or suppress each other")
+        return (
+            first,
+            (
+                "multi-peak (each input has its peak)"
+                if equal >= 2
+                else "two inputs merge or suppress each other"
+            ),
+        )
 
     def data(self) -> dict[str, Any]:
         """Everything as plain data, for JSON."""
@@ -140,7 +160,10 @@ class Regimes:
         selection = None
         if self.selection is not None:
             s = self.selection
-            selection = {"peaks_for_equal_inputs": len(s.equal), "peaks_for_different_inputs": len(s.different)}
+            selection = {
+                "peaks_for_equal_inputs": len(s.equal),
+                "peaks_for_different_inputs": len(s.different),
+            }
             selection |= {"stronger_wins": s.right, "peaks_left_without_input": len(s.left)}
         return {
             "element": i.path,
@@ -159,11 +182,16 @@ class Regimes:
             "intervals": {name: list(t.interval) for name, t in self.transitions.items()},
             "discretisation_error": None if self.discretisation is None else dict(self.discretisation),
             "discretisation_not_measured": self.coarse_alone or None,
-            "detection_by_boost": [{"preshape": b.preshape, "boost": b.boost, "at_the_preshape": b.localised} for b in self.boosts],
+            "detection_by_boost": [
+                {"preshape": b.preshape, "boost": b.boost, "at_the_preshape": b.localised}
+                for b in self.boosts
+            ],
             "separation": self.separation,
             "selective": self.selection.selects if self.selection is not None else None,
             "selection": selection,
-            "peak": {"width": list(peak.width), "amplitude": peak.amplitude, "size": peak.size} if peak else None,
+            "peak": (
+                {"width": list(peak.width), "amplitude": peak.amplitude, "size": peak.size} if peak else None
+            ),
             "peak_without_input": _remembered(self.memory),
             "ramp": {
                 "input": self.ramp.values.tolist(),
@@ -177,7 +205,10 @@ class Regimes:
         def show(value: float | None) -> str:
             return "none" if value is None else f"{value:.4g}"
 
-        return f"<Regimes of {self.isolated.path}: {'; '.join(self.words)}; detection {show(self.detection)}, reverse {show(self.reverse)}>"
+        return (
+            f"<Regimes of {self.isolated.path}: {'; '.join(self.words)}; detection {show(self.detection)},"
+            f" reverse {show(self.reverse)}>"
+        )
 
 
 def regimes(
@@ -249,7 +280,23 @@ def regimes(
     if transitions and not why:
         tell("a grid twice as fine")
         moved = discretisation(isolated, transitions, STRONG, accuracy, limit)
-    return Regimes(isolated, found, rest, above, driven, memory, forgets, suppressed, selection, apart, boosts, swept, transitions, moved, why)
+    return Regimes(
+        isolated,
+        found,
+        rest,
+        above,
+        driven,
+        memory,
+        forgets,
+        suppressed,
+        selection,
+        apart,
+        boosts,
+        swept,
+        transitions,
+        moved,
+        why,
+    )
 
 
 def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:
@@ -268,4 +315,8 @@ def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:
 def _remembered(memory: Memory | None) -> dict[str, Any] | None:
     if memory is None or not memory.left:
         return None
-    return {"width": list(memory.left[0].width), "amplitude": memory.left[0].amplitude, "size": memory.left[0].size}
+    return {
+        "width": list(memory.left[0].width),
+        "amplitude": memory.left[0].amplitude,
+        "size": memory.left[0].size,
+    }

@@ -13,7 +13,9 @@ from deodar.errors import AnalysisError, ParameterError
 
 HEAD_START = 0.01
 FARTHEST = 0.5
-"""Largest distance of two inputs that is tried, as a share of each axis' range: on a ring there is no larger one."""
+"""Largest distance of two inputs that is tried, as a share of each axis' range: on a ring there is no larger
+one.
+"""
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,8 @@ class Selection:
         selects: whether both equal and different inputs end in one peak.
         equal: peaks for two inputs of the same strength.
         different: peaks for two inputs of which the first is stronger.
-        right: whether the one peak for different inputs stands at the stronger one; None where there is not one peak.
+        right: whether the one peak for different inputs stands at the stronger one; None where there is not
+            one peak.
         left: peaks after both inputs are taken away again.
         activation: the pattern that the two equal inputs end in.
     """
@@ -37,11 +40,13 @@ class Selection:
     activation: np.ndarray
 
 
-def selects(isolated: Isolated, amplitude: float, difference: float = 0.1, distance: float = 0.5, limit: float = LIMIT) -> Selection:
+def selects(
+    isolated: Isolated, amplitude: float, difference: float = 0.1, distance: float = 0.5, limit: float = LIMIT
+) -> Selection:
     """Whether two inputs, given together, end in one peak.
 
-    Without noise two equal inputs would stay balanced even where the balance is unstable, so that the first one leads by a
-    hundredth until the field settles; then they are made equal and it settles again.
+    Without noise two equal inputs would stay balanced even where the balance is unstable, so that the first
+    one leads by a hundredth until the field settles; then they are made equal and it settles again.
 
     Args:
         isolated: a field (a node has no room for two inputs).
@@ -59,7 +64,9 @@ def selects(isolated: Isolated, amplitude: float, difference: float = 0.1, dista
     if not isolated.axes:
         raise AnalysisError("a node cannot select between places", where=isolated.path)
     if not 0 < distance < 1 or not difference >= 0:
-        raise ParameterError(f"distance is {distance} (above 0, below 1), difference {difference} (0 or above)")
+        raise ParameterError(
+            f"distance is {distance} (above 0, below 1), difference {difference} (0 or above)"
+        )
     home = isolated.session.get("input.center")
     try:
         first, second = _places(isolated, distance)
@@ -77,12 +84,15 @@ def selects(isolated: Isolated, amplitude: float, difference: float = 0.1, dista
         isolated.session.set("second.center", home)
     right = None
     if len(different) == 1:
-        right = _apart(isolated, different[0].position, first) < _apart(isolated, different[0].position, second)
+        right = _apart(isolated, different[0].position, first) < _apart(
+            isolated, different[0].position, second
+        )
     return Selection(len(equal) == 1 and len(different) == 1, equal, different, right, left, activation)
 
 
 def separation(isolated: Isolated, amplitude: float, limit: float = LIMIT) -> float | None:
-    """The smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None where they do at none.
+    """The smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None
+    where they do at none.
 
     Nearer inputs merge into one peak, or one of them wins. The distance is found to a sample, by bisection.
 
@@ -125,7 +135,10 @@ def _places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tup
     away = [max(1, round(distance * a.samples / 2)) for a in isolated.axes]
     middle = [a.samples // 2 for a in isolated.axes]
     first = tuple(float(a.points[max(0, m - k)]) for a, m, k in zip(isolated.axes, middle, away, strict=True))
-    second = tuple(float(a.points[min(a.samples - 1, m + k)]) for a, m, k in zip(isolated.axes, middle, away, strict=True))
+    second = tuple(
+        float(a.points[min(a.samples - 1, m + k)])
+        for a, m, k in zip(isolated.axes, middle, away, strict=True)
+    )
     return first, second
 
 

@@ -12,8 +12,11 @@ from deodar.errors import AnalysisError
 from deodar.session.session import Session
 
 LIMIT = 2000.0
-"""Time constants after which settling gives up. Near an instability the slowest rate of change is the distance d from it and the
-passage takes about pi / sqrt(d) time constants: 200 for a distance of a hundredth of a percent of an activation of 2."""
+"""Time constants after which settling gives up.
+
+Near an instability the slowest rate of change is the distance d from it and the passage takes about pi /
+sqrt(d) time constants: 200 for a distance of a hundredth of a percent of an activation of 2.
+"""
 LEAST_STEPS = 50
 
 
@@ -36,7 +39,8 @@ class Settled:
 
 
 def settle(session: Session, tolerance: float = 1e-3, limit: float = LIMIT) -> Settled:
-    """Run until no field changes by more than `tolerance` per time constant, or until `limit` time constants have passed.
+    """Run until no field changes by more than `tolerance` per time constant, or until `limit` time constants
+    have passed.
 
     Noise has to be off, or below the tolerance; otherwise the limit is reached.
 
@@ -61,7 +65,10 @@ def settle(session: Session, tolerance: float = 1e-3, limit: float = LIMIT) -> S
         session.step(steps)
         passed += steps * session.dt / longest
         now = [session.read(f"{path}.activation") for path, _ in fields]
-        moved = [float(np.max(np.abs(b - a))) * tau / (steps * session.dt) for a, b, (_, tau) in zip(before, now, fields, strict=True)]
+        moved = [
+            float(np.max(np.abs(b - a))) * tau / (steps * session.dt)
+            for a, b, (_, tau) in zip(before, now, fields, strict=True)
+        ]
         before, change = now, max(moved)
         if change <= tolerance:
             return Settled(True, passed, change)

@@ -40,13 +40,17 @@ class Grid:
     def nearest(self, place: Sequence[float] | np.ndarray) -> tuple[int, int]:
         """The free cell nearest to a place."""
         if not self.free.any():
-            raise AnalysisError("there is no free cell on the grid", fix="Take less clearance, or a finer grid")
+            raise AnalysisError(
+                "there is no free cell on the grid", fix="Take less clearance, or a finer grid"
+            )
         far = (self.x[:, None] - place[0]) ** 2 + (self.y[None, :] - place[1]) ** 2
         i, j = np.unravel_index(int(np.argmin(np.where(self.free, far, np.inf))), self.free.shape)
         return int(i), int(j)
 
     def regions(self) -> np.ndarray:
-        """A number for each cell, the same for all that can be reached from each other; 0 where it is not free."""
+        """A number for each cell, the same for all that can be reached from each other; 0 where it is not
+        free.
+        """
         from scipy.ndimage import label
 
         found: Any = label(self.free, np.ones((3, 3)))
@@ -54,7 +58,8 @@ class Grid:
 
 
 def arena_grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
-    """The grid of an arena: cells from its lower left corner on, free where they keep a distance from all things and the border.
+    """The grid of an arena: cells from its lower left corner on, free where they keep a distance from all
+    things and the border.
 
     Args:
         boxes: rows of lower x, lower y, upper x, upper y.
@@ -64,29 +69,40 @@ def arena_grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: fl
     """
     left, low, right, high = border
     if not (cell > 0 and least >= 0 and right - left > cell and high - low > cell):
-        raise AnalysisError(f"cells of {cell:g} with a clearance of {least:g} do not fit into an arena of {right - left:g} x {high - low:g}")
+        raise AnalysisError(
+            f"cells of {cell:g} with a clearance of {least:g} do not fit into an arena of {right - left:g} x"
+            f" {high - low:g}"
+        )
     x = left + cell * np.arange(math.floor((right - left) / cell + 1e-9) + 1)
     y = low + cell * np.arange(math.floor((high - low) / cell + 1e-9) + 1)
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     return Grid(x, y, cell, clearance(places, boxes, border) >= least - SLACK * cell)
 
 
-def shortest_path(on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float] | np.ndarray) -> np.ndarray | None:
-    """The shortest path (points, 2) over eight neighbours from the free cell nearest the start to that nearest the goal; None: there is none.
+def shortest_path(
+    on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float] | np.ndarray
+) -> np.ndarray | None:
+    """The shortest path (points, 2) over eight neighbours from the free cell nearest the start to that
+    nearest the goal; None: there is none.
 
-    A* with the distance on an empty grid as its estimate: ``cell * (max(dx, dy) + (sqrt(2) - 1) * min(dx, dy))``. Of several shortest paths
-    the same one is taken every time.
+    A* with the distance on an empty grid as its estimate: ``cell * (max(dx, dy) + (sqrt(2) - 1) * min(dx,
+    dy))``. Of several shortest paths the same one is taken every time.
 
     Reference:
-        Hart, Nilsson & Raphael (1968), IEEE Trans. Syst. Sci. Cybern. 4(2), 100-107; as used by Billing, Lowe & Sandamirskaya (2015),
-        Adapt. Behav. 23(5), section 5.1 and appendix B.
+        Hart, Nilsson & Raphael (1968), IEEE Trans. Syst. Sci. Cybern. 4(2), 100-107; as used by Billing, Lowe
+        & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.1 and appendix B.
     """
     first, last = on.nearest(start), on.nearest(goal)
     width = on.free.shape[1] + 2  # a frame that is not free, so that neighbours need no bounds
     free = np.pad(on.free, 1).ravel().tolist()
     begin, end = ((i + 1) * width + j + 1 for i, j in (first, last))
     aim_i, aim_j, diagonal = last[0] + 1, last[1] + 1, math.sqrt(2.0)
-    moves = [(di * width + dj, diagonal if di and dj else 1.0) for di in (-1, 0, 1) for dj in (-1, 0, 1) if di or dj]
+    moves = [
+        (di * width + dj, diagonal if di and dj else 1.0)
+        for di in (-1, 0, 1)
+        for dj in (-1, 0, 1)
+        if di or dj
+    ]
     cost = [math.inf] * len(free)
     before = [-1] * len(free)
     closed = [False] * len(free)

@@ -16,7 +16,9 @@ from deodar.numerics.intervals import Interval
 LEVEL = 0.95
 
 ENOUGH = 20
-"""Runs from which on the value alone decides; with fewer a target is missed only where the interval excludes it."""
+"""Runs from which on the value alone decides; with fewer a target is missed only where the interval excludes
+it.
+"""
 
 
 def wilson(hits: float, n: int) -> Interval | None:
@@ -49,7 +51,9 @@ def mean_interval(values: Any) -> Interval | None:
 
 
 def median_interval(values: Any) -> Interval | None:
-    """95 % interval of a median, free of any distribution: between the values that hold it by the binomial law; None of fewer than six."""
+    """95 % interval of a median, free of any distribution: between the values that hold it by the binomial
+    law; None of fewer than six.
+    """
     v = np.sort(np.asarray(values, float))
     k = int(stats.binom.ppf((1 - LEVEL) / 2, v.size, 0.5)) if v.size else 0
     if v.size < 6 or k < 1:
@@ -58,7 +62,8 @@ def median_interval(values: Any) -> Interval | None:
 
 
 def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | None:
-    """95 % interval of median(above) / median(below), by 2000 resamplings of a fixed seed; None of fewer than six values each.
+    """95 % interval of median(above) / median(below), by 2000 resamplings of a fixed seed; None of fewer than
+    six values each.
 
     Args:
         above: values whose median is above the line.
@@ -79,7 +84,9 @@ def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | N
 
 
 def difference_interval(first: Any, second: Any) -> Interval | None:
-    """95 % interval of mean(first) - mean(second) by Welch's test; None of fewer than two values each, or where all are equal."""
+    """95 % interval of mean(first) - mean(second) by Welch's test; None of fewer than two values each, or
+    where all are equal.
+    """
     a, b = np.asarray(first, float), np.asarray(second, float)
     if min(a.size, b.size) < 2 or a.std() + b.std() == 0:
         return None
@@ -103,7 +110,9 @@ def share_difference(first: tuple[int, int], second: tuple[int, int]) -> tuple[f
 
 
 def anova(groups: Sequence[Any]) -> tuple[float, float] | None:
-    """F and p of a one-way analysis of variance; None unless there are two groups of two values, not all of them equal."""
+    """F and p of a one-way analysis of variance; None unless there are two groups of two values, not all of
+    them equal.
+    """
     found = [np.asarray(g, float) for g in groups if np.size(g) >= 2]
     if len(found) < 2 or not any(g.std() > 0 for g in found):
         return None
@@ -111,7 +120,9 @@ def anova(groups: Sequence[Any]) -> tuple[float, float] | None:
     return float(result.statistic), float(result.pvalue)
 
 
-def decided(value: float | None, interval: Interval | None, n: int, low: float, high: float, quick: bool = False) -> bool | None:
+def decided(
+    value: float | None, interval: Interval | None, n: int, low: float, high: float, quick: bool = False
+) -> bool | None:
     """Whether a value lies between two bounds; None where so few runs cannot decide.
 
     Args:
@@ -120,7 +131,8 @@ def decided(value: float | None, interval: Interval | None, n: int, low: float, 
         n: how many runs it rests on.
         low: the lower bound, which is allowed.
         high: the upper one, which is too.
-        quick: a value that misses is held against it only where the interval excludes what is allowed, as with few runs.
+        quick: a value that misses is held against it only where the interval excludes what is allowed, as
+            with few runs.
     """
     if value is None or n == 0:
         return None
@@ -136,8 +148,9 @@ def decided(value: float | None, interval: Interval | None, n: int, low: float, 
 def equivalent(interval: Interval | None, low: float, high: float) -> bool | None:
     """Whether a number equals another within a margin, by two one-sided tests of 2.5 % each.
 
-    True where the 95 % interval lies inside the margin, False where it lies outside, None where it reaches over a bound: then neither equality
-    nor difference is shown, however large p of a test for a difference is.
+    True where the 95 % interval lies inside the margin, False where it lies outside, None where it reaches
+    over a bound: then neither equality nor difference is shown, however large p of a test for a difference
+    is.
 
     Args:
         interval: 95 % interval of the difference or ratio, or None.
@@ -157,8 +170,8 @@ def equivalent(interval: Interval | None, low: float, high: float) -> bool | Non
 def larger(value: float | None, interval: Interval | None, than: float, by: float) -> bool | None:
     """Whether a number is larger than another, by an amount that matters.
 
-    True where the 95 % interval lies above `than` and the value reaches `than + by`; False where the interval lies below `than + by`, so that an
-    effect of this size is excluded; None otherwise.
+    True where the 95 % interval lies above `than` and the value reaches `than + by`; False where the interval
+    lies below `than + by`, so that an effect of this size is excluded; None otherwise.
 
     Args:
         value: the number, or None.

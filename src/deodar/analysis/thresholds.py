@@ -14,14 +14,20 @@ from deodar.session.session import Snapshot
 
 MOST_DOUBLINGS = 8
 JUMP = 20.0
-"""A change of activation this many times larger than the change of input that caused it is a jump, not a graded response."""
+"""A change of activation this many times larger than the change of input that caused it is a jump, not a
+graded response.
+"""
 UNTOLD = 4.0
-"""Inputs that lie this many settling tolerances beyond an instability may still pass for settled: an input counts at its centre, and less where the
-activation changes slowest (a guess; in the cases that are known exactly the factor is 1 to 2)."""
+"""Inputs that lie this many settling tolerances beyond an instability may still pass for settled: an input
+counts at its centre, and less where the activation changes slowest (a guess; in the cases that are known
+exactly the factor is 1 to 2).
+"""
 FINE = 0.01
 """Tolerance of settling relative to the accuracy that is asked for."""
 SINGLE = 2e-6
-"""Least tolerance of settling in single precision, relative to the scale: below it activation moves in whole units of its last digit."""
+"""Least tolerance of settling in single precision, relative to the scale: below it activation moves in whole
+units of its last digit.
+"""
 
 
 @dataclass(frozen=True)
@@ -32,7 +38,8 @@ class Transition:
         value: the input at which it happens, the middle of the bracket.
         before: the last input at which the field still settled on the old branch.
         after: the first at which it did not.
-        interval: lowest and highest input at which it may happen: the bracket, and on both sides what settling could not tell.
+        interval: lowest and highest input at which it may happen: the bracket, and on both sides what
+            settling could not tell.
         jump: whether activation jumps there (an instability), or grows gradually through the threshold.
         state: the field settled just after.
     """
@@ -45,7 +52,10 @@ class Transition:
     state: Snapshot
 
     def __repr__(self) -> str:
-        return f"Transition({self.value:.4g} +- {abs(self.interval[1] - self.interval[0]) / 2:.2g}, {'jump' if self.jump else 'gradual'})"
+        return (
+            f"Transition({self.value:.4g} +- {abs(self.interval[1] - self.interval[0]) / 2:.2g},"
+            f" {'jump' if self.jump else 'gradual'})"
+        )
 
 
 @dataclass(frozen=True)
@@ -53,8 +63,10 @@ class Thresholds:
     """Both thresholds of a field for one kind of input.
 
     Attributes:
-        detection: where a peak appears as the input grows; None where none does up to `searched`, or one is there without input.
-        reverse: where it vanishes as the input shrinks; None where it stays down to 0 (a node: down to -`searched`).
+        detection: where a peak appears as the input grows; None where none does up to `searched`, or one is
+            there without input.
+        reverse: where it vanishes as the input shrinks; None where it stays down to 0 (a node: down to
+            -`searched`).
         active_at_rest: whether there is a peak without any input.
         searched: the largest input tried.
     """
@@ -65,11 +77,14 @@ class Thresholds:
     searched: float
 
 
-def thresholds(isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, limit: float = LIMIT) -> Thresholds:
+def thresholds(
+    isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, limit: float = LIMIT
+) -> Thresholds:
     """Detection and reverse-detection thresholds of a field.
 
-    The input grows from 0 until a peak appears, and shrinks from there until it vanishes. Every trial of the bisection starts
-    from the last settled state before the change, so that the field stays on its branch as long as the branch exists.
+    The input grows from 0 until a peak appears, and shrinks from there until it vanishes. Every trial of the
+    bisection starts from the last settled state before the change, so that the field stays on its branch as
+    long as the branch exists.
 
     Args:
         isolated: the field.
@@ -78,7 +93,8 @@ def thresholds(isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, l
         limit: of settling, in time constants.
 
     Reference:
-        Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2 (detection and reverse detection).
+        Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2 (detection and reverse
+        detection).
     """
     isolated.reset()
     isolated.settle(limit=limit)
@@ -95,22 +111,34 @@ def thresholds(isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, l
 
 
 def tolerance(isolated: Isolated, accuracy: float) -> float:
-    """Change of activation per time constant that counts as settled where a threshold is wanted to `accuracy`.
+    """Change of activation per time constant that counts as settled where a threshold is wanted to
+    `accuracy`.
 
-    Just beyond an instability activation moves as slowly as the input is near to it. What settles to a tolerance cannot tell nearer inputs from
-    the threshold, so that the tolerance has to be far below the width of the bracket.
+    Just beyond an instability activation moves as slowly as the input is near to it. What settles to a
+    tolerance cannot tell nearer inputs from the threshold, so that the tolerance has to be far below the
+    width of the bracket.
     """
     least = SINGLE if isolated.session.precision == "float32" else 0.0
     return max(min(2e-4, FINE * accuracy), least) * isolated.scale
 
 
 def _stuck(isolated: Isolated, most: float) -> float:
-    """Change of activation per time constant that is lost to rounding, since single steps add less than half of the last digit."""
-    return 0.5 * float(np.finfo(isolated.session.precision).eps) * most * isolated.field.tau / isolated.session.dt
+    """Change of activation per time constant that is lost to rounding, since single steps add less than half
+    of the last digit.
+    """
+    return (
+        0.5
+        * float(np.finfo(isolated.session.precision).eps)
+        * most
+        * isolated.field.tau
+        / isolated.session.dt
+    )
 
 
 def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
-    """From a settled field without a peak, `by` at 0, upwards: where a peak appears, or None where none does."""
+    """From a settled field without a peak, `by` at 0, upwards: where a peak appears, or None where none
+    does.
+    """
     fine = tolerance(isolated, accuracy)
     low, high, rest = 0.0, isolated.scale, isolated.snapshot()
     searched = isolated.scale * 2.0**MOST_DOUBLINGS
@@ -126,8 +154,12 @@ def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = 
         high *= 2
 
 
-def descend(isolated: Isolated, by: Knob, start: float, floor: float, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
-    """From a settled peak at `start` downwards: where it vanishes, or None where it is still there at `floor`."""
+def descend(
+    isolated: Isolated, by: Knob, start: float, floor: float, accuracy: float = 0.01, limit: float = LIMIT
+) -> Transition | None:
+    """From a settled peak at `start` downwards: where it vanishes, or None where it is still there at
+    `floor`.
+    """
     fine = tolerance(isolated, accuracy)
     held, state, reach = start, isolated.snapshot(), isolated.scale / 2
     while True:
@@ -152,9 +184,13 @@ def bisect(
     accuracy: float = 0.01,
     limit: float = LIMIT,
 ) -> Transition:
-    """The input between `before` (settled at `state`, unchanged) and `after` (changed) at which the field changes."""
+    """The input between `before` (settled at `state`, unchanged) and `after` (changed) at which the field
+    changes.
+    """
     fine = tolerance(isolated, accuracy)
-    least = 0.01 * isolated.scale  # below this the bracket is measured against the scale: a threshold may be 0
+    least = (
+        0.01 * isolated.scale
+    )  # below this the bracket is measured against the scale: a threshold may be 0
     isolated.restore(state)
     last = isolated.activation()
     settled: tuple[Snapshot, np.ndarray] | None = None
@@ -169,6 +205,10 @@ def bisect(
             before, state, last = trial, isolated.snapshot(), isolated.activation()
     moved = float(np.max(np.abs(settled[1] - last)))
     most = max(float(np.max(np.abs(last))), float(np.max(np.abs(settled[1]))))
-    untold = UNTOLD * (fine + _stuck(isolated, most)) + isolated.scale * (math.pi / limit) ** 2  # a passage takes about pi / sqrt(distance)
+    untold = (
+        UNTOLD * (fine + _stuck(isolated, most)) + isolated.scale * (math.pi / limit) ** 2
+    )  # a passage takes about pi / sqrt(distance)
     interval = (min(before, after) - untold, max(before, after) + untold)
-    return Transition((before + after) / 2, before, after, interval, moved > JUMP * abs(after - before), settled[0])
+    return Transition(
+        (before + after) / 2, before, after, interval, moved > JUMP * abs(after - before), settled[0]
+    )

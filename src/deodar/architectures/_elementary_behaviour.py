@@ -1,13 +1,16 @@
-"""The template of an elementary behaviour that can be planned: motivation, precondition, intention, condition of satisfaction.
+"""The template of an elementary behaviour that can be planned: motivation, precondition, intention, condition
+of satisfaction.
 
-Each is a field over the places where the behaviour can begin. Activation at a place in `motivation` says that it is worth doing there; this
-raises, one step back, the `precondition` of being there, which holds the `intention` down until it is released. `satisfaction` tells that it is
-done. Numbers in the names of the parameters below are those of the paper's figures 2 to 4.
+Each is a field over the places where the behaviour can begin. Activation at a place in `motivation` says that
+it is worth doing there; this raises, one step back, the `precondition` of being there, which holds the
+`intention` down until it is released. `satisfaction` tells that it is done. Numbers in the names of the
+parameters below are those of the paper's figures 2 to 4.
 
 References:
-    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), section 3.1, figures 2 and 3, appendix A and
-    table 2, and its published simulator, which wins where the print differs.
-    Sandamirskaya, Richter & Schöner (2011), A neural-dynamic architecture for behavioral organization of an embodied agent, ICDL.
+    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), section 3.1,
+    figures 2 and 3, appendix A and table 2, and its published simulator, which wins where the print differs.
+    Sandamirskaya, Richter & Schöner (2011), A neural-dynamic architecture for behavioral organization of an
+    embodied agent, ICDL.
 """
 
 from __future__ import annotations
@@ -30,10 +33,21 @@ TAU, RESTING, STEEP = 5.0, -5.0, 4.0
 """Of all four fields; time in steps of the published simulation."""
 
 QUADRATURE = "point"
-"""Of all fields, as in the published simulator. Sums over cells reach the same goals (`python benchmarks/quadratures.py spa`)."""
+"""Of all fields, as in the published simulator.
 
-LATERAL = {"motivation": (7.0, -2.0), "precondition": (4.0, -2.0), "intention": (9.0, 0.0), "satisfaction": (2.0, -2.0)}
-"""Integrals of local excitation and of wider inhibition. Table 2 prints the latter negative and eqs. 4 to 6 subtract it: it inhibits once."""
+Sums over cells reach the same goals (`python benchmarks/quadratures.py spa`).
+"""
+
+LATERAL = {
+    "motivation": (7.0, -2.0),
+    "precondition": (4.0, -2.0),
+    "intention": (9.0, 0.0),
+    "satisfaction": (2.0, -2.0),
+}
+"""Integrals of local excitation and of wider inhibition.
+
+Table 2 prints the latter negative and eqs. 4 to 6 subtract it: it inhibits once.
+"""
 
 STRENGTHS = {
     "1 motivation to precondition": 12.0,
@@ -50,12 +64,15 @@ AHEAD = 0.2
 """Share of a step by which satisfaction releases preconditions ahead of where the vehicle is."""
 
 
-def elementary_behaviour(axes: Sequence[Axis], step: Sequence[float], noise: float = 1.0, boundary: str | None = None) -> Model:
+def elementary_behaviour(
+    axes: Sequence[Axis], step: Sequence[float], noise: float = 1.0, boundary: str | None = None
+) -> Model:
     """One behaviour, to be inserted into a model as a group.
 
     Args:
         axes: the space, in cm.
-        step: where one execution leads, from where it begins, in cm along each axis. A plan grows by it, backwards.
+        step: where one execution leads, from where it begins, in cm along each axis. A plan grows by it,
+            backwards.
         noise: strength of the noise of each field; 1 adds deviates of 1 / tau in a step of 1 with cells of 1.
         boundary: of all kernels; none: the axes decide.
     """
@@ -68,8 +85,8 @@ def elementary_behaviour(axes: Sequence[Axis], step: Sequence[float], noise: flo
     def spread(a: str, b: str, knob: str, by: Sequence[float] | None = None) -> None:
         """A connection through a kernel; where `by` says how far it is shifted, that comes first.
 
-        What is shifted beyond an end is lost, and what a kernel carries beyond it comes back at the other end (published code). So the
-        margin of a field, whose preconditions lie outside, is held down.
+        What is shifted beyond an end is lost, and what a kernel carries beyond it comes back at the other end
+        (published code). So the margin of a field, whose preconditions lie outside, is held down.
         """
         kernel = [Gaussian(STRENGTHS[knob], NARROW, normalized=True, boundary=ends)]
         through = model.add(Convolve(kernel, name=f"{a} to {b}"))
@@ -77,7 +94,10 @@ def elementary_behaviour(axes: Sequence[Axis], step: Sequence[float], noise: flo
         (fields[a] if by is None else moved(fields[a], f"{a} beside {b}", by)) >> through >> fields[b]
 
     def plain(a: str, b: str, knob: str, by: Sequence[float]) -> None:
-        """A shifted connection without a kernel. That of 7 must not have one: its release would be too weak, and the vehicle stall."""
+        """A shifted connection without a kernel.
+
+        That of 7 must not have one: its release would be too weak, and the vehicle stall.
+        """
         strength = model.add(Gain(STRENGTHS[knob], name=f"{a} to {b}"))
         model.link(f"{strength.path}.factor", knob)
         fields[a] >> strength
@@ -104,4 +124,13 @@ def _field(name: str, axes: Sequence[Axis], noise: float, boundary: str | None) 
     if inhibition:
         kernel.append(Gaussian(inhibition, WIDE, normalized=True, boundary=ends))
     steep = Logistic(beta=STEEP)
-    return Field(name, axes, tau=TAU, resting_level=RESTING, sigmoid=steep, kernel=kernel, noise=noise, quadrature=QUADRATURE)
+    return Field(
+        name,
+        axes,
+        tau=TAU,
+        resting_level=RESTING,
+        sigmoid=steep,
+        kernel=kernel,
+        noise=noise,
+        quadrature=QUADRATURE,
+    )

@@ -1,13 +1,16 @@
-"""Elementary behaviours and what orders them: intention, condition of satisfaction, precondition, suppression, competition.
+"""Elementary behaviours and what orders them: intention, condition of satisfaction, precondition,
+suppression, competition.
 
-A behaviour begins with its task, goes on for as long as it takes, and ends when its condition of satisfaction is met. Which of several
-behaviours may be active is decided by nodes between them, never by a program: a precondition holds one back until another is satisfied,
-suppression interrupts one while another is active, competition lets one of two through.
+A behaviour begins with its task, goes on for as long as it takes, and ends when its condition of satisfaction
+is met. Which of several behaviours may be active is decided by nodes between them, never by a program: a
+precondition holds one back until another is satisfied, suppression interrupts one while another is active,
+competition lets one of two through.
 
 References:
-    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.5 and eq. 10 (intention and condition of satisfaction).
-    Richter, Sandamirskaya & Schöner (2012), A robotic architecture for action selection and behavioral organization inspired by human
-    cognition, IROS (the nodes between behaviours). All strengths here are ours, by arithmetic that stands beside them.
+    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.5 and eq. 10 (intention and condition of
+    satisfaction). Richter, Sandamirskaya & Schöner (2012), A robotic architecture for action selection and
+    behavioral organization inspired by human cognition, IROS (the nodes between behaviours). All strengths
+    here are ours, by arithmetic that stands beside them.
 """
 
 from __future__ import annotations
@@ -27,11 +30,16 @@ from deodar.numerics.windows import Window
 
 TAU, STEEP = 20.0, 8.0
 QUICK = 10.0
-"""Time constant of tasks and of what holds behaviours back, ms: it must be there before an intention has risen."""
+"""Time constant of tasks and of what holds behaviours back, ms: it must be there before an intention has
+risen.
+"""
 
 NODES = {"task": (-1.0, 0.0), "intention": (-2.0, 2.0), "satisfaction": (-6.0, 4.5)}
-"""Resting level and self-excitation. Any two of task, intention and signal leave `satisfaction` at -1 or below; all three bring it to 1, its
-own excitation to 5.5. With task and its own excitation alone it stays at 1.5, without the task it falls to -1.5."""
+"""Resting level and self-excitation.
+
+Any two of task, intention and signal leave `satisfaction` at -1 or below; all three bring it to 1, its own
+excitation to 5.5. With task and its own excitation alone it stays at 1.5, without the task it falls to -1.5.
+"""
 
 STRENGTHS = {
     "task to intention": 3.0,
@@ -58,30 +66,39 @@ LOCAL, WIDTH = 6.0, 4.0
 
 
 def behaviour(axes: Sequence[Axis] = (), noise: float = 0.3) -> Model:
-    """One behaviour, to be inserted as a group: `task`, `intention` and `satisfaction`, and with axes a field for each of the latter two.
+    """One behaviour, to be inserted as a group: `task`, `intention` and `satisfaction`, and with axes a field
+    for each of the latter two.
 
     Equation::
 
         tau du_int/dt = -u_int + h + w f(u_int) + 3 f(task) - 6 f(u_CoS)
         tau du_CoS/dt = -u_CoS + h + w f(u_CoS) + 3 f(task) + 2 f(u_int) + signal
 
-    The signal (2 while the goal is reached) arrives at `satisfaction`. With axes there is one more layer: a peak of `goal`, lifted by the
-    intention, says what is intended; it predicts in `outcome` what will be perceived then. There the signal is a peak: where what is perceived
-    matches the prediction. What is intended arrives at `goal`, what is perceived at `outcome`, both with about 3.
+    The signal (2 while the goal is reached) arrives at `satisfaction`. With axes there is one more layer: a
+    peak of `goal`, lifted by the intention, says what is intended; it predicts in `outcome` what will be
+    perceived then. There the signal is a peak: where what is perceived matches the prediction. What is
+    intended arrives at `goal`, what is perceived at `outcome`, both with about 3.
 
     Args:
         axes: of what is intended and perceived; none: nodes only.
         noise: strength of the noise of each node, and of each field at its samples.
 
     Reference:
-        Sandamirskaya (2014), eq. 10. There the field of satisfaction inhibits the intention's; here it does so through its node, which
-        stays on as long as the task does.
+        Sandamirskaya (2014), eq. 10. There the field of satisfaction inhibits the intention's; here it does
+        so through its node, which stays on as long as the task does.
     """
     model = Model("elementary behaviour")
     for name, value in STRENGTHS.items():
         model.parameter(name, value)
-    task, intention, satisfaction = (model.add(_node(name, *NODES[name], QUICK if name == "task" else TAU, noise)) for name in NODES)
-    for source, target in ((task, intention), (task, satisfaction), (intention, satisfaction), (satisfaction, intention)):
+    task, intention, satisfaction = (
+        model.add(_node(name, *NODES[name], QUICK if name == "task" else TAU, noise)) for name in NODES
+    )
+    for source, target in (
+        (task, intention),
+        (task, satisfaction),
+        (intention, satisfaction),
+        (satisfaction, intention),
+    ):
         knob = f"{source.path} to {target.path}"
         through = source >> model.add(Gain(STRENGTHS[knob], name=f"{source.path} > {target.path}"))
         model.link(f"{through.path}.factor", knob)
@@ -90,13 +107,19 @@ def behaviour(axes: Sequence[Axis] = (), noise: float = 0.3) -> Model:
         goal, outcome = (model.add(_field(name, axes, noise)) for name in ("goal", "outcome"))
         intention >> model.add(Gain(LIFT, name="lift")) >> goal
         goal >> model.add(Gain(PREDICT, name="predict")) >> outcome
-        outcome >> model.add(Project([], reduce="max", name="match")) >> model.add(Gain(SIGNAL, name="signal")) >> satisfaction
+        (
+            outcome
+            >> model.add(Project([], reduce="max", name="match"))
+            >> model.add(Gain(SIGNAL, name="signal"))
+            >> satisfaction
+        )
         satisfaction >> model.add(Gain(HOLD, name="end")) >> goal
     return model
 
 
 def precondition(model: Model, first: str, then: str) -> Handle:
-    """Let one behaviour wait until another is satisfied: a node that `then`'s task turns on, and `first`'s satisfaction off.
+    """Let one behaviour wait until another is satisfied: a node that `then`'s task turns on, and `first`'s
+    satisfaction off.
 
     Args:
         model: holds both behaviours, inserted as groups.
@@ -114,7 +137,8 @@ def precondition(model: Model, first: str, then: str) -> Handle:
 
 
 def suppression(model: Model, by: str, of: str) -> Handle:
-    """Let one behaviour interrupt another: a node that is on while `by` is intended, and holds the intention of `of` down.
+    """Let one behaviour interrupt another: a node that is on while `by` is intended, and holds the intention
+    of `of` down.
 
     Args:
         model: holds both behaviours, inserted as groups.
@@ -131,9 +155,12 @@ def suppression(model: Model, by: str, of: str) -> Handle:
 
 
 def competition(model: Model, one: str, other: str) -> None:
-    """Let only one of two behaviours be active at a time: their intentions inhibit each other. Who is first wins; where both are, noise decides.
+    """Let only one of two behaviours be active at a time: their intentions inhibit each other.
 
-    There is no node between them: a delay in mutual inhibition would switch both off and on again before one wins.
+    Who is first wins; where both are, noise decides.
+
+    There is no node between them: a delay in mutual inhibition would switch both off and on again before one
+    wins.
 
     Args:
         model: holds both behaviours, inserted as groups.
@@ -145,7 +172,9 @@ def competition(model: Model, one: str, other: str) -> None:
 
 
 def behaviours(noise: float = 0.3) -> Model:
-    """Five behaviours at work: `find` before `reach`, `avoid` in its way, and beside them `look left` or `look right`."""
+    """Five behaviours at work: `find` before `reach`, `avoid` in its way, and beside them `look left` or
+    `look right`.
+    """
     x = Axis("x", 0.0, 100.0, 101, unit="cm")
     model = Model("behaviours")
     for name in ("find", "avoid", "look left", "look right"):
@@ -158,20 +187,48 @@ def behaviours(noise: float = 0.3) -> Model:
     for name in ("find", "reach", "look left", "look right"):
         task >> model[f"{name}.task"]
     model.add(Boost("obstacle", [], amplitude=ON, windows=[Window(900.0, 1200.0)])) >> model["avoid.task"]
-    model.add(Boost("found", [], amplitude=SIGNAL, windows=[Window(500.0, 600.0)])) >> model["find.satisfaction"]
-    seen = model.add(Boost("seen", [], amplitude=SIGNAL, windows=[Window(700.0, 760.0), Window(1400.0, 1460.0)]))
+    (
+        model.add(Boost("found", [], amplitude=SIGNAL, windows=[Window(500.0, 600.0)]))
+        >> model["find.satisfaction"]
+    )
+    seen = model.add(
+        Boost("seen", [], amplitude=SIGNAL, windows=[Window(700.0, 760.0), Window(1400.0, 1460.0)])
+    )
     for side in ("left", "right"):
         seen >> model[f"look {side}.satisfaction"]
     model.add(GaussianStimulus("target", [x], center=70.0, sigma=WIDTH, amplitude=3.0)) >> model["reach.goal"]
-    for name, place, window in (("hand at rest", 30.0, Window(0.0, 1600.0)), ("hand there", 70.0, Window(1600.0))):
-        model.add(GaussianStimulus(name, [x], center=place, sigma=WIDTH, amplitude=3.0, windows=[window])) >> model["reach.outcome"]
+    for name, place, window in (
+        ("hand at rest", 30.0, Window(0.0, 1600.0)),
+        ("hand there", 70.0, Window(1600.0)),
+    ):
+        (
+            model.add(GaussianStimulus(name, [x], center=place, sigma=WIDTH, amplitude=3.0, windows=[window]))
+            >> model["reach.outcome"]
+        )
     return model
 
 
 def _node(name: str, resting: float, own: float, tau: float, noise: float) -> Field:
-    return Field(name, [], tau=tau, resting_level=resting, sigmoid=Logistic(beta=STEEP), kernel=[Gaussian(own)] if own else [], noise=noise)
+    return Field(
+        name,
+        [],
+        tau=tau,
+        resting_level=resting,
+        sigmoid=Logistic(beta=STEEP),
+        kernel=[Gaussian(own)] if own else [],
+        noise=noise,
+    )
 
 
 def _field(name: str, axes: Sequence[Axis], noise: float) -> Field:
     kernel = [Gaussian(LOCAL, WIDTH, normalized=True)]
-    return Field(name, axes, tau=TAU, resting_level=-5.0, sigmoid=Logistic(beta=4.0), kernel=kernel, global_inhibition=0.1, noise=noise)
+    return Field(
+        name,
+        axes,
+        tau=TAU,
+        resting_level=-5.0,
+        sigmoid=Logistic(beta=4.0),
+        kernel=kernel,
+        global_inhibition=0.1,
+        noise=noise,
+    )

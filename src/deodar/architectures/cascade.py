@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Transition:
-    """One action's end and the beginning of the next, as times in the unit of the record; NaN: it did not happen.
+    """One action's end and the beginning of the next, as times in the unit of the record; NaN: it did not
+    happen.
 
     Attributes:
         item: position in the sequence, from 1.
@@ -41,7 +42,9 @@ class Transition:
 
     @property
     def in_order(self) -> bool:
-        """Whether the instabilities followed each other as in section 4.4 of Sandamirskaya & Schöner (2010); after the last item nothing follows."""
+        """Whether the instabilities followed each other as in section 4.4 of Sandamirskaya & Schöner (2010);
+        after the last item nothing follows.
+        """
         times = [self.satisfied, self.off, self.action_off, self.released, self.next_on, self.next_action]
         known = times if not np.isnan(self.next_on) else times[:4]
         return all(a < b for a, b in pairwise(known))
@@ -49,7 +52,11 @@ class Transition:
 
 def cascade_paths(items: int) -> list[str]:
     """The paths to record for `cascade`."""
-    return [*(f"item {k}.node.activation" for k in range(1, items + 1)), "action.activation", "satisfaction.activation"]
+    return [
+        *(f"item {k}.node.activation" for k in range(1, items + 1)),
+        "action.activation",
+        "satisfaction.activation",
+    ]
 
 
 def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Transition]:

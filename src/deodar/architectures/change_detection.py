@@ -1,15 +1,16 @@
 """Working memory with change detection: is what is shown now the same as what was shown before?
 
-Three layers over one feature. `contrast` detects what is new, `memory` takes it over and keeps it, and `inhibition`, which both excite, inhibits
-both: around each peak of the memory, and at the place of each peak in the contrast field. So what is held already makes no peak in `contrast`
-when it is shown again, and what is not does. While a decision is asked for, a peak in `contrast` turns the node `different` on, and without one the
-memory turns on `same`.
+Three layers over one feature. `contrast` detects what is new, `memory` takes it over and keeps it, and
+`inhibition`, which both excite, inhibits both: around each peak of the memory, and at the place of each peak
+in the contrast field. So what is held already makes no peak in `contrast` when it is shown again, and what is
+not does. While a decision is asked for, a peak in `contrast` turns the node `different` on, and without one
+the memory turns on `same`.
 
 References:
-    Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation, maintenance, and updating of representations in
-    visual working memory, Brain Research 1299, 17-32 (three layers with shared inhibition).
-    Johnson, Spencer, Luck & Schöner (2009), A dynamic neural field model of visual working memory and change detection, Psychological Science
-    20(5), 568-577 (the decision). All parameters are ours.
+    Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation, maintenance, and
+    updating of representations in visual working memory, Brain Research 1299, 17-32 (three layers with shared
+    inhibition). Johnson, Spencer, Luck & Schöner (2009), A dynamic neural field model of visual working
+    memory and change detection, Psychological Science 20(5), 568-577 (the decision). All parameters are ours.
 """
 
 from __future__ import annotations
@@ -31,7 +32,10 @@ from deodar.numerics.windows import Window
 TAU, RESTING, STEEP = 20.0, -5.0, 4.0
 
 QUICK, SLOW = 10.0, 60.0
-"""Inhibition is quicker than what it balances. The node `same` is slower than a new peak, since the memory speaks for it from the start."""
+"""Inhibition is quicker than what it balances.
+
+The node `same` is slower than a new peak, since the memory speaks for it from the start.
+"""
 
 LOCAL = {"contrast": 4.0, "memory": 16.0, "inhibition": 0.0}
 """Integral of local excitation: peaks in `contrast` need their input, those in `memory` do not."""
@@ -54,11 +58,15 @@ ITEM = 6.5
 DIRECT = 0.2
 
 UNASKED, ASK, DIFFERENT, SAME, AGAINST, HELD = -7.0, 5.0, 4.5, 3.0, -8.0, 4.0
-"""Both nodes rest at -7, so that neither can come on before it is asked. While it is, the memory lifts `same` to 1, a new peak `different` to 2.5.
-A new peak is soon taken over by the memory; what it said holds itself, at 2, for as long as the question stands."""
+"""Both nodes rest at -7, so that neither can come on before it is asked.
+
+While it is, the memory lifts `same` to 1, a new peak `different` to 2.5. A new peak is soon taken over by the
+memory; what it said holds itself, at 2, for as long as the question stands.
+"""
 
 SAMPLE, TEST, LENGTH = (200.0, 700.0), (1700.0, 2300.0), 2600.0
-"""When the sample is shown, when the test is shown and the decision asked for, and how long a trial is, ms."""
+"""When the sample is shown, when the test is shown and the decision asked for, and how long a trial is, ms.
+"""
 
 
 def colour_axis() -> Axis:
@@ -95,8 +103,23 @@ def change_detection(axis: Axis | None = None, noise: float = 0.3) -> Model:
     nodes: list[Handle] = []
     for name, source, strength in (("different", "contrast", DIFFERENT), ("same", "memory", SAME)):
         own, tau = ([Gaussian(HELD)], TAU) if name == "different" else ([], SLOW)
-        node = model.add(Field(name, [], tau=tau, resting_level=UNASKED, sigmoid=Logistic(beta=STEEP), kernel=own, noise=noise))
-        layers[source] >> model.add(Project([], reduce="max", name=f"any {source}")) >> model.add(Gain(strength, name=f"{name} says")) >> node
+        node = model.add(
+            Field(
+                name,
+                [],
+                tau=tau,
+                resting_level=UNASKED,
+                sigmoid=Logistic(beta=STEEP),
+                kernel=own,
+                noise=noise,
+            )
+        )
+        (
+            layers[source]
+            >> model.add(Project([], reduce="max", name=f"any {source}"))
+            >> model.add(Gain(strength, name=f"{name} says"))
+            >> node
+        )
         ask >> node
         nodes.append(node)
     for a, b in (nodes, reversed(nodes)):
@@ -104,11 +127,16 @@ def change_detection(axis: Axis | None = None, noise: float = 0.3) -> Model:
     return model
 
 
-def change_trial(sample: Sequence[float] = (40.0, 130.0, 250.0), test: Sequence[float] = (40.0, 180.0, 250.0), noise: float = 0.3) -> Model:
+def change_trial(
+    sample: Sequence[float] = (40.0, 130.0, 250.0),
+    test: Sequence[float] = (40.0, 180.0, 250.0),
+    noise: float = 0.3,
+) -> Model:
     """The template in a trial: a sample, a pause of a second, and a test, together with the question.
 
     Args:
-        sample: places of what is shown first, deg, at least 50 apart; three are the most that are surely held.
+        sample: places of what is shown first, deg, at least 50 apart; three are the most that are surely
+            held.
         test: places of what is shown then.
         noise: as in `change_detection`.
     """
@@ -122,10 +150,14 @@ def change_trial(sample: Sequence[float] = (40.0, 130.0, 250.0), test: Sequence[
 
 
 def _item(name: str, place: float, window: tuple[float, float]) -> GaussianStimulus:
-    return GaussianStimulus(name, [colour_axis()], center=place, sigma=WIDTH, amplitude=ITEM, windows=[Window(*window)])
+    return GaussianStimulus(
+        name, [colour_axis()], center=place, sigma=WIDTH, amplitude=ITEM, windows=[Window(*window)]
+    )
 
 
 def _layer(name: str, axis: Axis, noise: float) -> Field:
     kernel = [Gaussian(LOCAL[name], WIDTH, normalized=True)] if LOCAL[name] else []
     tau = QUICK if name == "inhibition" else TAU
-    return Field(name, [axis], tau=tau, resting_level=RESTING, sigmoid=Logistic(beta=STEEP), kernel=kernel, noise=noise)
+    return Field(
+        name, [axis], tau=tau, resting_level=RESTING, sigmoid=Logistic(beta=STEEP), kernel=kernel, noise=noise
+    )

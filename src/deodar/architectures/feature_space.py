@@ -1,16 +1,18 @@
 """A field over space and feature with read-outs: what was seen where, asked by place or by feature.
 
-`bound` holds objects below threshold. A cue in `feature` lifts a ridge of all places with this feature, a cue in `space` one of all features at
-this place; where a ridge meets an object there is a peak, and its contraction over the other dimension brings the bound value to the other
-field. So the two fields bind through one that holds both.
+`bound` holds objects below threshold. A cue in `feature` lifts a ridge of all places with this feature, a cue
+in `space` one of all features at this place; where a ridge meets an object there is a peak, and its
+contraction over the other dimension brings the bound value to the other field. So the two fields bind through
+one that holds both.
 
-What was selected outlives its cue: the peak in `bound` and those it brought forth hold each other. Inhibition of all three ends it.
+What was selected outlives its cue: the peak in `bound` and those it brought forth hold each other. Inhibition
+of all three ends it.
 
 References:
-    Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 5 and 6 and section 5 (expansion, contraction and the ridge that
-    meets an object).
-    Johnson, Spencer & Schöner (2008), Moving to higher ground: The dynamic field theory and the dynamics of visual cognition, New Ideas in
-    Psychology 26(2) (coupled feature-space fields). All parameters are ours.
+    Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 5 and 6 and section 5 (expansion,
+    contraction and the ridge that meets an object). Johnson, Spencer & Schöner (2008), Moving to higher
+    ground: The dynamic field theory and the dynamics of visual cognition, New Ideas in Psychology 26(2)
+    (coupled feature-space fields). All parameters are ours.
 """
 
 from __future__ import annotations
@@ -31,18 +33,28 @@ from deodar.numerics.windows import Window
 TAU, RESTING, STEEP = 20.0, -5.0, 4.0
 
 RIDGE, READ = 2.2, 6.0
-"""From a read-out to `bound`, and from the strongest place along the other dimension back. An object of 3.5 and a ridge of 2.2 detect together
-(0.7 above threshold, before local excitation); two ridges that meet where nothing is stay at -0.6. What is read out lifts a read-out to 1."""
+"""From a read-out to `bound`, and from the strongest place along the other dimension back.
+
+An object of 3.5 and a ridge of 2.2 detect together (0.7 above threshold, before local excitation); two ridges
+that meet where nothing is stay at -0.6. What is read out lifts a read-out to 1.
+"""
 
 OBJECT, CUE, RELEASE = 3.5, 6.0, -10.0
 
 
 def axes() -> tuple[Axis, Axis]:
     """Space and feature where none are given."""
-    return Axis("space", 0.0, 100.0, 51, unit="deg"), Axis("feature", 0.0, 360.0, 36, periodic=True, unit="deg")
+    return Axis("space", 0.0, 100.0, 51, unit="deg"), Axis(
+        "feature", 0.0, 360.0, 36, periodic=True, unit="deg"
+    )
 
 
-def feature_space(space: Axis | None = None, feature: Axis | None = None, sigma: Sequence[float] = (5.0, 20.0), noise: float = 0.2) -> Model:
+def feature_space(
+    space: Axis | None = None,
+    feature: Axis | None = None,
+    sigma: Sequence[float] = (5.0, 20.0),
+    noise: float = 0.2,
+) -> Model:
     """The three fields `bound`, `space` and `feature`, to be inserted as a group.
 
     Objects arrive at `bound`, with about 3.5; cues at `space` or `feature`, with about 6.
@@ -58,8 +70,18 @@ def feature_space(space: Axis | None = None, feature: Axis | None = None, sigma:
     both = model.add(_field("bound", [x, f], 10.0, list(sigma), 0.0015, noise))
     for name, axis, width in (("space", x, sigma[0]), ("feature", f, sigma[1])):
         one = model.add(_field(name, [axis], 8.0, [width], 0.3 / width, noise))
-        one >> model.add(Gain(RIDGE, name=f"{name} ridge")) >> model.add(Project([x, f], name=f"{name} expands")) >> both
-        both >> model.add(Project([axis], reduce="max", name=f"{name} of the peak")) >> model.add(Gain(READ, name=f"{name} read-out")) >> one
+        (
+            one
+            >> model.add(Gain(RIDGE, name=f"{name} ridge"))
+            >> model.add(Project([x, f], name=f"{name} expands"))
+            >> both
+        )
+        (
+            both
+            >> model.add(Project([axis], reduce="max", name=f"{name} of the peak"))
+            >> model.add(Gain(READ, name=f"{name} read-out"))
+            >> one
+        )
     return model
 
 
@@ -69,16 +91,43 @@ def binding(noise: float = 0.2) -> Model:
     model.describe(name="binding")
     x, f = axes()
     for name, at in (("red", [20.0, 0.0]), ("green", [50.0, 120.0]), ("blue", [80.0, 240.0])):
-        model.add(GaussianStimulus(name, [x, f], center=at, sigma=[5.0, 20.0], amplitude=OBJECT)) >> model["bound"]
+        (
+            model.add(GaussianStimulus(name, [x, f], center=at, sigma=[5.0, 20.0], amplitude=OBJECT))
+            >> model["bound"]
+        )
     hue, place = Window(200.0, 600.0), Window(1000.0, 1400.0)
-    model.add(GaussianStimulus("cue green", [f], center=120.0, sigma=20.0, amplitude=CUE, windows=[hue])) >> model["feature"]
-    model.add(GaussianStimulus("cue right", [x], center=80.0, sigma=5.0, amplitude=CUE, windows=[place])) >> model["space"]
-    release = model.add(Boost("release", [], amplitude=RELEASE, windows=[Window(800.0, 900.0), Window(1600.0, 1700.0)]))
+    (
+        model.add(GaussianStimulus("cue green", [f], center=120.0, sigma=20.0, amplitude=CUE, windows=[hue]))
+        >> model["feature"]
+    )
+    (
+        model.add(GaussianStimulus("cue right", [x], center=80.0, sigma=5.0, amplitude=CUE, windows=[place]))
+        >> model["space"]
+    )
+    release = model.add(
+        Boost("release", [], amplitude=RELEASE, windows=[Window(800.0, 900.0), Window(1600.0, 1700.0)])
+    )
     for name in ("bound", "space", "feature"):
         release >> model[name]
     return model
 
 
-def _field(name: str, over: Sequence[Axis], excitation: float, sigma: Sequence[float], inhibition: float, noise: float) -> Field:
+def _field(
+    name: str,
+    over: Sequence[Axis],
+    excitation: float,
+    sigma: Sequence[float],
+    inhibition: float,
+    noise: float,
+) -> Field:
     kernel, steep = [Gaussian(excitation, sigma, normalized=True)], Logistic(beta=STEEP)
-    return Field(name, over, tau=TAU, resting_level=RESTING, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise)
+    return Field(
+        name,
+        over,
+        tau=TAU,
+        resting_level=RESTING,
+        sigmoid=steep,
+        kernel=kernel,
+        global_inhibition=inhibition,
+        noise=noise,
+    )

@@ -1,7 +1,9 @@
-"""Follow the carrot: a vehicle steers towards a point of its path that lies a little ahead. A plain method that planners are compared with.
+"""Follow the carrot: a vehicle steers towards a point of its path that lies a little ahead.
 
-No fields: the path is given, and a step is a few lines. It moves the same vehicle in the same world as an architecture does, through the
-same sensors (`place`, `heading`) and motors (`left`, `right`).
+A plain method that planners are compared with.
+
+No fields: the path is given, and a step is a few lines. It moves the same vehicle in the same world as an
+architecture does, through the same sensors (`place`, `heading`) and motors (`left`, `right`).
 """
 
 from __future__ import annotations
@@ -26,7 +28,8 @@ class Carrot:
     Attributes:
         speed: of both wheels together, motor steps/s.
         gain: difference of the wheels for an error of the heading, motor steps/s per rad.
-        ahead: how far before the vehicle the point lies from which the nearest point of the path is taken, in the unit of the arena.
+        ahead: how far before the vehicle the point lies from which the nearest point of the path is taken, in
+            the unit of the arena.
     """
 
     speed: float = 400.0
@@ -35,7 +38,9 @@ class Carrot:
 
     def __post_init__(self) -> None:
         if not (self.speed > 0 and self.gain > 0 and self.ahead >= 0):
-            raise ParameterError(f"speed {self.speed:g} and gain {self.gain:g} are above 0, ahead {self.ahead:g} is 0 or above")
+            raise ParameterError(
+                f"speed {self.speed:g} and gain {self.gain:g} are above 0, ahead {self.ahead:g} is 0 or above"
+            )
 
     def wheels(self, place: np.ndarray, heading: np.ndarray, paths: np.ndarray) -> np.ndarray:
         """Speeds (copies, 2) of the left and the right wheel.
@@ -52,8 +57,9 @@ class Carrot:
             paths: (copies, points, 2); a shorter one is filled up with its last point.
 
         Reference:
-            Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), appendix B, eq. 18; after Barton (2001). The paper gives the distance
-            of 1 cm. It prints neither the speed nor the gain, nor how an angle becomes speeds of wheels.
+            Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), appendix B, eq. 18; after Barton
+            (2001). The paper gives the distance of 1 cm. It prints neither the speed nor the gain, nor how an
+            angle becomes speeds of wheels.
         """
         look = place + self.ahead * np.stack([np.cos(heading), np.sin(heading)], axis=-1)
         nearest = np.argmin(((paths - look[:, None]) ** 2).sum(axis=-1), axis=1)
@@ -93,7 +99,8 @@ def follow(
 ) -> Followed:
     """Let a batch of vehicles follow a path each, from the starts that the arena has for their trials.
 
-    A copy ends when it was within `radius` of the arena's goal `times` times, or at the limit. The batch goes on until all have ended.
+    A copy ends when it was within `radius` of the arena's goal `times` times, or at the limit. The batch goes
+    on until all have ended.
 
     Args:
         arena: where they drive.
@@ -107,7 +114,12 @@ def follow(
         between: called after each step.
     """
     carrot, longest = carrot or Carrot(), max(map(len, paths))
-    filled = np.stack([np.concatenate([p, np.repeat(p[-1:], longest - len(p), axis=0)]) for p in (np.asarray(q, float) for q in paths)])
+    filled = np.stack(
+        [
+            np.concatenate([p, np.repeat(p[-1:], longest - len(p), axis=0)])
+            for p in (np.asarray(q, float) for q in paths)
+        ]
+    )
     arena.reset(seed, trials)
     goals = arena.sense("goal", PLACE, 0.0)
     there, ended = np.zeros(len(trials), int), np.full(len(trials), -1)

@@ -1,13 +1,14 @@
 """A plan on a line: the wave of motivation of simultaneous planning and action, in one dimension.
 
-Two elementary behaviours go left and right along a corridor with a wall at either end. A goal excites the motivation of both. Motivation spreads
-from it at a constant speed, each behaviour's against its own direction, because every place worth leaving is a place worth getting to. Where
-it meets the place of the walker, the precondition is released, and an intention makes it walk, at every place as long as there is one. When the
-goal goes, the plan decays; when it comes back elsewhere, another one spreads.
+Two elementary behaviours go left and right along a corridor with a wall at either end. A goal excites the
+motivation of both. Motivation spreads from it at a constant speed, each behaviour's against its own
+direction, because every place worth leaving is a place worth getting to. Where it meets the place of the
+walker, the precondition is released, and an intention makes it walk, at every place as long as there is one.
+When the goal goes, the plan decays; when it comes back elsewhere, another one spreads.
 
 Reference:
-    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), figure 3, with a second behaviour. The walker
-    is ours: its place is the integral of what the intentions ask for.
+    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), figure 3,
+    with a second behaviour. The walker is ours: its place is the integral of what the intentions ask for.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ OPPOSITE = -10.0
 """Strength from the precondition of one behaviour to the motivation of the other (connection 2d)."""
 
 SPEED = 0.27
-"""How fast the walker goes while it intends to, cm per step of 64 ms: about the speed of the robot in the paper's mazes."""
+"""How fast the walker goes while it intends to, cm per step of 64 ms: about the speed of the robot in the
+paper's mazes.
+"""
 
 START = 100.0
 GOALS = ((40.0, (0.0, 450.0)), (150.0, (450.0, 1e6)))
@@ -47,7 +50,9 @@ def corridor() -> Axis:
     return Axis("x", 0.0, LENGTH, int(LENGTH) + 1, unit="cm")
 
 
-def plan(start: float = START, goals: Sequence[tuple[float, tuple[float, float]]] = GOALS, noise: float = 1.0) -> Model:
+def plan(
+    start: float = START, goals: Sequence[tuple[float, tuple[float, float]]] = GOALS, noise: float = 1.0
+) -> Model:
     """The corridor with a walker in it. Time is in steps of 64 ms, as in `spa`.
 
     Args:
@@ -59,9 +64,14 @@ def plan(start: float = START, goals: Sequence[tuple[float, tuple[float, float]]
     model = Model("plan", time_unit="1 = 64 ms", dt=1.0)
     model.describe(notes="Billing, Lowe & Sandamirskaya (2015), figure 3; time is in steps of 64 ms.")
     model.parameter("2d precondition to motivation, opposite", OPPOSITE)
-    walls = [model.add(BoxStimulus(f"{side} wall", [x], center=at, width=2 * WALL, amplitude=-15.0)) for side, at in (("left", 0), ("right", LENGTH))]
+    walls = [
+        model.add(BoxStimulus(f"{side} wall", [x], center=at, width=2 * WALL, amplitude=-15.0))
+        for side, at in (("left", 0), ("right", LENGTH))
+    ]
     spots = [
-        model.add(GaussianStimulus(f"goal {k}", [x], center=at, sigma=3.0, amplitude=10.0, windows=[Window(*when)]))
+        model.add(
+            GaussianStimulus(f"goal {k}", [x], center=at, sigma=3.0, amplitude=10.0, windows=[Window(*when)])
+        )
         for k, (at, when) in enumerate(goals, 1)
     ]
     # a node that excites itself as much as it decays keeps what it gets: it integrates
@@ -74,7 +84,12 @@ def plan(start: float = START, goals: Sequence[tuple[float, tuple[float, float]]
             source >> model[f"{name}.motivation"]
         here >> model[f"{name}.satisfaction"]
         intended = model.add(Project([], reduce="max", name="strongest"), group=name)
-        model[f"{name}.intention"] >> intended >> model.add(Gain(way * SPEED, name="walk"), group=name) >> gone
+        (
+            model[f"{name}.intention"]
+            >> intended
+            >> model.add(Gain(way * SPEED, name="walk"), group=name)
+            >> gone
+        )
     for name, other in (("left", "right"), ("right", "left")):
         against = model.add(Gain(OPPOSITE, name="against"), group=name)
         model.link(f"{against.path}.factor", "2d precondition to motivation, opposite")

@@ -1,12 +1,15 @@
-"""A transformation between frames of reference: from places on the retina and the gaze to places before the body.
+"""A transformation between frames of reference: from places on the retina and the gaze to places before the
+body.
 
-An object at x on the retina, seen with the gaze at g, is at x + g before the body. Two forms compute it. The steered form moves the whole pattern
-by the number g. The diagonal form needs nothing but fields: a field over both dimensions has a peak where the ridge of the object and the ridge of
-the gaze cross, and all pairs with the same sum lie on one diagonal, which is summed up. Both hold any number of objects.
+An object at x on the retina, seen with the gaze at g, is at x + g before the body. Two forms compute it. The
+steered form moves the whole pattern by the number g. The diagonal form needs nothing but fields: a field over
+both dimensions has a peak where the ridge of the object and the ridge of the gaze cross, and all pairs with
+the same sum lie on one diagonal, which is summed up. Both hold any number of objects.
 
 Reference:
-    Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic remapping, Biol. Cybern. 106, 89-109
-    (the transformation field and its diagonals). All parameters are ours.
+    Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic
+    remapping, Biol. Cybern. 106, 89-109 (the transformation field and its diagonals). All parameters are
+    ours.
 """
 
 from __future__ import annotations
@@ -37,10 +40,13 @@ TAU, RESTING, STEEP = 20.0, -5.0, 4.0
 WIDTH = 3.0
 
 RIDGE = 3.5
-"""Of an object and of the gaze in the transformation field: one alone stays at -1.5, both together reach 2."""
+"""Of an object and of the gaze in the transformation field: one alone stays at -1.5, both together reach 2.
+"""
 
 SUMMED, SHIFTED = 0.85, 6.0
-"""Into the body's field, from the sum along diagonals (a peak is about 7 samples wide) and from the shifted pattern."""
+"""Into the body's field, from the sum along diagonals (a peak is about 7 samples wide) and from the shifted
+pattern.
+"""
 
 FORMS = ("diagonal", "steered")
 
@@ -48,36 +54,61 @@ FORMS = ("diagonal", "steered")
 def reference_frame(form: str = "diagonal", noise: float = 0.2) -> Model:
     """The fields `retina` and `body` and what lies between them, to be inserted as a group.
 
-    Objects arrive at `retina`, with about 6; the gaze, -20 to 20 deg (a peak nearer to the end of its axis is cut), at `gaze`.
+    Objects arrive at `retina`, with about 6; the gaze, -20 to 20 deg (a peak nearer to the end of its axis is
+    cut), at `gaze`.
 
     Equation::
 
         steered:  s_body(y) = 6 f(u_retina(y - g))
-        diagonal: s_transform(x, g') = 3 f(u_retina(x)) + 3 exp(-(g' - g)^2 / (2 3^2)),  s_body(y) = 0.7 integral f(u_transform(y - g', g')) dg'
+        diagonal: s_transform(x, g') = 3 f(u_retina(x)) + 3 exp(-(g' - g)^2 / (2 3^2))
+                  s_body(y) = 0.7 integral f(u_transform(y - g', g')) dg'
 
     Args:
         form: diagonal or steered.
         noise: strength of the noise of all fields.
     """
     if form not in FORMS:
-        raise ParameterError(f"form is {show(form)}; it is diagonal or steered", fix=did_you_mean(str(form), FORMS))
+        raise ParameterError(
+            f"form is {show(form)}; it is diagonal or steered", fix=did_you_mean(str(form), FORMS)
+        )
     model = Model(f"reference frame, {form}")
-    retina, body = (model.add(_field(name, axis, noise)) for name, axis in (("retina", RETINA), ("body", BODY)))
+    retina, body = (
+        model.add(_field(name, axis, noise)) for name, axis in (("retina", RETINA), ("body", BODY))
+    )
     gaze = model.add(Gain(1.0, name="gaze"))
     (_diagonal if form == "diagonal" else _steered)(model, retina, gaze, body, noise)
     return model
 
 
 def remapping(noise: float = 0.2) -> Model:
-    """Both forms side by side: one object stands still before the body while the gaze jumps, so that it jumps on the retina; another is new."""
+    """Both forms side by side: one object stands still before the body while the gaze jumps, so that it jumps
+    on the retina; another is new.
+    """
     model = Model("remapping")
     place, jumps = 12.0, ((0.0, 0.0, 400.0), (15.0, 400.0, 800.0), (-10.0, 800.0, 1e6))
-    gaze = [model.add(Boost(f"gaze at {g:g}", [], amplitude=g, windows=[Window(a, b)])) for g, a, b in jumps if g]
+    gaze = [
+        model.add(Boost(f"gaze at {g:g}", [], amplitude=g, windows=[Window(a, b)])) for g, a, b in jumps if g
+    ]
     at = [
-        model.add(GaussianStimulus(f"seen at {place - g:g}", [RETINA], center=place - g, sigma=WIDTH, amplitude=6.0, windows=[Window(a, b)]))
+        model.add(
+            GaussianStimulus(
+                f"seen at {place - g:g}",
+                [RETINA],
+                center=place - g,
+                sigma=WIDTH,
+                amplitude=6.0,
+                windows=[Window(a, b)],
+            )
+        )
         for g, a, b in jumps
     ]
-    at.append(model.add(GaussianStimulus("another", [RETINA], center=-15.0, sigma=WIDTH, amplitude=6.0, windows=[Window(1000.0)])))
+    at.append(
+        model.add(
+            GaussianStimulus(
+                "another", [RETINA], center=-15.0, sigma=WIDTH, amplitude=6.0, windows=[Window(1000.0)]
+            )
+        )
+    )
     for form in FORMS:
         model.insert(reference_frame(form, noise), form)
         for source in gaze:
@@ -92,19 +123,48 @@ def _steered(model: Model, retina: Handle, gaze: Handle, body: Handle, noise: fl
     shift = model.add(SteeredShift([RETINA.name], name="shift"))
     retina >> model.add(Resample([wide], name="wide")) >> shift
     model.connect(gaze, "shift.by")
-    shift >> model.add(Project([BODY], rename={RETINA.name: BODY.name}, name="before the body")) >> model.add(Gain(SHIFTED, name="strength")) >> body
+    (
+        shift
+        >> model.add(Project([BODY], rename={RETINA.name: BODY.name}, name="before the body"))
+        >> model.add(Gain(SHIFTED, name="strength"))
+        >> body
+    )
 
 
 def _diagonal(model: Model, retina: Handle, gaze: Handle, body: Handle, noise: float) -> None:
     kernel = [Gaussian(3.0, 2.0, normalized=True)]
     sigmoid = Logistic(beta=STEEP)
-    both = model.add(Field("transform", [RETINA, GAZE], tau=TAU, resting_level=RESTING, sigmoid=sigmoid, kernel=kernel, noise=noise))
+    both = model.add(
+        Field(
+            "transform",
+            [RETINA, GAZE],
+            tau=TAU,
+            resting_level=RESTING,
+            sigmoid=sigmoid,
+            kernel=kernel,
+            noise=noise,
+        )
+    )
     retina >> model.add(Gain(RIDGE, name="object's ridge")) >> both
     gaze >> model.add(SpaceCode([GAZE], WIDTH, RIDGE, name="gaze's ridge")) >> both
-    both >> model.add(DiagonalSum([BODY], name="diagonals")) >> model.add(Gain(SUMMED, name="strength")) >> body
+    (
+        both
+        >> model.add(DiagonalSum([BODY], name="diagonals"))
+        >> model.add(Gain(SUMMED, name="strength"))
+        >> body
+    )
 
 
 def _field(name: str, axis: Axis, noise: float) -> Field:
     kernel = [Gaussian(6.0, WIDTH, normalized=True)]
     sigmoid = Logistic(beta=STEEP)
-    return Field(name, [axis], tau=TAU, resting_level=RESTING, sigmoid=sigmoid, kernel=kernel, global_inhibition=0.03, noise=noise)
+    return Field(
+        name,
+        [axis],
+        tau=TAU,
+        resting_level=RESTING,
+        sigmoid=sigmoid,
+        kernel=kernel,
+        global_inhibition=0.03,
+        noise=noise,
+    )

@@ -1,12 +1,13 @@
 """Saliency: a colour cue selects an object in a picture, and a motor variable turns to it.
 
-The architecture of figure 2 in Sandamirskaya (2014), with one change: the printed colour-space field is defined over image
-column and hue, where objects in other rows of a photograph merge; here it is defined over both image dimensions and hue.
+The architecture of figure 2 in Sandamirskaya (2014), with one change: the printed colour-space field is
+defined over image column and hue, where objects in other rows of a photograph merge; here it is defined over
+both image dimensions and hue.
 
 References:
-    Sandamirskaya (2014), Dynamic neural fields as a step toward cognitive neuromorphic architectures, Front. Neurosci. 7:276,
-    section 2.2 to 2.4, figure 2, eqs. 8 and 9.
-    Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 11.
+    Sandamirskaya (2014), Dynamic neural fields as a step toward cognitive neuromorphic architectures, Front.
+    Neurosci. 7:276, section 2.2 to 2.4, figure 2, eqs. 8 and 9. Lomp, Richter, Zibner & Schöner (2016),
+    Front. Neurorobot. 10:14, eq. 11.
 """
 
 from __future__ import annotations
@@ -36,11 +37,13 @@ CUE_AT = 500.0
 CELLS, PIXELS, HUES = 40, 160, 30
 
 QUADRATURE = "point"
-"""Of all fields: the parameters were found with sums over points. With cells one colour less is selected on the untuned photographs
-(`python benchmarks/quadratures.py`)."""
+"""Of all fields: the parameters were found with sums over points.
 
-# The parameters were found on photographs by hand with a separate prototype, and moved here by the rule that integrals
-# carry the grid step; none is printed in the paper.
+With cells one colour less is selected on the untuned photographs (`python benchmarks/quadratures.py`).
+"""
+
+# The parameters were found on photographs by hand with a separate prototype, and moved here by the rule that
+# integrals carry the grid step; none is printed in the paper.
 TAU, STEEP = 100.0, 15.0
 CUE_STRENGTH = 4.3
 """Integral of the kernel that widens the colour field's peak into a ridge; the ridge is then 3.8 high."""
@@ -50,14 +53,19 @@ STILL = 0.15
 
 
 def scene() -> tuple[Axis, Axis, Axis]:
-    """The axes of the colour-space field: x to the right, y downwards, hue in degrees. Samples stand in the middle of cells."""
+    """The axes of the colour-space field: x to the right, y downwards, hue in degrees.
+
+    Samples stand in the middle of cells.
+    """
     edge = SIDE / CELLS / 2
     x, y = (Axis(name, edge, SIDE - edge, CELLS) for name in ("x", "y"))
     return x, y, Axis("hue", 0, 360, HUES, periodic=True, unit="deg")
 
 
 def retina() -> tuple[Axis, Axis, Axis]:
-    """The axes over which the picture is sensed: finer than the field's, so that every pixel keeps a colour of its own."""
+    """The axes over which the picture is sensed: finer than the field's, so that every pixel keeps a colour
+    of its own.
+    """
     edge = SIDE / PIXELS / 2
     x, y = (Axis(name, edge, SIDE - edge, PIXELS) for name in ("x", "y"))
     return x, y, Axis("channel", 0, 2, 3)
@@ -80,23 +88,37 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
     blur = model.add(Convolve([Gaussian(1.0, (1.0, 1.0, 1e-3), normalized=True)], name="blur"))
     perceptual = model.add(
         Field(
-            "perceptual", [x, y, hues], tau=TAU, resting_level=-5.0, sigmoid=sigmoid,
-            kernel=[Gaussian(18.0, (3.0, 3.0, 18.0), normalized=True)], global_inhibition=2.6e-3, noise=_noise([x, y, hues]),
+            "perceptual",
+            [x, y, hues],
+            tau=TAU,
+            resting_level=-5.0,
+            sigmoid=sigmoid,
+            kernel=[Gaussian(18.0, (3.0, 3.0, 18.0), normalized=True)],
+            global_inhibition=2.6e-3,
+            noise=_noise([x, y, hues]),
             quadrature=QUADRATURE,
         )
-    )  # fmt: skip
+    )
     eye >> colours >> blur >> model.add(Gain(2.6, name="camera strength")) >> perceptual
 
     # for looking at: the field seen along the rows, as the paper's figure draws it
     perceptual["activation"] >> model.add(Project([x, hues], reduce="max", name="seen"))
 
-    named = model.add(GaussianStimulus("cue", [hues], center=hue, sigma=18.0, amplitude=cue, windows=[Window(CUE_AT)]))
+    named = model.add(
+        GaussianStimulus("cue", [hues], center=hue, sigma=18.0, amplitude=cue, windows=[Window(CUE_AT)])
+    )
     colour = model.add(
         Field(
-            "colour", [hues], tau=TAU, resting_level=-3.0, sigmoid=sigmoid, kernel=[Gaussian(4.0, 18.0, normalized=True)],
-            noise=_noise([hues]), quadrature=QUADRATURE,
+            "colour",
+            [hues],
+            tau=TAU,
+            resting_level=-3.0,
+            sigmoid=sigmoid,
+            kernel=[Gaussian(4.0, 18.0, normalized=True)],
+            noise=_noise([hues]),
+            quadrature=QUADRATURE,
         )
-    )  # fmt: skip
+    )
     ridge = model.add(Convolve([Gaussian(CUE_STRENGTH, 22.0, normalized=True)], name="ridge"))
     named >> colour >> ridge >> perceptual
 
@@ -107,7 +129,12 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
             quadrature=QUADRATURE,
         )
     )  # fmt: skip
-    perceptual >> model.add(Project([x, y], name="where")) >> model.add(Gain(0.19, name="where strength")) >> spatial
+    (
+        perceptual
+        >> model.add(Project([x, y], name="where"))
+        >> model.add(Gain(0.19, name="where strength"))
+        >> spatial
+    )
 
     for name, axis in (("pan", x), ("tilt", y)):
         spatial >> model.add(Attractor(name, axis, tau=20_000.0, initial=SIDE / 2))

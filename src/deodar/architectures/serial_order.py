@@ -1,15 +1,17 @@
-"""Serial order: a chain of ordinal nodes that learns a sequence of actions from a demonstration and produces it again.
+"""Serial order: a chain of ordinal nodes that learns a sequence of actions from a demonstration and produces
+it again.
 
-Each position in the sequence is a pair: an ordinal node that is on while its action is under way, and a memory node that stays on until the next
-one has begun. Weights lead from each ordinal node to an action field; they learn what the node stands for. An action ends when the field of the
-condition of satisfaction detects what it predicts. Its peak switches all ordinal nodes off, and the memory node hands over to the next.
+Each position in the sequence is a pair: an ordinal node that is on while its action is under way, and a
+memory node that stays on until the next one has begun. Weights lead from each ordinal node to an action
+field; they learn what the node stands for. An action ends when the field of the condition of satisfaction
+detects what it predicts. Its peak switches all ordinal nodes off, and the memory node hands over to the next.
 
-`serial_order` is the chain by itself; `lesson` gives it a demonstration and then what is seen while it produces, as timed stimuli, so that it runs
-without any world.
+`serial_order` is the chain by itself; `lesson` gives it a demonstration and then what is seen while it
+produces, as timed stimuli, so that it runs without any world.
 
 Reference:
-    Sandamirskaya & Schöner (2010), An embodied account of serial order, Neural Networks 23(10), sections 4.1 to 4.4, eqs. 4 to 8, table B.1.
-    Where we depart from the table, it says so below.
+    Sandamirskaya & Schöner (2010), An embodied account of serial order, Neural Networks 23(10), sections 4.1
+    to 4.4, eqs. 4 to 8, table B.1. Where we depart from the table, it says so below.
 """
 
 from __future__ import annotations
@@ -38,8 +40,10 @@ TAU, STEEP = 10.0, 100.0
 """Time constant of all nodes and fields, ms, and beta of all sigmoids (table B.1)."""
 
 QUADRATURE = "point"
-"""Of all fields: the strengths count active samples of a grid in steps of 1. Sums over cells produce the same sequences
-(`python benchmarks/quadratures.py`)."""
+"""Of all fields: the strengths count active samples of a grid in steps of 1.
+
+Sums over cells produce the same sequences (`python benchmarks/quadratures.py`).
+"""
 
 LEARN = 1 / 20.0
 """Speed of learning, 1/ms: tau_l is 20 ms (table B.1)."""
@@ -59,19 +63,30 @@ STRENGTHS = {
 """Document parameters, numbered as in eqs. 4 and 5, with their sign: one knob for all pairs."""
 
 EXCITATION, WIDTH, INHIBITION = 0.9, 3.0, 0.5
-"""Kernel of action and satisfaction, for an axis in steps of 1. The table prints 5.0 for the inhibition, with which no peak can stand."""
+"""Kernel of action and satisfaction, for an axis in steps of 1.
+
+The table prints 5.0 for the inhibition, with which no peak can stand.
+"""
 
 READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -15.0
-"""c_ord; the homogeneous boost (c_ord in the table: the whole field would be above threshold); c_A (1.5 in the table); c_CoS."""
+"""c_ord; the homogeneous boost (c_ord in the table: the whole field would be above threshold); c_A (1.5 in
+the table); c_CoS.
+"""
 
 SHOWN, SEEN = 2.0, 0.95
-"""Strengths of what arrives at the action field while it is demonstrated (c_vis), and at the satisfaction field (c_vis^C, a little below its 1)."""
+"""Strengths of what arrives at the action field while it is demonstrated (c_vis), and at the satisfaction
+field (c_vis^C, a little below its 1).
+"""
 
 START, CLEAR = 3.8, -20.0
-"""Pulse that turns the first node on, and what clears all between learning and production. Ours: the paper says nothing of either."""
+"""Pulse that turns the first node on, and what clears all between learning and production.
+
+Ours: the paper says nothing of either.
+"""
 
 SHOW, DEMONSTRATION, LOOK = 1000.0, 1000.0, 400.0
-"""When the first action is shown, from one to the next, and from one place to the next during production, ms."""
+"""When the first action is shown, from one to the next, and from one place to the next during production, ms.
+"""
 
 MOST = 50
 """Longest chain (a guess: nobody learns a longer list at once)."""
@@ -83,7 +98,8 @@ def action_axis() -> Axis:
 
 
 def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
-    """One position of a sequence, to be inserted as a group: ordinal node, memory node, and the weights to what they stand for.
+    """One position of a sequence, to be inserted as a group: ordinal node, memory node, and the weights to
+    what they stand for.
 
     Equation::
 
@@ -91,8 +107,8 @@ def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
         tau dm/dt = -m + h_m + c4 f(m) + c5 others + c6 f(d)
         tau_l dM(x)/dt = gate (f(U_A(x)) - M(x)) f(d)
 
-    `others` is the sum of all other ordinal nodes: the sum of all, which arrives at `others.input`, less the own one. U_A arrives at
-    `meaning.post`; `meaning.output` is f(d) M(x).
+    `others` is the sum of all other ordinal nodes: the sum of all, which arrives at `others.input`, less the
+    own one. U_A arrives at `meaning.post`; `meaning.output` is f(d) M(x).
 
     Args:
         axis: of the actions.
@@ -121,9 +137,10 @@ def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
 def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) -> Model:
     """The chain: pairs `item 1`, `item 2`, ..., the fields `action` and `satisfaction`.
 
-    What is demonstrated arrives at `action`, what is perceived at `satisfaction`. `learning` and `producing` are the modes: the weights learn
-    during the one and are read during the other (the paper reads them always; then a slip of learning would hold itself). `start` is a pulse
-    at the first node, `clear` inhibits everything but the weights.
+    What is demonstrated arrives at `action`, what is perceived at `satisfaction`. `learning` and `producing`
+    are the modes: the weights learn during the one and are read during the other (the paper reads them
+    always; then a slip of learning would hold itself). `start` is a pulse at the first node, `clear` inhibits
+    everything but the weights.
 
     Args:
         items: positions, 1 to 50. A sequence may be shorter.
@@ -134,12 +151,16 @@ def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) 
         Sandamirskaya & Schöner (2010), eqs. 4 to 8.
     """
     if isinstance(items, bool) or not isinstance(items, int) or not 1 <= items <= MOST:
-        raise ParameterError(f"a chain has 1 to {MOST} items, not {show(items)}", fix="For example serial_order(5)")
+        raise ParameterError(
+            f"a chain has 1 to {MOST} items, not {show(items)}", fix="For example serial_order(5)"
+        )
     x = axis or action_axis()
     model = Model("serial order", dt=2.0)
     model.parameter("c2 next", STRENGTHS["c2 next"])
     kernel = [Gaussian(EXCITATION, WIDTH)]
-    action, satisfaction = (model.add(_field(name, [x], kernel, noise, INHIBITION)) for name in ("action", "satisfaction"))
+    action, satisfaction = (
+        model.add(_field(name, [x], kernel, noise, INHIBITION)) for name in ("action", "satisfaction")
+    )
     learning, producing = (model.add(Boost(name, [], amplitude=1.0)) for name in ("learning", "producing"))
     start = model.add(Boost("start", [], amplitude=START, windows=[Window(300.0, 400.0)]))
     clear = model.add(Boost("clear", [], amplitude=0.0))
@@ -173,29 +194,48 @@ def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) 
     return model
 
 
-def lesson(sequence: Sequence[float], seen: Sequence[float] = (), items: int | None = None, axis: Axis | None = None, noise: float = 0.22) -> Model:
+def lesson(
+    sequence: Sequence[float],
+    seen: Sequence[float] = (),
+    items: int | None = None,
+    axis: Axis | None = None,
+    noise: float = 0.22,
+) -> Model:
     """The chain with a demonstration and then a world to produce in, both as timed stimuli.
 
-    First each action of the sequence is shown for 0.6 s, and towards its end what is perceived when it is done; a second for each. Then all is
-    cleared but the weights, and the first node is started. From then on the places in `seen` are perceived one after another, over and over,
-    0.2 s each with 0.2 s between: whatever is being done can be completed when its place comes round, and not before.
+    First each action of the sequence is shown for 0.6 s, and towards its end what is perceived when it is
+    done; a second for each. Then all is cleared but the weights, and the first node is started. From then on
+    the places in `seen` are perceived one after another, over and over, 0.2 s each with 0.2 s between:
+    whatever is being done can be completed when its place comes round, and not before.
 
     Args:
         sequence: places of the actions on the axis, in their order; repeats are allowed.
-        seen: places that are perceived during production, in this order; none: those of the sequence, each once, from low to high.
-        items: positions of the chain; none: as many as the sequence has. With more, the node after the last comes on and stands for nothing.
+        seen: places that are perceived during production, in this order; none: those of the sequence, each
+            once, from low to high.
+        items: positions of the chain; none: as many as the sequence has. With more, the node after the last
+            comes on and stands for nothing.
         axis: as in `serial_order`.
         noise: as in `serial_order`.
     """
     x = axis or action_axis()
     if items is not None and items < len(sequence):
-        raise ParameterError(f"a chain of {items} items cannot hold a sequence of {len(sequence)}", fix=f"Give items={len(sequence)}, or none")
+        raise ParameterError(
+            f"a chain of {items} items cannot hold a sequence of {len(sequence)}",
+            fix=f"Give items={len(sequence)}, or none",
+        )
     model = serial_order(len(sequence) if items is None else items, x, noise)
     model.describe(name="lesson")
     begins = [SHOW + DEMONSTRATION * k for k in range(len(sequence))]
     for k, (place, t) in enumerate(zip(sequence, begins, strict=True), 1):
         for name, amplitude, first in (("shown", SHOWN, 0.0), ("end", SEEN, 400.0)):
-            stimulus = GaussianStimulus(f"{name} {k}", [x], center=place, sigma=WIDTH, amplitude=amplitude, windows=[Window(t + first, t + 600.0)])
+            stimulus = GaussianStimulus(
+                f"{name} {k}",
+                [x],
+                center=place,
+                sigma=WIDTH,
+                amplitude=amplitude,
+                windows=[Window(t + first, t + 600.0)],
+            )
             model.add(stimulus) >> model["action" if name == "shown" else "satisfaction"]
     learned = production_start(len(sequence))
     model.set("learning.windows", [Window(0.0, learned)])
@@ -207,7 +247,12 @@ def lesson(sequence: Sequence[float], seen: Sequence[float] = (), items: int | N
     for k, place in enumerate(places, 1):
         times = [learned + 1000.0 + LOOK * (k - 1 + len(places) * n) for n in range(len(sequence))]
         windows = [Window(t, t + LOOK / 2) for t in times]
-        model.add(GaussianStimulus(f"seen {k}", [x], center=place, sigma=WIDTH, amplitude=SEEN, windows=windows)) >> model["satisfaction"]
+        (
+            model.add(
+                GaussianStimulus(f"seen {k}", [x], center=place, sigma=WIDTH, amplitude=SEEN, windows=windows)
+            )
+            >> model["satisfaction"]
+        )
     return model
 
 
@@ -228,10 +273,20 @@ def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str 
     source >> through >> target
 
 
-def _field(name: str, axes: Sequence[Axis], kernel: Sequence[Gaussian], noise: float, inhibition: float = 0.0) -> Field:
+def _field(
+    name: str, axes: Sequence[Axis], kernel: Sequence[Gaussian], noise: float, inhibition: float = 0.0
+) -> Field:
     rest, steep = RESTING[name], Logistic(beta=STEEP)
     return Field(
-        name, axes, tau=TAU, resting_level=rest, sigmoid=steep, kernel=kernel, global_inhibition=inhibition, noise=noise, quadrature=QUADRATURE
+        name,
+        axes,
+        tau=TAU,
+        resting_level=rest,
+        sigmoid=steep,
+        kernel=kernel,
+        global_inhibition=inhibition,
+        noise=noise,
+        quadrature=QUADRATURE,
     )
 
 

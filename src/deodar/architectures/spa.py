@@ -1,17 +1,22 @@
-"""Simultaneous planning and action: a wave of motivation spreads from a goal, and a robot follows it through a maze.
+"""Simultaneous planning and action: a wave of motivation spreads from a goal, and a robot follows it through
+a maze.
 
-Four elementary behaviours (`_elementary_behaviour`) go north, south, west and east. The goal excites all motivation fields; obstacles inhibit them.
-Each place worth going north from makes the places south of it preconditions, and these motivate whatever leads there. Where the wave of
-motivation meets the robot, its place releases the precondition: an intention rises, excites an action field over turning angles, and the
-wheels turn. Nothing says when planning ends and acting begins, so that a plan changes while it is carried out.
+Four elementary behaviours (`_elementary_behaviour`) go north, south, west and east. The goal excites all
+motivation fields; obstacles inhibit them. Each place worth going north from makes the places south of it
+preconditions, and these motivate whatever leads there. Where the wave of motivation meets the robot, its
+place releases the precondition: an intention rises, excites an action field over turning angles, and the
+wheels turn. Nothing says when planning ends and acting begins, so that a plan changes while it is carried
+out.
 
-The document counts time in steps of the published simulation, 64 ms each, and space in cm, which are its cells: its numbers stand here as they
-are. Space is that of the arena (x to the east, y to the north); row r and column c of the published fields are `place(r, c)`.
+The document counts time in steps of the published simulation, 64 ms each, and space in cm, which are its
+cells: its numbers stand here as they are. Space is that of the arena (x to the east, y to the north); row r
+and column c of the published fields are `place(r, c)`.
 
 References:
-    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action: neural-dynamic sequencing of elementary behaviors in robot
-    navigation, Adapt. Behav. 23(5), section 3.2, figure 4, appendix A, table 2. Their published simulator (BSD) decides where print and code
-    differ: eq. 12 prints pi for tau; eq. 4 lets satisfaction inhibit motivation, which the code does not; the action field's tau is 3.
+    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action: neural-dynamic sequencing of
+    elementary behaviors in robot navigation, Adapt. Behav. 23(5), section 3.2, figure 4, appendix A, table 2.
+    Their published simulator (BSD) decides where print and code differ: eq. 12 prints pi for tau; eq. 4 lets
+    satisfaction inhibit motivation, which the code does not; the action field's tau is 3.
 """
 
 from __future__ import annotations
@@ -52,14 +57,25 @@ DIRECTIONS = {"north": (0.0, STEP), "south": (0.0, -STEP), "west": (-STEP, 0.0),
 OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}
 
 NOISE = {"none": (0.0, 0.0, 1.0), "low": (0.05, 0.5, 1.0), "high": (1.0, 2.0, 1.2)}
-"""Levels of section 4: of the map (share of its strength), of the place sense (cm), and a factor on the place input (published code only)."""
+"""Levels of section 4: of the map (share of its strength), of the place sense (cm), and a factor on the place
+input (published code only).
+"""
 
-BETWEEN = {"2c precondition to motivation, perpendicular": 4.5, "2d precondition to motivation, opposite": -10.0}
-"""Strengths between behaviours, as document parameters. They are not shifted, and have no kernel. Connection 2b does not occur."""
+BETWEEN = {
+    "2c precondition to motivation, perpendicular": 4.5,
+    "2d precondition to motivation, opposite": -10.0,
+}
+"""Strengths between behaviours, as document parameters.
+
+They are not shifted, and have no kernel. Connection 2b does not occur.
+"""
 
 ENDS = "periodic"
-"""Kernels in space wrap round the ends, as published. What lies beyond the ends must inhibit: kernels that see nothing there leave the outermost
-cells half of the walls' inhibition, motivation leaks into them, and intentions rise where no precondition can hold them down."""
+"""Kernels in space wrap round the ends, as published.
+
+What lies beyond the ends must inhibit: kernels that see nothing there leave the outermost cells half of the
+walls' inhibition, motivation leaks into them, and intentions rise where no precondition can hold them down.
+"""
 
 TOUCHED = 1e-3
 """Share of a cell from which it counts as wall: as in the published map, all cells that a wall touches."""
@@ -73,7 +89,9 @@ BIN = 3.6
 
 SENSOR_BINS = (55, 65, 90, 100, 1, 10, 35, 45)
 SENSOR_SHARES = (1.0, 1.0, 0.5, 0.5, 0.5, 0.5, 1.0, 1.0)
-"""Bins at which the infrared sensors 0 to 7 act (50 is straight ahead, larger is to the right), and how much: those aside and behind half."""
+"""Bins at which the infrared sensors 0 to 7 act (50 is straight ahead, larger is to the right), and how much:
+those aside and behind half.
+"""
 
 SPEED, TURN = 500.0, 400.0
 """Motor steps per second: of a wheel for an input of 1, and the largest difference between both."""
@@ -81,20 +99,29 @@ SPEED, TURN = 500.0, 400.0
 MAZES = ("z", "large")
 
 CASE_3 = ((50, 60), (40, 40))
-"""Row and column of start and goal of case 3. The goal is published. The start is inferred: the text does not print it, and the pose in the
-world file is in sight of the goal; from this one, looking east, route and times of the narrative come out."""
+"""Row and column of start and goal of case 3.
+
+The goal is published. The start is inferred: the text does not print it, and the pose in the world file is in
+sight of the goal; from this one, looking east, route and times of the narrative come out.
+"""
 
 OBSTACLES = {"full": ((-65.0, 90.0), (10.0, 20.0)), "partial": ((-65.0, 82.5), (30.0, 15.0))}
-"""Middle and size (x and y, cm) of the obstacles of case 3: the one closes the northern route, the other leaves a lane of 10 cm."""
+"""Middle and size (x and y, cm) of the obstacles of case 3: the one closes the northern route, the other
+leaves a lane of 10 cm.
+"""
 
 
 def place(row: float, column: float) -> tuple[float, float]:
-    """Where a cell of the published fields stands (counted from 1), x and y in cm; in the Z-maze and in the large one alike."""
+    """Where a cell of the published fields stands (counted from 1), x and y in cm; in the Z-maze and in the
+    large one alike.
+    """
     return column - 105.0, 105.0 - row
 
 
 def space(arena: Arena) -> tuple[Axis, Axis]:
-    """The axes of the planning fields: the arena and a margin of 5 cm, one sample a cm, as in the published fields."""
+    """The axes of the planning fields: the arena and a margin of 5 cm, one sample a cm, as in the published
+    fields.
+    """
     left, low, right, high = (100 * v for v in arena.layout.border)
     x = math.floor(left + 1e-6) - 4, math.ceil(right - 1e-6) + 5
     y = math.floor(low + 1e-6) - 5, math.ceil(high - 1e-6) + 4
@@ -113,7 +140,8 @@ def maze(
     goal: Sequence[float] | np.ndarray | None = None,
     **others: Any,
 ) -> Arena:
-    """A published maze with the robot in it, lengths in cm; start and goal are those of case 3 (in the large maze: the file's) unless given.
+    """A published maze with the robot in it, lengths in cm; start and goal are those of case 3 (in the large
+    maze: the file's) unless given.
 
     Args:
         name: z or large, or another arena.
@@ -125,7 +153,12 @@ def maze(
     if name == "z":
         start = (*place(*CASE_3[0]), 0.0) if start is None else start
         goal = place(*CASE_3[1]) if goal is None else goal
-    settings: dict[str, Any] = {"unit": "cm", "period": STEP_MS, "place_noise": level(noise)[1], "place_every": 2}
+    settings: dict[str, Any] = {
+        "unit": "cm",
+        "period": STEP_MS,
+        "place_noise": level(noise)[1],
+        "place_every": 2,
+    }
     return Arena(name, start, goal, **settings | others)
 
 
@@ -140,16 +173,23 @@ def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> 
     """The architecture for an arena; it is run in this one, or in another of the same size and unit.
 
     Args:
-        arena: says how large the planning fields are, and in which unit places are read; `maze` makes the published ones.
-        noise: none, low or high: on the map, and how strong the place input is. That of the place sense itself is the arena's.
-        place_factor: factor on the place input. None takes that of the level of noise: 1.2 with high noise, 1 otherwise. The paper does not
-            mention the 1.2; the published code has it.
+        arena: says how large the planning fields are, and in which unit places are read; `maze` makes the
+            published ones.
+        noise: none, low or high: on the map, and how strong the place input is. That of the place sense
+            itself is the arena's.
+        place_factor: factor on the place input. None takes that of the level of noise: 1.2 with high noise, 1
+            otherwise. The paper does not mention the 1.2; the published code has it.
     """
     on_map, _, by_level = level(noise)
     trust = by_level if place_factor is None else place_factor
     axes = space(arena)
     model = Model("simultaneous planning and action", time_unit="1 = 64 ms", dt=1.0)
-    model.describe(notes="Billing, Lowe & Sandamirskaya (2015), figure 4. Run it in an arena with a goal; time is in steps of 64 ms.")
+    model.describe(
+        notes=(
+            "Billing, Lowe & Sandamirskaya (2015), figure 4. Run it in an arena with a goal; time is in steps"
+            " of 64 ms."
+        )
+    )
     for name, value in BETWEEN.items():
         model.parameter(name, value)
     walls, goal, here = _planning_inputs(model, axes, on_map, trust, 100 * arena.scale)
@@ -166,13 +206,19 @@ def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> 
         _action(model, name, compass, [avoid, alarm], wheels)
     for name in DIRECTIONS:
         _compete(model, name)
-    model.add(Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose"))  # these two are for records and figures; nothing reads them
+    model.add(
+        Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose")
+    )  # these two are for records and figures; nothing reads them
     model.add(Sensor("touching", sensor="touching"))
     return model
 
 
-def _planning_inputs(model: Model, axes: Sequence[Axis], on_map: float, trust: float, cm: float) -> tuple[Handle, Handle, Handle]:
-    """What the motivation fields hear of walls and goal, and the satisfaction fields of the robot's place; `cm`: in a unit of the arena."""
+def _planning_inputs(
+    model: Model, axes: Sequence[Axis], on_map: float, trust: float, cm: float
+) -> tuple[Handle, Handle, Handle]:
+    """What the motivation fields hear of walls and goal, and the satisfaction fields of the robot's place;
+    `cm`: in a unit of the arena.
+    """
     both = Axis("x, y", 0, 1, 2)
     walls = model.add(Convolve([Gaussian(MAP, 2.0, normalized=True, boundary=[ENDS])], name="walls"))
     occupied = model.add(Sigmoid(Step(TOUCHED), name="occupied"))
@@ -186,48 +232,91 @@ def _planning_inputs(model: Model, axes: Sequence[Axis], on_map: float, trust: f
 
 
 def _proximity(model: Model) -> tuple[Handle, Handle]:
-    """The proximity field: what it inhibits around each obstacle, and the little that it adds everywhere (published code)."""
+    """The proximity field: what it inhibits around each obstacle, and the little that it adds everywhere
+    (published code).
+    """
     turn = turning()
     seen = model.add(Sensor("infrared", [Axis("sensor", 0, 7, 8)], sensor="infrared"))
     bins = np.arange(1, 101)[:, None]
     spots = np.exp(-0.5 * ((bins - np.array(SENSOR_BINS)) / 3.0) ** 2) * SENSOR_SHARES
     around = model.add(Weights(spots, [turn], name="around"))  # type: ignore[arg-type]
-    near = model.add(Field("proximity", [turn], tau=5.0, resting_level=RESTING, sigmoid=Logistic(beta=3.0), quadrature=QUADRATURE))
+    near = model.add(
+        Field(
+            "proximity",
+            [turn],
+            tau=5.0,
+            resting_level=RESTING,
+            sigmoid=Logistic(beta=3.0),
+            quadrature=QUADRATURE,
+        )
+    )
     seen >> model.add(Logarithm(5.0, 50.0, name="loudness")) >> around >> near
     avoid = model.add(Convolve([Gaussian(-16.0, 12 * BIN, normalized=True)], name="avoid"))
     near >> avoid
-    alarm = near >> model.add(Project([], reduce="sum", name="alarm")) >> model.add(Gain(0.01, name="alarm strength"))
+    alarm = (
+        near
+        >> model.add(Project([], reduce="sum", name="alarm"))
+        >> model.add(Gain(0.01, name="alarm strength"))
+    )
     return avoid, alarm
 
 
 def _action(model: Model, name: str, compass: Handle, biases: Sequence[Handle], wheels: Handle) -> None:
-    """The action field of a behaviour: below threshold by the heading alone, it turns the wheels when there is an intention."""
+    """The action field of a behaviour: below threshold by the heading alone, it turns the wheels when there
+    is an intention.
+    """
     turn, (east, north) = turning(), DIRECTIONS[name]
     base = math.degrees(math.atan2(north, east))
     action = model.add(
-        Field("action", [turn], tau=3.0, resting_level=RESTING, sigmoid=Logistic(beta=4.0), global_inhibition=0.05 / BIN, quadrature=QUADRATURE),
+        Field(
+            "action",
+            [turn],
+            tau=3.0,
+            resting_level=RESTING,
+            sigmoid=Logistic(beta=4.0),
+            global_inhibition=0.05 / BIN,
+            quadrature=QUADRATURE,
+        ),
         group=name,
     )
-    compass >> model.add(SpaceCode([turn], 30 * BIN, 4.0, gain=180 / math.pi, offset=-base, name="heading"), group=name) >> action
+    (
+        compass
+        >> model.add(
+            SpaceCode([turn], 30 * BIN, 4.0, gain=180 / math.pi, offset=-base, name="heading"), group=name
+        )
+        >> action
+    )
     strongest = model.add(Project([], reduce="max", name="strongest"), group=name)
     model[f"{name}.intention"] >> strongest >> model.add(Gain(2.0, name="go"), group=name) >> action
     for bias in biases:
         bias >> action
     # right mirrors left about bin 50.5, as published, and straight ahead is 50: half a bin to the left
     angles = np.deg2rad(turn.points)
-    weights = {"left": np.sin(angles - math.radians(BIN) + math.pi / 3), "right": np.sin(math.pi / 3 - angles)}
+    weights = {
+        "left": np.sin(angles - math.radians(BIN) + math.pi / 3),
+        "right": np.sin(math.pi / 3 - angles),
+    }
     for side, values in weights.items():
         wheel = model.add(Weighting(values, (turn,), name=f"{side} wheel"), group=name)  # type: ignore[arg-type]
         action >> wheel
         for most in ("max", "min"):
-            wheel >> model.add(Project([], reduce=most, name=f"{side} wheel, {most}"), group=name) >> wheels[side]
+            (
+                wheel
+                >> model.add(Project([], reduce=most, name=f"{side} wheel, {most}"), group=name)
+                >> wheels[side]
+            )
 
 
 def _compete(model: Model, name: str) -> None:
-    """Where one behaviour's precondition asks to be, both perpendicular ones are motivated, and the opposite one is not."""
+    """Where one behaviour's precondition asks to be, both perpendicular ones are motivated, and the opposite
+    one is not.
+    """
     asks = model[f"{name}.precondition"]
     aside, against = BETWEEN
-    for knob, targets in ((aside, [n for n in DIRECTIONS if n not in (name, OPPOSITE[name])]), (against, [OPPOSITE[name]])):
+    for knob, targets in (
+        (aside, [n for n in DIRECTIONS if n not in (name, OPPOSITE[name])]),
+        (against, [OPPOSITE[name]]),
+    ):
         strength = model.add(Gain(BETWEEN[knob], name="aside" if knob == aside else "against"), group=name)
         model.link(f"{strength.path}.factor", knob)
         asks >> strength

@@ -1,18 +1,22 @@
 """A field in two layers: excitation in one, inhibition in another that it drives.
 
-The one-layer field computes inhibition without delay. With a layer of its own inhibition comes later, by the time constant of that layer, has a
-threshold, and may be shared: connect other fields to `inhibitory`, and `inhibitory` to them.
+The one-layer field computes inhibition without delay. With a layer of its own inhibition comes later, by the
+time constant of that layer, has a threshold, and may be shared: connect other fields to `inhibitory`, and
+`inhibitory` to them.
 
-    tau u' = -u + h + s(x, t) + integral k(x - x') g(u(x')) dx' + integral k_v(x - x') g_v(v(x')) dx' - c integral g_v(v) dx
+    tau u' = -u + h + s(x, t) + integral k(x - x') g(u(x')) dx'
+             + integral k_v(x - x') g_v(v(x')) dx' - c integral g_v(v) dx
     tau_v v' = -v + h_v + integral k_d(x - x') g(u(x')) dx'
 
-With tau_v far below tau, h_v = 0 and g_v linear it is the one-layer field whose kernels are those of k, and those of k_v convolved with k_d.
+With tau_v far below tau, h_v = 0 and g_v linear it is the one-layer field whose kernels are those of k, and
+those of k_v convolved with k_d.
 
 References:
-    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.1 (when a layer of its own may be left out).
-    Amari (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27, section 5 (two layers).
-    Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation, maintenance, and updating of representations in
-    visual working memory, Brain Res. 1299, 17-32 (a layer of inhibition shared by two fields).
+    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.1 (when a layer of its own may be left out). Amari
+    (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27, section
+    5 (two layers). Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation,
+    maintenance, and updating of representations in visual working memory, Brain Res. 1299, 17-32 (a layer of
+    inhibition shared by two fields).
 """
 
 from __future__ import annotations
@@ -43,15 +47,19 @@ def two_layer_field(
     sigmoid_inhibition: SigmoidFunction | None = None,
     noise: float = 0.0,
 ) -> Model:
-    """The two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group; input goes to `excitatory`.
+    """The two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group; input
+    goes to `excitatory`.
 
     Args:
         axes: the metric dimensions, of both layers.
         kernel: k, excitation within the excitatory layer, summed.
-        inhibition: k_v, from the inhibitory layer to the excitatory one, summed; its amplitudes are negative, as in a Field.
+        inhibition: k_v, from the inhibitory layer to the excitatory one, summed; its amplitudes are negative,
+            as in a Field.
         global_inhibition: c, on the integral of the inhibitory layer's output.
-        drive: k_d, from the excitatory layer to the inhibitory one, summed; none: place by place, with a strength of 1.
-        tau: time constant of the excitatory layer, in the document's time unit; > 0, and no shorter than the step.
+        drive: k_d, from the excitatory layer to the inhibitory one, summed; none: place by place, with a
+            strength of 1.
+        tau: time constant of the excitatory layer, in the document's time unit; > 0, and no shorter than the
+            step.
         tau_inhibition: tau_v, that of the inhibitory layer, likewise.
         resting_level: h, attractor of the excitatory layer without input.
         resting_inhibition: h_v, attractor of the inhibitory layer without input.
@@ -60,8 +68,12 @@ def two_layer_field(
         noise: strength of the noise of the excitatory layer.
     """
     model = Model("two-layer field")
-    excitatory = model.add(Field("excitatory", axes, tau, resting_level, sigmoid or Logistic(), kernel, noise=noise))
-    inhibitory = model.add(Field("inhibitory", axes, tau_inhibition, resting_inhibition, sigmoid_inhibition or Logistic()))
+    excitatory = model.add(
+        Field("excitatory", axes, tau, resting_level, sigmoid or Logistic(), kernel, noise=noise)
+    )
+    inhibitory = model.add(
+        Field("inhibitory", axes, tau_inhibition, resting_inhibition, sigmoid_inhibition or Logistic())
+    )
     if drive:
         excitatory >> model.add(Convolve(drive, name="drive")) >> inhibitory
     else:

@@ -30,7 +30,9 @@ from deodar.session.run import Run, require_step, whole
 from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
-Spread = Callable[[Model, World | None, Sequence[Mapping[str, Any]], int, Callable[[int], None]], list[pieces.Part | None]]
+Spread = Callable[
+    [Model, World | None, Sequence[Mapping[str, Any]], int, Callable[[int], None]], list[pieces.Part | None]
+]
 """A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
 
 
@@ -53,16 +55,20 @@ def compute(
     width: tuple[str, int] | None = None,
     spread: Spread | None = None,
 ) -> pieces.Part:
-    """Compute a whole run of `simulate`, or one piece of it; if all its copies diverge, the error is returned beside the record.
+    """Compute a whole run of `simulate`, or one piece of it; if all its copies diverge, the error is returned
+    beside the record.
 
-    `spread`: runs pieces in worker processes.
-    `width`: a dimension and its length in the other pieces. The piece is filled up to it with copies of its last one, whose results are not kept:
-    the last digits in single precision depend on how many copies are computed together.
+    `spread`: runs pieces in worker processes. `width`: a dimension and its length in the other pieces. The
+    piece is filled up to it with copies of its last one, whose results are not kept: the last digits in
+    single precision depend on how many copies are computed together.
     """
     doc = require_model(model).document
     model.require()
     if sweep is not None and not isinstance(sweep, Mapping):
-        raise ParameterError(f"sweep gives for each parameter path its values, not {show(sweep)}", fix="For example sweep={'u.tau': [10, 20]}")
+        raise ParameterError(
+            f"sweep gives for each parameter path its values, not {show(sweep)}",
+            fix="For example sweep={'u.tau': [10, 20]}",
+        )
     step = doc.step if dt is None else dt
     require_step(doc, step)
     seed = require_seed(seed)
@@ -83,27 +89,57 @@ def compute(
     recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * count * copies.size
     beside = min(workers or 0, cut.count) if cut.count > 1 else 0
     memory.require(
-        nodes, precision, cut.batch, recorded * (2 if cut.count > 1 else 1), points.rebuilt(), min(points.size, cut.batch), beside
-    )  # fmt: skip
+        nodes,
+        precision,
+        cut.batch,
+        recorded * (2 if cut.count > 1 else 1),
+        points.rebuilt(),
+        min(points.size, cut.batch),
+        beside,
+    )
     paths = None if record is None else [find.written(doc, path) for path in _list(record)]
-    settings = {"duration": float(duration), "seed": seed, "every": every, "accuracy": accuracy, "record": paths}
+    settings = {
+        "duration": float(duration),
+        "seed": seed,
+        "every": every,
+        "accuracy": accuracy,
+        "record": paths,
+    }
     labels, grid = list(numbers) if names else None, points.by_path
     asked = {"trials": labels, "sweep": grid, "workers": workers, "device": device}
     if cut.count > 1:
         settings |= {"dt": float(step), "precision": precision, "device": device}
         jobs = [settings | own for own in cut.settings(labels, grid)]
         parts = _in_pieces(model, jobs, workers, world, steps, progress, spread)
-        data, complete = pieces.joined(cut, parts, asked), sum(part is not None and part.complete for part in parts)
+        data, complete = (
+            pieces.joined(cut, parts, asked),
+            sum(part is not None and part.complete for part in parts),
+        )
         if complete < len(parts):
-            raise Interrupted(f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data)
+            raise Interrupted(
+                f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data
+            )
         errors = [part.lost for part in parts if part is not None]
         return pieces.Part(data, True, errors[0] if all(error is not None for error in errors) else None)
     stopped, nothing = False, None
     with stoppable() as check:
         more_points, more_trials = _missing(width, points, len(numbers))
-        filled = Batch(points.size + more_points if sweep else None, len(numbers) + more_trials if names else None)
-        program = executable(model, doc, precision, filled, points.leaves if sweep else (), device, accuracy, embodied(doc, world))
-        swept = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values] if sweep else None
+        filled = Batch(
+            points.size + more_points if sweep else None, len(numbers) + more_trials if names else None
+        )
+        program = executable(
+            model,
+            doc,
+            precision,
+            filled,
+            points.leaves if sweep else (),
+            device,
+            accuracy,
+            embodied(doc, world),
+        )
+        swept = (
+            [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values] if sweep else None
+        )
         run = Run(program, doc, float(step), seed, [*numbers, *[numbers[-1]] * more_trials], world, swept)
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
@@ -124,7 +160,9 @@ def compute(
                 raise
             store.fill()
             nothing = error
-    from deodar.recording.diverged import marked  # these import xarray, which takes 0.3 s: sessions do without
+    from deodar.recording.diverged import (
+        marked,
+    )  # these import xarray, which takes 0.3 s: sessions do without
     from deodar.recording.record import dataset
 
     times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)
@@ -139,7 +177,11 @@ def compute(
         points.by_path,
         about | {"complete": not stopped},
     )
-    kept = {copy: error for copy, error in run.lost.items() if all(k < n for k, n in zip(copy, copies.shape, strict=True))}
+    kept = {
+        copy: error
+        for copy, error in run.lost.items()
+        if all(k < n for k, n in zip(copy, copies.shape, strict=True))
+    }
     reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in kept.items()}
     data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
     if stopped:
@@ -159,7 +201,13 @@ def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tupl
 
 
 def _in_pieces(
-    model: Model, jobs: Sequence[Mapping[str, Any]], count: int | None, world: World | None, steps: int, progress: Shown, spread: Spread | None
+    model: Model,
+    jobs: Sequence[Mapping[str, Any]],
+    count: int | None,
+    world: World | None,
+    steps: int,
+    progress: Shown,
+    spread: Spread | None,
 ) -> list[pieces.Part | None]:
     """Compute the pieces one after another, or in `count` worker processes."""
     parts: list[pieces.Part | None] = [None] * len(jobs)
@@ -173,7 +221,9 @@ def _in_pieces(
             return spread(model, world, jobs, count, between)
         for k, job in enumerate(jobs):
             try:
-                parts[k] = compute(model, world=world, progress=lambda done, k=k: between(k * steps + done), **job)
+                parts[k] = compute(
+                    model, world=world, progress=lambda done, k=k: between(k * steps + done), **job
+                )
             except Interrupted as error:
                 parts[k] = pieces.Part(error.data, False)
                 break
@@ -181,19 +231,34 @@ def _in_pieces(
 
 
 def _cut(
-    bytes_a_copy: int, trials: Sequence[int] | None, points: Points, workers: int | None, batch: int | None, device: str | None
+    bytes_a_copy: int,
+    trials: Sequence[int] | None,
+    points: Points,
+    workers: int | None,
+    batch: int | None,
+    device: str | None,
 ) -> pieces.Pieces:
-    lengths = ({} if trials is None else {"trial": len(trials)}) | {path: len(values) for path, values in points.by_path.items()}
+    lengths = ({} if trials is None else {"trial": len(trials)}) | {
+        path: len(values) for path, values in points.by_path.items()
+    }
     on_cpu = device is None or devices.find(device).platform == devices.DEFAULT
     if workers is not None and not on_cpu:
-        raise WorkerError(f"worker processes run on the cores of the CPU, not on {device!r}", fix="Leave out workers, or device")
-    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, 1 if workers is None else require_workers(workers), batch)
+        raise WorkerError(
+            f"worker processes run on the cores of the CPU, not on {device!r}",
+            fix="Leave out workers, or device",
+        )
+    return pieces.cut(
+        lengths, bytes_a_copy if on_cpu else 0, 1 if workers is None else require_workers(workers), batch
+    )
 
 
 def require_workers(workers: Any) -> int:
     """The number of workers, refused if it is none."""
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
-        raise ParameterError(f"workers is {show(workers)}; it is a number of processes, at least 1", fix="One for each core is best")
+        raise ParameterError(
+            f"workers is {show(workers)}; it is a number of processes, at least 1",
+            fix="One for each core is best",
+        )
     return int(workers)
 
 
@@ -204,7 +269,9 @@ class _Store:
         self.lead = len(batch.shape)
         self.count = count
         self.taken = 0
-        self.arrays = [np.empty((*batch.shape, count, *shape(program.axes(p))), program.program.dtype) for p in ports]
+        self.arrays = [
+            np.empty((*batch.shape, count, *shape(program.axes(p))), program.program.dtype) for p in ports
+        ]
 
     def collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
         n = seen[0].shape[self.lead] if seen else 0
@@ -223,7 +290,10 @@ def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str,
     if record is None:
         fields = [(e.id, "activation") for e in doc.entries if isinstance(e.element, Field)]
         if not fields:
-            raise ParameterError("the model has no field, so it must be said what to record", fix="For example record=['left.output']")
+            raise ParameterError(
+                "the model has no field, so it must be said what to record",
+                fix="For example record=['left.output']",
+            )
         return fields
     found = [find.shown(doc, path) for path in _list(record)]
     if not found:
@@ -232,10 +302,15 @@ def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str,
 
 
 def _list(record: Sequence[str] | str) -> list[str]:
-    paths: list[Any] = [record] if isinstance(record, (str, Handle)) or not np.iterable(record) else list(record)
+    paths: list[Any] = (
+        [record] if isinstance(record, (str, Handle)) or not np.iterable(record) else list(record)
+    )
     paths = [path_of(p) if isinstance(p, Handle) else p for p in paths]
     if not all(isinstance(path, str) for path in paths):
-        raise ParameterError(f"record names ports by their paths, not {show(record)}", fix="For example record=['u.activation']")
+        raise ParameterError(
+            f"record names ports by their paths, not {show(record)}",
+            fix="For example record=['u.activation']",
+        )
     return paths
 
 
@@ -251,7 +326,9 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, S
     if isinstance(trials, (int, np.integer)) and not isinstance(trials, bool) and 1 <= trials <= LARGEST_SEED:
         return range(int(trials)), range(int(trials))  # not a list: memory is checked later
     if isinstance(trials, (str, bool, int, np.integer)) or not np.iterable(trials):
-        raise ParameterError(f"trials is {show(trials)}; it is a number of trials, at least 1, or a list of trial numbers")
+        raise ParameterError(
+            f"trials is {show(trials)}; it is a number of trials, at least 1, or a list of trial numbers"
+        )
     numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
         raise ParameterError(f"trials is {show(trials)}; each trial is named once, and there is at least one")

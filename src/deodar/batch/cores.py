@@ -14,13 +14,15 @@ from deodar.parameters import show
 def use_cores(n: int) -> None:
     """Let every program of this process use n cores of the CPU.
 
-    Call it before the first run. XLA makes its pool of threads when it starts, and reads their number (`NPROC` in the environment) then and
-    never again; the number also decides how programs are compiled. Without it, and without `NPROC`, XLA takes all cores that the process may use.
+    Call it before the first run. XLA makes its pool of threads when it starts, and reads their number
+    (`NPROC` in the environment) then and never again; the number also decides how programs are compiled.
+    Without it, and without `NPROC`, XLA takes all cores that the process may use.
 
-    One core is right for most single runs, and the command line's default: work on fields below 50 x 50 x 30 samples ends no sooner on
-    two cores (the difference lay within 15 %) and takes up to twice the CPU time. A field of 50 x 50 x 30 was done in 0.7 of the time, for 1.15
-    times the CPU time (measured by `NPROC=1` against `NPROC=2` on two otherwise idle cores). Trials and sweeps gain from
-    `simulate(..., workers=n)`, which runs processes of one core each.
+    One core is right for most single runs, and the command line's default: work on fields below 50 x 50 x 30
+    samples ends no sooner on two cores (the difference lay within 15 %) and takes up to twice the CPU time. A
+    field of 50 x 50 x 30 was done in 0.7 of the time, for 1.15 times the CPU time (measured by `NPROC=1`
+    against `NPROC=2` on two otherwise idle cores). Trials and sweeps gain from `simulate(..., workers=n)`,
+    which runs processes of one core each.
 
     Args:
         n: number of cores, at least 1.
@@ -30,11 +32,17 @@ def use_cores(n: int) -> None:
         CoresError: JAX has started with another number.
     """
     if isinstance(n, bool) or not isinstance(n, int) or n < 1:
-        raise ParameterError(f"a number of cores is a whole number, at least 1, not {show(n)}", fix="For example dd.use_cores(1)")
+        raise ParameterError(
+            f"a number of cores is a whole number, at least 1, not {show(n)}",
+            fix="For example dd.use_cores(1)",
+        )
     if started() and n != cores():
         raise CoresError(
             f"JAX has already started with {cores()} cores, and keeps them until the process ends",
-            fix=f"Call dd.use_cores({n}) before the first run, or start Python with {CORES}={n} in the environment",
+            fix=(
+                f"Call dd.use_cores({n}) before the first run, or start Python with {CORES}={n} in the"
+                " environment"
+            ),
         )
     os.environ[CORES] = str(n)
 

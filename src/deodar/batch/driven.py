@@ -19,11 +19,18 @@ def driven(doc: Document, path: str) -> list[Leaf]:
     if found.entry is None:
         links = next(k.links for k in doc.knobs if k.name == found.knob)
         if not links:
-            raise ParameterError(f"the document parameter {path!r} drives nothing", fix="Link something to it: model.link(path, name)")
+            raise ParameterError(
+                f"the document parameter {path!r} drives nothing",
+                fix="Link something to it: model.link(path, name)",
+            )
         return list(links)
     get(found.entry.element, found.parameter)
     known = {leaf: p for leaf, _, p in leaves(found.entry.element) if p.form != "array"}
     inside = [leaf for leaf in known if leaf == found.parameter or leaf.startswith(found.parameter + ".")]
     if not inside:
-        raise ParameterError("cannot be swept: changing it makes another program", where=path, fix=f"Sweep one of: {', '.join(known)}")
+        raise ParameterError(
+            "cannot be swept: changing it makes another program",
+            where=path,
+            fix=f"Sweep one of: {', '.join(known)}",
+        )
     return [(found.entry.id, leaf) for leaf in inside]

@@ -27,7 +27,8 @@ class Parcel:
     Attributes:
         document: the model's document as JSON text, and its `arrays` as the content of their file.
         trusted: whether functions that the document names may be run.
-        kinds: the classes outside deodar that the document names, pickled: reading them imports their modules, which registers them.
+        kinds: the classes outside deodar that the document names, pickled: reading them imports their
+            modules, which registers them.
         packed: the world, pickled.
     """
 
@@ -48,7 +49,13 @@ class Parcel:
         outside = _outside(data)
         _require_module([*outside, *([type(world)] if world is not None else [])])
         held = files.pack(arrays) if arrays else b""
-        return cls(json.dumps(data), held, model.trusted, _pickled(outside, "an element"), _pickled(world, f"the world {type(world).__name__}"))
+        return cls(
+            json.dumps(data),
+            held,
+            model.trusted,
+            _pickled(outside, "an element"),
+            _pickled(world, f"the world {type(world).__name__}"),
+        )
 
     @property
     def model(self) -> Model:
@@ -86,4 +93,7 @@ def _pickled(what: Any, name: str) -> bytes:
     try:
         return pickle.dumps(what)
     except Exception as error:  # a class may refuse in any way
-        raise WorkerError(f"{name} cannot be handed to other processes ({type(error).__name__}: {error})", fix="Run without workers") from None
+        raise WorkerError(
+            f"{name} cannot be handed to other processes ({type(error).__name__}: {error})",
+            fix="Run without workers",
+        ) from None

@@ -1,4 +1,6 @@
-"""How a large batch is cut into pieces that run one after another, or in processes beside each other, and put together again."""
+"""How a large batch is cut into pieces that run one after another, or in processes beside each other, and put
+together again.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ if TYPE_CHECKING:
 
 
 class Part(NamedTuple):
-    """The record of a piece, whether it is complete, and the error of its first copy if all of its copies diverged."""
+    """The record of a piece, whether it is complete, and the error of its first copy if all of its copies
+    diverged.
+    """
 
     data: xarray.Dataset
     complete: bool
@@ -29,11 +33,12 @@ class Part(NamedTuple):
 BATCH_BYTES = 8 * 2**20
 """Ports of all copies in one batch, in bytes: beyond it a step no longer stays in the processor's cache.
 
-`python benchmarks/batches.py` prints the time of a step for each copy over the size of the batch. On a processor with 1 MiB of cache for
-each core and 32 MiB for all, planes of 200 x 200 take no longer in batches up to 8 (6 MiB), 1.3 times as long in batches of 24 (19 MiB), 1.6
-times in batches of 48; 20 lines with 20 nodes are quickest at 100 to 200 (8 to 16 MiB) and take 2.5 times as long at 400 (31 MiB); single
-lines of 200 gain up to 400, which are 2 MiB. Smaller pieces cost little: from 16 copies of a plane, and from 64 of a line, a step is
-within 10 % of the quickest.
+`python benchmarks/batches.py` prints the time of a step for each copy over the size of the batch. On a
+processor with 1 MiB of cache for each core and 32 MiB for all, planes of 200 x 200 take no longer in batches
+up to 8 (6 MiB), 1.3 times as long in batches of 24 (19 MiB), 1.6 times in batches of 48; 20 lines with 20
+nodes are quickest at 100 to 200 (8 to 16 MiB) and take 2.5 times as long at 400 (31 MiB); single lines of 200
+gain up to 400, which are 2 MiB. Smaller pieces cost little: from 16 copies of a plane, and from 64 of a line,
+a step is within 10 % of the quickest.
 """
 
 
@@ -44,7 +49,8 @@ class Pieces:
     Attributes:
         dimension: which one; empty where there is none.
         total: its length.
-        length: how much of it one piece takes; the last piece may take less, and is filled up to it when it is computed.
+        length: how much of it one piece takes; the last piece may take less, and is filled up to it when it
+            is computed.
         rest: copies in each slice of it.
     """
 
@@ -63,17 +69,32 @@ class Pieces:
         """Number of pieces."""
         return math.ceil(self.total / self.length)
 
-    def settings(self, trials: Sequence[int] | None, sweep: Mapping[str, Sequence[float]]) -> list[dict[str, Any]]:
+    def settings(
+        self, trials: Sequence[int] | None, sweep: Mapping[str, Sequence[float]]
+    ) -> list[dict[str, Any]]:
         """For each piece its trials and its sweep."""
         out: list[dict[str, Any]] = []
         for first in range(0, self.total, self.length):
             part = slice(first, first + self.length)
             own = list(trials) if trials is not None else None
             if self.dimension in sweep:
-                grid = {path: list(values[part] if path == self.dimension else values) for path, values in sweep.items()}
+                grid = {
+                    path: list(values[part] if path == self.dimension else values)
+                    for path, values in sweep.items()
+                }
             else:
-                grid, own = {path: list(values) for path, values in sweep.items()}, own[part] if own is not None else None
-            out.append({"trials": own, "sweep": grid or None, "batch": self.batch, "width": (self.dimension, self.length)})
+                grid, own = (
+                    {path: list(values) for path, values in sweep.items()},
+                    own[part] if own is not None else None,
+                )
+            out.append(
+                {
+                    "trials": own,
+                    "sweep": grid or None,
+                    "batch": self.batch,
+                    "width": (self.dimension, self.length),
+                }
+            )
         return out
 
 
@@ -84,9 +105,12 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
         lengths: the leading dimensions of the run and how long they are.
         bytes_a_copy: what one copy of the model holds in its ports; 0: no bound.
         workers: processes that share the pieces.
-        batch: copies in one piece; none: as many as fit into `BATCH_BYTES`, fewer where that gives every worker as many pieces.
+        batch: copies in one piece; none: as many as fit into `BATCH_BYTES`, fewer where that gives every
+            worker as many pieces.
     """
-    if batch is not None and (isinstance(batch, bool) or not isinstance(batch, (int, np.integer)) or batch < 1):
+    if batch is not None and (
+        isinstance(batch, bool) or not isinstance(batch, (int, np.integer)) or batch < 1
+    ):
         raise ParameterError(f"batch is {show(batch)}; it is a number of copies that run at once, at least 1")
     dimension = max(lengths, key=lambda name: lengths[name], default="")
     total = lengths.get(dimension, 1)
@@ -100,7 +124,8 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
 
 
 def joined(pieces: Pieces, parts: Sequence[Part | None], settings: Mapping[str, Any]) -> xarray.Dataset:
-    """One record from those of the pieces: of all that are complete; if none is, of those begun, up to a time that keeps most of them.
+    """One record from those of the pieces: of all that are complete; if none is, of those begun, up to a time
+    that keeps most of them.
 
     Args:
         pieces: how the run was cut.
@@ -117,9 +142,24 @@ def joined(pieces: Pieces, parts: Sequence[Part | None], settings: Mapping[str, 
     kept = diverged.alike(complete or _abreast([part.data for part in begun]), copies)
     data = kept[0] if kept else xarray.Dataset()
     if len(kept) > 1:
-        data = xarray.concat(kept, pieces.dimension, data_vars="all", coords="minimal", compat="override", join="override", combine_attrs="override")
+        data = xarray.concat(
+            kept,
+            pieces.dimension,
+            data_vars="all",
+            coords="minimal",
+            compat="override",
+            join="override",
+            combine_attrs="override",
+        )
     if KEY in data.attrs:
-        about = json.loads(data.attrs[KEY]) | settings | {"batch": pieces.batch, "complete": len(complete) == len(parts)}
+        about = (
+            json.loads(data.attrs[KEY])
+            | settings
+            | {
+                "batch": pieces.batch,
+                "complete": len(complete) == len(parts),
+            }
+        )
         data.attrs[KEY] = json.dumps(about, ensure_ascii=False)
     return diverged.counted(data)
 

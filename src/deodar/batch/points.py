@@ -59,7 +59,11 @@ class Points:
     def rebuilt(self) -> set[str]:
         """Ids of the elements whose constants differ from point to point."""
         by = self.doc.by_id()
-        costs = {(i, path): cost(p) for i in {i for found in self.leaves for i, _ in found} for path, _, p in leaves(by[i].element)}
+        costs = {
+            (i, path): cost(p)
+            for i in {i for found in self.leaves for i, _ in found}
+            for path, _, p in leaves(by[i].element)
+        }
         return {i for found in self.leaves for i, path in found if costs[i, path] == "rebuild"}
 
 
@@ -70,7 +74,8 @@ def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequen
         declared = {leaf: p for leaf, _, p in leaves(by[ident].element)}[inner]
         if declared.off and any(v == declared.neutral for v in values):
             raise ParameterError(
-                f"the value {declared.neutral:g} switches it off, which is another program and not the limit of small values",
+                f"the value {declared.neutral:g} switches it off, which is another program and not the limit"
+                " of small values",
                 where=f"sweep of {path}",
                 fix="Run that value on its own",
             )

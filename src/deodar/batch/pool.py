@@ -1,7 +1,8 @@
-"""A pool of worker processes that one thread drives: no threads of its own, so nothing of it outlives the call that uses it.
+"""A pool of worker processes that one thread drives: no threads of its own, so nothing of it outlives the
+call that uses it.
 
-Each worker has a pipe. It receives a task, sends the result back, and ends when its pipe is closed. The parent waits for pipes and for the end of
-processes at once; what it has not received it never reads later.
+Each worker has a pipe. It receives a task, sends the result back, and ends when its pipe is closed. The
+parent waits for pipes and for the end of processes at once; what it has not received it never reads later.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ Task = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
 class Pool:
-    """Worker processes of one core each, as a context: leaving it ends them, at once if an exception is raised.
+    """Worker processes of one core each, as a context: leaving it ends them, at once if an exception is
+    raised.
 
     Args:
         count: number of processes.
@@ -69,7 +71,9 @@ class Pool:
         """Give a task to an idle worker; `wait` returns its result under the key."""
         process, pipe = self._idle.pop()
         self._busy[pipe] = process, key
-        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # a worker that has died is reported by `wait`
+        with contextlib.suppress(
+            BrokenPipeError, ConnectionResetError
+        ):  # a worker that has died is reported by `wait`
             pipe.send((function, arguments))
 
     def wait(self, seconds: float) -> list[tuple[Any, Any]]:
@@ -88,7 +92,8 @@ class Pool:
                 good, result = pickle.loads(pipe.recv_bytes())
             except (EOFError, OSError):
                 raise WorkerError(
-                    "a worker process has died; the system may have ended it because memory ran out", fix="Take fewer workers, or a smaller batch"
+                    "a worker process has died; the system may have ended it because memory ran out",
+                    fix="Take fewer workers, or a smaller batch",
                 ) from None
             if not good:
                 raise result
@@ -109,12 +114,17 @@ def _started() -> tuple[SpawnProcess, Connection]:
 
 @contextlib.contextmanager
 def _quiet(main: bool) -> Generator[None]:
-    """Processes started meanwhile do not see Ctrl-C: the parent says when to stop. Without `main` they do not import the main script either."""
+    """Processes started meanwhile do not see Ctrl-C: the parent says when to stop.
+
+    Without `main` they do not import the main script either.
+    """
     script = sys.modules["__main__"]
     mine = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, signal.SIG_IGN) if mine else None
     if not main:
-        sys.modules["__main__"] = types.ModuleType("__main__")  # a process that starts looks here for what to import
+        sys.modules["__main__"] = types.ModuleType(
+            "__main__"
+        )  # a process that starts looks here for what to import
     try:
         yield
     finally:
@@ -123,11 +133,13 @@ def _quiet(main: bool) -> Generator[None]:
             signal.signal(signal.SIGINT, before)
 
 
-# ------------------------------------------------------------------------------------------------ in the worker
+# ---------------------------------------------------------------------------------------------- in the worker
 
 
 def _serve(pipe: Connection) -> None:
-    """Carry out tasks until the pipe is closed: on one core, without Ctrl-C, and not longer than the parent lives."""
+    """Carry out tasks until the pipe is closed: on one core, without Ctrl-C, and not longer than the parent
+    lives.
+    """
     os.environ["NPROC"] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -160,7 +172,10 @@ def _failed(error: Exception, what: str) -> bytes:
 
 
 def _unsendable(what: str, reason: Exception) -> WorkerError:
-    return WorkerError(f"{what} of a worker cannot be sent to another process ({type(reason).__name__}: {reason})", fix="Run without workers")
+    return WorkerError(
+        f"{what} of a worker cannot be sent to another process ({type(reason).__name__}: {reason})",
+        fix="Run without workers",
+    )
 
 
 def _end_with_parent() -> None:

@@ -13,11 +13,15 @@ LINE_AFTER = 10.0
 """Seconds after which a run that is asked to shows its progress as a line, where there is no terminal."""
 
 Shown = bool | Callable[[int], None] | None
-"""Whether to show a progress bar (None: on a terminal, after a second), or a function that is called with the number of completed steps."""
+"""Whether to show a progress bar (None: on a terminal, after a second), or a function that is called with the
+number of completed steps.
+"""
 
 
 def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
-    """Progress as lines, for files: at first after LINE_AFTER, then each time after twice as long, so that a day makes about a dozen."""
+    """Progress as lines, for files: at first after LINE_AFTER, then each time after twice as long, so that a
+    day makes about a dozen.
+    """
     began = now()
     due = [began + LINE_AFTER]
 
@@ -25,7 +29,9 @@ def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
         if (moment := now()) < due[0] or not done:
             return
         left = (moment - began) / done * (steps - done)
-        sys.stderr.write(f"simulating: {done} of {steps} steps after {moment - began:.0f} s, about {left:.0f} s left\n")
+        sys.stderr.write(
+            f"simulating: {done} of {steps} steps after {moment - began:.0f} s, about {left:.0f} s left\n"
+        )
         sys.stderr.flush()
         due[0] = began + 2 * (moment - began)
 
@@ -52,7 +58,12 @@ def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
 
     began = time.monotonic()
     console = Console(stderr=True)
-    columns = (TextColumn("simulating"), BarColumn(), TextColumn("{task.completed}/{task.total} steps"), TimeRemainingColumn())
+    columns = (
+        TextColumn("simulating"),
+        BarColumn(),
+        TextColumn("{task.completed}/{task.total} steps"),
+        TimeRemainingColumn(),
+    )
     with contextlib.ExitStack() as stack:
         bar: list[Progress] = []
 

@@ -1,8 +1,8 @@
 """Worker processes: one for each core, which run pieces of a large batch beside each other.
 
-A worker imports deodar and nothing else. It gets the document as JSON text, so that the script that started it is not run again:
-no `if __name__ == "__main__"` is needed, and a notebook or `python -c` will do. Steps done and the wish to stop stand in one
-small file that all processes map.
+A worker imports deodar and nothing else. It gets the document as JSON text, so that the script that started
+it is not run again: no `if __name__ == "__main__"` is needed, and a notebook or `python -c` will do. Steps
+done and the wish to stop stand in one small file that all processes map.
 """
 
 from __future__ import annotations
@@ -45,15 +45,23 @@ class Job:
     number: int
 
 
-def run(model: Model, world: World | None, pieces: Sequence[Mapping[str, Any]], workers: int, between: Callable[[int], None]) -> list[Part | None]:
-    """Run the pieces in `count` processes; return the record of each, or None if the run was stopped before the piece began.
+def run(
+    model: Model,
+    world: World | None,
+    pieces: Sequence[Mapping[str, Any]],
+    workers: int,
+    between: Callable[[int], None],
+) -> list[Part | None]:
+    """Run the pieces in `count` processes; return the record of each, or None if the run was stopped before
+    the piece began.
 
     Args:
         model: the model, as it now is.
         world: what it senses; every worker has a copy of it.
         pieces: arguments of `simulate` for each piece.
         workers: number of processes.
-        between: called from time to time with the number of completed steps of all pieces; a KeyboardInterrupt that it raises stops all.
+        between: called from time to time with the number of completed steps of all pieces; a
+            KeyboardInterrupt that it raises stops all.
 
     Raises:
         KeyboardInterrupt: on a second Ctrl-C; the processes are ended at once.
@@ -91,11 +99,16 @@ def _board(size: int) -> Generator[tuple[str, memoryview]]:
 @contextlib.contextmanager
 def _mapped(path: str) -> Generator[memoryview]:
     """The whole numbers of a file, which all processes that map it see change."""
-    with open(path, "r+b") as file, mmap.mmap(file.fileno(), 0) as held, memoryview(held) as raw, raw.cast("q") as numbers:
+    with (
+        open(path, "r+b") as file,
+        mmap.mmap(file.fileno(), 0) as held,
+        memoryview(held) as raw,
+        raw.cast("q") as numbers,
+    ):
         yield numbers
 
 
-# ------------------------------------------------------------------------------------------------ in the worker
+# ---------------------------------------------------------------------------------------------- in the worker
 
 
 def work(job: Job) -> Part:

@@ -1,7 +1,7 @@
 """The command line: one file for each command; the folder is the registry.
 
-A command is a module with `HELP` (one line), `arguments(parser)` and `run(args) -> int`. Heavy imports stand inside `run`, so
-that `deodar --help` answers at once.
+A command is a module with `HELP` (one line), `arguments(parser)` and `run(args) -> int`. Heavy imports stand
+inside `run`, so that `deodar --help` answers at once.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from deodar.plugins import Plugin
 
 
 def commands() -> dict[str, ModuleType]:
-    """Every command of deodar by name; a module ends in an underscore where the name is a word of Python's own."""
+    """Every command of deodar by name; a module ends in an underscore where the name is a word of Python's
+    own.
+    """
     names = sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
     return {name.rstrip("_"): importlib.import_module(f"deodar.cli.{name}") for name in names}
 
@@ -32,7 +34,9 @@ def packaged() -> list[Plugin]:
 
 
 def _outside(given: Sequence[str]) -> dict[str, ModuleType]:
-    """The commands of packages that a call needs: the one it names, or all where the list of commands is shown."""
+    """The commands of packages that a call needs: the one it names, or all where the list of commands is
+    shown.
+    """
     named = next((word for word in given if not word.startswith("-")), None)
     loaded = {p.name: p.load() for p in packaged() if named in (None, p.name) and not p.problem}
     return {name: module for name, (module, problem) in loaded.items() if not problem}
@@ -49,7 +53,12 @@ def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
     top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
     top.add_argument(
-        "--import", dest="imports", action="append", default=[], metavar="MODULE", help="import a module with elements of your own first"
+        "--import",
+        dest="imports",
+        action="append",
+        default=[],
+        metavar="MODULE",
+        help="import a module with elements of your own first",
     )
     inside = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, module in (commands() | _outside(given)).items():
@@ -77,9 +86,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         sys.stderr.close()
     except OSError as error:
-        print(f"deodar {args.command}: {error.strerror or error}{f': {error.filename}' if error.filename else ''}", file=sys.stderr)
+        print(
+            f"deodar {args.command}:"
+            f" {error.strerror or error}{f': {error.filename}' if error.filename else ''}",
+            file=sys.stderr,
+        )
     except MemoryError:
-        print(f"deodar {args.command}: there is not enough memory for this. Take fewer samples or fewer trials", file=sys.stderr)
+        print(
+            f"deodar {args.command}: there is not enough memory for this. Take fewer samples or fewer trials",
+            file=sys.stderr,
+        )
     return 1
 
 
@@ -87,7 +103,10 @@ def _no_command(name: str) -> str:
     """Why there is no command of that name: nothing is called so, or its package cannot be used."""
     for p in packaged():
         if p.name == name:
-            return f"the command {name!r} cannot be used: the package {p.package} {p.version} {p.load()[1]}. Type: deodar doctor"
+            return (
+                f"the command {name!r} cannot be used: the package {p.package} {p.version} {p.load()[1]}."
+                " Type: deodar doctor"
+            )
     return f"there is no command {name!r}. {did_you_mean(name, [*commands(), *(p.name for p in packaged())])}"
 
 
@@ -102,5 +121,6 @@ def _import(name: str) -> None:
     except Exception as error:  # a module may raise anything
         first = (str(error).strip() or "no message").splitlines()[0]
         raise UnknownName(
-            f"the module {name!r} cannot be imported ({type(error).__name__}: {first})", fix="It is named without .py and found in the working folder"
+            f"the module {name!r} cannot be imported ({type(error).__name__}: {first})",
+            fix="It is named without .py and found in the working folder",
         ) from None

@@ -16,7 +16,12 @@ class Bar:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn
 
-        columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TextColumn("{task.fields[left]}"))
+        columns = (
+            TextColumn("{task.fields[done]}"),
+            BarColumn(),
+            TextColumn("{task.percentage:>3.0f} %"),
+            TextColumn("{task.fields[left]}"),
+        )
         self._bar = Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=hidden)
         self._task = self._bar.add_task("", total=1.0, done="", left="")
         self._what = what
@@ -31,7 +36,12 @@ class Bar:
     def show(self, standing: Standing) -> None:
         """Draw what is told."""
         left = "" if standing.left is None else f"{lasting(standing.left)} left"
-        self._bar.update(self._task, completed=standing.share, done=f"{standing.rows} of {standing.of} {self._what}", left=left)
+        self._bar.update(
+            self._task,
+            completed=standing.share,
+            done=f"{standing.rows} of {standing.of} {self._what}",
+            left=left,
+        )
 
 
 def lasting(seconds: float) -> str:

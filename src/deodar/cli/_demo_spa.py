@@ -26,7 +26,9 @@ def run(args: argparse.Namespace) -> tuple[list[Claim], dict[str, Any], str, str
     from deodar.recording import files
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
-    with Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=args.no_progress) as bar:
+    with Progress(
+        *columns, console=Console(file=sys.stderr), transient=True, disable=args.no_progress
+    ) as bar:
         own = any(value is not None for value in (args.maze, args.start, args.goal, args.noise))
         duration, noise = spa.LONGEST if own else spa.DURATION, args.noise or "low"
         task = bar.add_task("planning and driving", total=duration)
@@ -36,7 +38,9 @@ def run(args: argparse.Namespace) -> tuple[list[Claim], dict[str, Any], str, str
 
         if own:
             start = None if args.start is None else [*args.start, 0.0][:3]
-            result = spa.drive(maze(args.maze or "z", noise, start, args.goal), noise, args.seed, duration, shown)
+            result = spa.drive(
+                maze(args.maze or "z", noise, start, args.goal), noise, args.seed, duration, shown
+            )
         else:
             result = spa.go(args.seed, duration, shown)
     claims = spa.claims(result)
@@ -47,7 +51,10 @@ def run(args: argparse.Namespace) -> tuple[list[Claim], dict[str, Any], str, str
         save_figure(figure(result), folder / "spa.png")
         film(result, folder / "spa.gif")
         # the motivation fields are as large as a film: what they showed stands in the pictures
-        files.save_record(result.record[["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]], folder / "spa.zarr")
+        files.save_record(
+            result.record[["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]],
+            folder / "spa.zarr",
+        )
         (folder / "results.json").write_text(results(claims, settings))
 
     return claims, settings, "spa.png, spa.gif, the record (spa.zarr)", spa.sentence(result), fill

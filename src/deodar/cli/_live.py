@@ -21,11 +21,27 @@ OF_A_LIVE_RUN = ("speed", "longest_step")
 def add(parser: argparse.ArgumentParser) -> None:
     """`--live`, `--speed`, `--longest-step` and `--cost`."""
     parser.add_argument(
-        "--live", action="store_true", help="pace the run to the clock on the wall and print how well it kept to it; writes no record"
+        "--live",
+        action="store_true",
+        help="pace the run to the clock on the wall and print how well it kept to it; writes no record",
     )
-    parser.add_argument("--speed", type=_speed, metavar="S", help="with --live: document time over wall time, or max (default 1: real time)")
-    parser.add_argument("--longest-step", type=float, metavar="DT", help="with --live: let the step grow up to this where time is short")
-    parser.add_argument("--cost", action="store_true", help="print what each element costs in a step, measured at the end; writes no record")
+    parser.add_argument(
+        "--speed",
+        type=_speed,
+        metavar="S",
+        help="with --live: document time over wall time, or max (default 1: real time)",
+    )
+    parser.add_argument(
+        "--longest-step",
+        type=float,
+        metavar="DT",
+        help="with --live: let the step grow up to this where time is short",
+    )
+    parser.add_argument(
+        "--cost",
+        action="store_true",
+        help="print what each element costs in a step, measured at the end; writes no record",
+    )
 
 
 def refuse_alone(args: argparse.Namespace) -> None:
@@ -39,7 +55,10 @@ def run(args: argparse.Namespace) -> int:
     """Run the session and print the meter, the costs, or both. Status 1 if it was stopped."""
     given = [name for name in OF_A_RECORD if getattr(args, name)]
     if given:
-        args.wrong(f"--{'live' if args.live else 'cost'} writes no record, so {_flags(given)} cannot be given; leave the one or the other out")
+        args.wrong(
+            f"--{'live' if args.live else 'cost'} writes no record, so {_flags(given)} cannot be given; leave"
+            " the one or the other out"
+        )
     if not args.live:
         refuse_alone(args)
     elif args.duration is None and args.file.is_file():

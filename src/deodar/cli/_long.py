@@ -21,8 +21,11 @@ def add_yes(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--yes", action="store_true", help="begin runs of 1e9 steps and more without asking")
 
 
-def confirm(args: argparse.Namespace, command: str, steps: int, what: str, seconds: Callable[[], float]) -> None:
-    """State how long a run takes, and ask whether to begin; a run of fewer than 10^9 steps begins without a question.
+def confirm(
+    args: argparse.Namespace, command: str, steps: int, what: str, seconds: Callable[[], float]
+) -> None:
+    """State how long a run takes, and ask whether to begin; a run of fewer than 10^9 steps begins without a
+    question.
 
     Args:
         args: of the command; `yes` answers the question.
@@ -69,5 +72,9 @@ def duration(seconds: float) -> str:
     """A wall time in words: 40 seconds, 3.2 hours, 12 days."""
     for unit, length in (("years", 365 * 86400), ("days", 86400), ("hours", 3600), ("minutes", 60)):
         if seconds >= length:
-            return f"{seconds / length:.2g} {unit}" if seconds < 100 * length else f"{seconds / length:,.0f} {unit}"
+            return (
+                f"{seconds / length:.2g} {unit}"
+                if seconds < 100 * length
+                else f"{seconds / length:,.0f} {unit}"
+            )
     return f"{seconds:.0f} seconds"

@@ -24,17 +24,30 @@ def add_force(parser: argparse.ArgumentParser) -> None:
 
 def add_world(parser: argparse.ArgumentParser) -> None:
     """`--world` and `--trust`."""
-    parser.add_argument("--world", metavar="KIND:ARGUMENT", help="what the model's sensors read, for example picture:photo.jpg")
-    parser.add_argument("--trust", action="store_true", help="allow functions that the document names to be imported and run")
+    parser.add_argument(
+        "--world",
+        metavar="KIND:ARGUMENT",
+        help="what the model's sensors read, for example picture:photo.jpg",
+    )
+    parser.add_argument(
+        "--trust", action="store_true", help="allow functions that the document names to be imported and run"
+    )
 
 
 def add_cores(parser: argparse.ArgumentParser) -> None:
     """`--cores`."""
-    parser.add_argument("--cores", type=whole, metavar="N", help="cores that a program uses (default 1, the quickest for most models)")
+    parser.add_argument(
+        "--cores",
+        type=whole,
+        metavar="N",
+        help="cores that a program uses (default 1, the quickest for most models)",
+    )
 
 
 def use_cores(cores: int | None, wanted: int = 1) -> None:
-    """As many as `--cores` says; without it as many as wanted, unless the environment (NPROC) says otherwise or JAX has started."""
+    """As many as `--cores` says; without it as many as wanted, unless the environment (NPROC) says otherwise
+    or JAX has started.
+    """
     from deodar.batch import cores as setting
 
     if cores is not None:
@@ -45,11 +58,23 @@ def use_cores(cores: int | None, wanted: int = 1) -> None:
 
 def add_run(parser: argparse.ArgumentParser) -> None:
     """`--seed`, `--precision`, `--device`, `--cores` and `--no-progress`."""
-    parser.add_argument("--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)")
-    parser.add_argument("--precision", choices=("float32", "float64"), help="of all numbers (default float32)")
-    parser.add_argument("--accuracy", choices=("default", "exact"), help="of convolutions: default is within 1e-4, exact takes longer")
     parser.add_argument(
-        "--device", metavar="NAME", help="where to run: cpu, gpu, or one of several as gpu:1 (default cpu, the quickest for small models)"
+        "--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)"
+    )
+    parser.add_argument(
+        "--precision", choices=("float32", "float64"), help="of all numbers (default float32)"
+    )
+    parser.add_argument(
+        "--accuracy",
+        choices=("default", "exact"),
+        help="of convolutions: default is within 1e-4, exact takes longer",
+    )
+    parser.add_argument(
+        "--device",
+        metavar="NAME",
+        help=(
+            "where to run: cpu, gpu, or one of several as gpu:1 (default cpu, the quickest for small models)"
+        ),
     )
     add_cores(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
@@ -71,7 +96,9 @@ def document(text: str) -> Path:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def add_document(parser: argparse.ArgumentParser, meaning: str = "a document (.json, .deodar), or example:NAME", **how: Any) -> None:
+def add_document(
+    parser: argparse.ArgumentParser, meaning: str = "a document (.json, .deodar), or example:NAME", **how: Any
+) -> None:
     """`FILE`: a document, or an example by its name."""
     parser.add_argument("file", type=document, metavar="FILE", help=meaning, **how)
 
@@ -121,7 +148,9 @@ def world(text: str | None) -> World | None:
 
 
 def shown(path: Path) -> str:
-    """A path as one types it: relative where it lies below the working folder, quoted where a shell would take it apart."""
+    """A path as one types it: relative where it lies below the working folder, quoted where a shell would
+    take it apart.
+    """
     import shlex
 
     try:

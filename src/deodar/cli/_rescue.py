@@ -1,4 +1,6 @@
-"""A result that cannot be written where it was asked for: it is kept in memory until a second place has taken it."""
+"""A result that cannot be written where it was asked for: it is kept in memory until a second place has taken
+it.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,8 @@ Done = TypeVar("Done")
 def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Path], ask: bool) -> Done:
     """Write to the first folder that takes it, and return what `write` returns.
 
-    On a terminal a person is asked for folders, until one takes it or the answer is empty. Then come the folder that the system keeps for data
-    of the user, and the one for temporary files.
+    On a terminal a person is asked for folders, until one takes it or the answer is empty. Then come the
+    folder that the system keeps for data of the user, and the one for temporary files.
 
     Args:
         error: why the result could not be written where it was asked for.
@@ -45,7 +47,8 @@ def elsewhere(error: DeodarError, out: Path, fill: Callable[[Path], None], ask: 
     """Write a whole folder to a second place, under the name that it was to have and a number.
 
     Args:
-        error: why it could not be written to `out`; where that has come to exist meanwhile, the second place is beside it.
+        error: why it could not be written to `out`; where that has come to exist meanwhile, the second place
+            is beside it.
         out: where it was asked for.
         fill: fills a folder.
         ask: whether a person may be asked.
@@ -67,7 +70,12 @@ def elsewhere(error: DeodarError, out: Path, fill: Callable[[Path], None], ask: 
 def _folders(tried: list[DeodarError], first: Sequence[Path], ask: bool) -> Iterator[Path]:
     yield from first
     while ask:
-        print(f"{tried[-1]}\nThe result is still in memory. Another folder for it (empty: a folder of yours is chosen): ", end="", file=sys.stderr)
+        print(
+            f"{tried[-1]}\nThe result is still in memory. Another folder for it (empty: a folder of yours is"
+            " chosen): ",
+            end="",
+            file=sys.stderr,
+        )
         sys.stderr.flush()
         answer = sys.stdin.readline().strip()
         if not answer:
@@ -77,7 +85,9 @@ def _folders(tried: list[DeodarError], first: Sequence[Path], ask: bool) -> Iter
 
 
 def _own() -> Iterator[Path]:
-    """The folders of the user and of the system; one that cannot be made is passed over by whoever writes into it."""
+    """The folders of the user and of the system; one that cannot be made is passed over by whoever writes
+    into it.
+    """
     import contextlib
 
     import platformdirs

@@ -1,7 +1,7 @@
 """The bill of materials: what deodar consists of on this machine, as CycloneDX 1.5.
 
-Python packages are those that are installed and that deodar, or one of its extras, requires, directly or through others. The libraries of the
-studio's page are those that its build wrote down in `licences.txt`.
+Python packages are those that are installed and that deodar, or one of its extras, requires, directly or
+through others. The libraries of the studio's page are those that its build wrote down in `licences.txt`.
 
 Reference:
     OWASP CycloneDX Specification 1.5 (ECMA-424, 2024).
@@ -51,14 +51,19 @@ def bill() -> dict[str, Any]:
 
 
 def _python(root: str) -> tuple[dict[str, Component], dict[str, set[str]]]:
-    """The closure of what a distribution requires, as far as it is installed, by name, and who requires whom by reference."""
+    """The closure of what a distribution requires, as far as it is installed, by name, and who requires whom
+    by reference.
+    """
     from packaging.requirements import Requirement
     from packaging.utils import canonicalize_name
 
     found: dict[str, Component] = {}
     needs: dict[str, set[str]] = {}
     extras_of_root = importlib.metadata.metadata(root).get_all("Provides-Extra") or []
-    waiting = [(root, frozenset[str](), True), *((root, frozenset([extra]), False) for extra in extras_of_root)]
+    waiting = [
+        (root, frozenset[str](), True),
+        *((root, frozenset([extra]), False) for extra in extras_of_root),
+    ]
     seen: set[tuple[str, frozenset[str], bool]] = set()
     while waiting:
         name, extras, required = one = waiting.pop(0)
@@ -84,27 +89,49 @@ def _python(root: str) -> tuple[dict[str, Component], dict[str, set[str]]]:
 
 
 def _wanted(requirement: Any, extras: frozenset[str], extra_only: bool) -> bool:
-    """Whether a requirement counts here, with these extras; `extra_only`: only if it counts because of them."""
+    """Whether a requirement counts here, with these extras; `extra_only`: only if it counts because of
+    them.
+    """
     if requirement.marker is None:
         return not extra_only
     plain = requirement.marker.evaluate({"extra": ""})
-    return (plain and not extra_only) or (not plain and any(requirement.marker.evaluate({"extra": extra}) for extra in extras))
+    return (plain and not extra_only) or (
+        not plain and any(requirement.marker.evaluate({"extra": extra}) for extra in extras)
+    )
 
 
 def _component(about: importlib.metadata.Distribution, required: bool) -> Component:
     reference = _reference("pypi", about.name, about.version)
-    made: Component = {"type": "library", "bom-ref": reference, "name": about.name, "version": about.version, "purl": reference}
+    made: Component = {
+        "type": "library",
+        "bom-ref": reference,
+        "name": about.name,
+        "version": about.version,
+        "purl": reference,
+    }
     made["scope"] = "required" if required else "optional"
     licences = _licences(about)
     return made | ({"licenses": licences} if licences else {})
 
 
 def _licences(about: importlib.metadata.Distribution) -> list[dict[str, Any]]:
-    """What a distribution says of its licence: an expression of SPDX, else the names in its classifiers, else its own words."""
+    """What a distribution says of its licence: an expression of SPDX, else the names in its classifiers, else
+    its own words.
+    """
     if "License-Expression" in about.metadata:
         return [{"expression": about.metadata["License-Expression"]}]
-    named = [c.rpartition(" :: ")[2] for c in about.metadata.get_all("Classifier") or () if c.startswith("License :: ")]
-    if not named and "License" in about.metadata and (own := about.metadata["License"].strip()) and "\n" not in own and len(own) <= LONGEST_NAME:
+    named = [
+        c.rpartition(" :: ")[2]
+        for c in about.metadata.get_all("Classifier") or ()
+        if c.startswith("License :: ")
+    ]
+    if (
+        not named
+        and "License" in about.metadata
+        and (own := about.metadata["License"].strip())
+        and "\n" not in own
+        and len(own) <= LONGEST_NAME
+    ):
         named = [own]
     return [{"license": {"name": name}} for name in named]
 
@@ -122,10 +149,15 @@ def _page() -> list[Component]:
         reference = _reference("npm", name, version)
         out.append(
             {
-                "type": "library", "bom-ref": reference, "name": name, "version": version, "purl": reference, "scope": "required",
+                "type": "library",
+                "bom-ref": reference,
+                "name": name,
+                "version": version,
+                "purl": reference,
+                "scope": "required",
                 "licenses": [{"expression": licence}],
             }
-        )  # fmt: skip
+        )
     return out
 
 

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from deodar.errors import Problem
 
 HELP = "list everything that is wrong with a document, and what is probably a mistake, each with its path"
-EPILOG = """A problem stops a run; a warning never does. Status 1 if there is a problem, or, with --strict, a warning."""
+EPILOG = """\
+A problem stops a run; a warning never does. Status 1 if there is a problem, or, with --strict, a warning."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:

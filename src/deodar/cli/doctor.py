@@ -6,7 +6,9 @@ import argparse
 import json
 from typing import Any
 
-HELP = "tell what is installed, which devices there are, where compiled programs are kept, and what is missing"
+HELP = (
+    "tell what is installed, which devices there are, where compiled programs are kept, and what is missing"
+)
 
 EXTRAS = {"docs": "zensical", "test": "pytest", "vision": "opencv-python-headless"}
 """For each extra a package that tells whether it is there."""
@@ -19,9 +21,15 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("files", nargs="*", metavar="FILE", help="documents whose packages are looked for")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
     parser.add_argument(
-        "--sbom", action="store_true", help="print the bill of materials as CycloneDX 1.5: every package and library, with its licence"
+        "--sbom",
+        action="store_true",
+        help="print the bill of materials as CycloneDX 1.5: every package and library, with its licence",
     )
-    parser.add_argument("--plans", action="store_true", help="measure every way of convolving beside what it should cost (about a minute)")
+    parser.add_argument(
+        "--plans",
+        action="store_true",
+        help="measure every way of convolving beside what it should cost (about a minute)",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -59,13 +67,30 @@ def _plans(as_json: bool) -> int:
     if as_json:
         print(json.dumps([{**dc.asdict(m), "case": str(m.case)} for m in found], indent=2))
         return 0
-    table = Table("field and kernels", "way", "predicted us", "measured us", "", title="One step of the convolution; * is what is taken")
+    table = Table(
+        "field and kernels",
+        "way",
+        "predicted us",
+        "measured us",
+        "",
+        title="One step of the convolution; * is what is taken",
+    )
     for m in found:
-        table.add_row(str(m.case), m.way, f"{m.predicted_us:.1f}", f"{m.measured_us:.1f}", "*" if m.chosen else "", end_section=m is found[-1])
+        table.add_row(
+            str(m.case),
+            m.way,
+            f"{m.predicted_us:.1f}",
+            f"{m.measured_us:.1f}",
+            "*" if m.chosen else "",
+            end_section=m is found[-1],
+        )
     Console().print(table)
     lost = [m.measured_us / min(o.measured_us for o in found if o.case == m.case) for m in found if m.chosen]
     right = sum(ratio <= 1.25 for ratio in lost)
-    print(f"What is taken is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst it takes {max(lost):.2f} times as long")
+    print(
+        f"What is taken is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst it"
+        f" takes {max(lost):.2f} times as long"
+    )
     return 0
 
 
@@ -87,10 +112,16 @@ def examine() -> dict[str, Any]:
         except importlib.metadata.PackageNotFoundError:
             return None
 
-    needed = [re.split(r"[^\w.-]", r)[0] for r in importlib.metadata.requires("deodar") or () if "extra ==" not in r]
+    needed = [
+        re.split(r"[^\w.-]", r)[0] for r in importlib.metadata.requires("deodar") or () if "extra ==" not in r
+    ]
     packages = {name: version(name) for name in sorted(needed)}
     place = cache.folder()
-    kept = [p.stat().st_size for p in place.iterdir() if p.is_file()] if place is not None and place.is_dir() else []
+    kept = (
+        [p.stat().st_size for p in place.iterdir() if p.is_file()]
+        if place is not None and place.is_dir()
+        else []
+    )
     near = next((p for p in (place, *place.parents) if p.exists()), None) if place is not None else None
     memory = psutil.virtual_memory()
     return {
@@ -125,7 +156,9 @@ def _needs(path: str) -> dict[str, Any]:
     except DocumentError as error:
         return {
             "file": path,
-            "problems": [f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where],
+            "problems": [
+                f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where
+            ],
             "opens": False,
         }
     return {"file": path, "problems": [], "opens": True}
@@ -139,7 +172,10 @@ def _plugins() -> list[dict[str, str]]:
     registry.kinds()  # names that deodar itself has
     listed = [(p, registry.take(p)) for p in registry.packaged()]
     listed += [(p, p.load()[1]) for p in (*opening.packaged(), *cli.packaged(), *papers.packaged())]
-    return [{"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem} for p, problem in listed]
+    return [
+        {"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem}
+        for p, problem in listed
+    ]
 
 
 def _page(found: dict[str, Any]) -> str:
@@ -147,26 +183,47 @@ def _page(found: dict[str, Any]) -> str:
 
     lines = [f"deodar {found['deodar']} on Python {found['python']}, {found['system']}"]
     lines.append(
-        f"device     {found['device']}; {found['cores']} cores, {found['memory_gib']['free']} of {found['memory_gib']['total']} GiB memory free"
+        f"device     {found['device']}; {found['cores']} cores, {found['memory_gib']['free']} of"
+        f" {found['memory_gib']['total']} GiB memory free"
     )
     devices = ", ".join(f"{name} ({kind})" for name, kind in found["devices"].items())
-    lines.append(f"devices    {devices}. " + ("Choose one with --device" if len(found["devices"]) > 1 else device.INSTALL))
-    lines.append("packages   " + ", ".join(f"{name} {version}" for name, version in found["packages"].items() if version))
+    lines.append(
+        f"devices    {devices}. "
+        + ("Choose one with --device" if len(found["devices"]) > 1 else device.INSTALL)
+    )
+    lines.append(
+        "packages   "
+        + ", ".join(f"{name} {version}" for name, version in found["packages"].items() if version)
+    )
     if found["missing"]:
         lines.append(f"MISSING    {', '.join(found['missing'])}. Type: pip install --upgrade deodar")
     for p in found["plugins"]:
         lines.append(
-            f"plug-in    {p['package']} {p['version']}: " + (f"PROBLEM: {p['name']} {p['problem']}" if p["problem"] else f"{p['group']} {p['name']}")
+            f"plug-in    {p['package']} {p['version']}: "
+            + (f"PROBLEM: {p['name']} {p['problem']}" if p["problem"] else f"{p['group']} {p['name']}")
         )
     for document in found.get("documents", ()):
-        other = "opens" if document["opens"] else "no package is missing, but it does not open. Type: deodar check " + document["file"]
-        lines += [f"document   {document['file']}: {what}" for what in ["PROBLEM: " + p for p in document["problems"]] or [other]]
+        other = (
+            "opens"
+            if document["opens"]
+            else "no package is missing, but it does not open. Type: deodar check " + document["file"]
+        )
+        lines += [
+            f"document   {document['file']}: {what}"
+            for what in ["PROBLEM: " + p for p in document["problems"]] or [other]
+        ]
     for extra, there in found["extras"].items():
-        lines.append(f"extra      {extra}: " + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'"))
+        lines.append(
+            f"extra      {extra}: "
+            + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'")
+        )
     programs = found["compiled_programs"]
     if programs["folder"] is None:
         lines.append("programs   compiled programs are not kept (DEODAR_CACHE=off)")
     else:
         state = "" if programs["writable"] else ", which cannot be written to: every start compiles anew"
-        lines.append(f"programs   {programs['count']} compiled programs, {programs['mib']} MiB, in {programs['folder']}{state}")
+        lines.append(
+            f"programs   {programs['count']} compiled programs, {programs['mib']} MiB, in"
+            f" {programs['folder']}{state}"
+        )
     return "\n".join(lines)

@@ -14,9 +14,22 @@ HELP = "draw the architecture in a file as SVG, PDF or PNG"
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument("--out", "-o", type=Path, metavar="FILE", help=".svg, .pdf or .png (default: NAME-architecture-001.svg, ... here)")
-    parser.add_argument("--width", type=float, metavar="INCHES", help="width of the picture (default: names 7.5 points high)")
-    parser.add_argument("--depth", type=_options.whole, metavar="N", help="draw N levels of groups open, each group below as one box (default: all)")
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="FILE",
+        help=".svg, .pdf or .png (default: NAME-architecture-001.svg, ... here)",
+    )
+    parser.add_argument(
+        "--width", type=float, metavar="INCHES", help="width of the picture (default: names 7.5 points high)"
+    )
+    parser.add_argument(
+        "--depth",
+        type=_options.whole,
+        metavar="N",
+        help="draw N levels of groups open, each group below as one box (default: all)",
+    )
     parser.add_argument("--no-legend", action="store_true", help="leave out the line that explains the marks")
     _options.add_force(parser)
     _options.add_json(parser)
@@ -36,5 +49,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps({"out": str(out), "inches": size}, indent=2, ensure_ascii=False))
     else:
-        print(f"Drew {_options.shown(args.file)} into {_options.shown(out)}, {size[0]:g} x {size[1]:g} inches")
+        print(
+            f"Drew {_options.shown(args.file)} into {_options.shown(out)}, {size[0]:g} x {size[1]:g} inches"
+        )
     return 0

@@ -8,7 +8,10 @@ from collections.abc import Iterator
 
 from deodar.part_type import source_doc
 
-HELP = "list elements, couplings, kernels, sigmoids and worlds, or show one of them with its equation and parameters"
+HELP = (
+    "list elements, couplings, kernels, sigmoids and worlds, or show one of them with its equation and"
+    " parameters"
+)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,7 +30,11 @@ def run(args: argparse.Namespace) -> int:
     if args.kind:
         cls = registry.kind(args.kind)
         if args.json:
-            found = schema(cls, reference) if issubclass(cls, Part) else {"title": cls.__name__, "description": source_doc(cls)}
+            found = (
+                schema(cls, reference)
+                if issubclass(cls, Part)
+                else {"title": cls.__name__, "description": source_doc(cls)}
+            )
             print(json.dumps(found, indent=2, ensure_ascii=False))
         else:
             where = f"dd.{cls.__name__}" if cls.__module__.startswith("deodar.") else cls.__module__
@@ -38,10 +45,19 @@ def run(args: argparse.Namespace) -> int:
         return 0
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
     known = {name for found in listed.values() for name in found}
-    outside = {name: cls for name, cls in registry.kinds().items() if name not in known and not cls.__module__.startswith("deodar.")}
+    outside = {
+        name: cls
+        for name, cls in registry.kinds().items()
+        if name not in known and not cls.__module__.startswith("deodar.")
+    }
     listed |= {"own": outside} if outside else {}
     if args.json:
-        print(json.dumps({room: {name: _line(cls) for name, cls in found.items()} for room, found in listed.items()}, indent=2))
+        print(
+            json.dumps(
+                {room: {name: _line(cls) for name, cls in found.items()} for room, found in listed.items()},
+                indent=2,
+            )
+        )
         return 0
     width = max(len(name) for found in listed.values() for name in found)
     for room, found in listed.items():
@@ -59,10 +75,18 @@ def _values(cls: type) -> Iterator[str]:
     width = max((len(p.name) for p in rows), default=0)
     for p in rows:
         lower, upper = ("" if bound is None else f"{bound:g}" for bound in (p.lower, p.upper))
-        bounds = f"{lower} to {upper}".strip() if lower and upper else f"from {lower}" if lower else f"to {upper}" if upper else ""
+        bounds = (
+            f"{lower} to {upper}".strip()
+            if lower and upper
+            else f"from {lower}"
+            if lower
+            else f"to {upper}"
+            if upper
+            else ""
+        )
         about = [show(p.default), p.unit, bounds, " | ".join(p.choices), p.cost]
         yield f"    {p.name:{width}}  {'; '.join(a for a in about if a)}"
 
 
 def _line(cls: type) -> str:
-    return (source_doc(cls) or cls.__name__).splitlines()[0]
+    return " ".join((source_doc(cls) or cls.__name__).partition("\n\n")[0].split())

@@ -9,8 +9,10 @@ from pathlib import Path
 from deodar.cli import _options
 
 HELP = "list the examples that come with deodar, copy one, or open one in the studio"
-EPILOG = """list prints every example with a sentence. copy writes its files into DIR, which is made if it is missing. open starts the studio with
-a copy that has no file yet. Wherever a command takes the FILE of a model, example:NAME stands for an example: deodar run example:selection"""
+EPILOG = """\
+list prints every example with a sentence. copy writes its files into DIR, which is made if it is missing.
+open starts the studio with a copy that has no file yet. Wherever a command takes the FILE of a model,
+example:NAME stands for an example: deodar run example:selection"""
 
 WIDEST = 110
 """Columns of the list where a pipe states no width."""
@@ -19,9 +21,19 @@ WIDEST = 110
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("what", nargs="?", default="list", choices=("list", "copy", "open"), help="what to do (default list)")
-    parser.add_argument("name", nargs="?", metavar="NAME", help="copy, open: the example, for example selection")
-    parser.add_argument("folder", nargs="?", type=Path, metavar="DIR", help="copy: the folder to write into (default: the working folder)")
+    parser.add_argument(
+        "what", nargs="?", default="list", choices=("list", "copy", "open"), help="what to do (default list)"
+    )
+    parser.add_argument(
+        "name", nargs="?", metavar="NAME", help="copy, open: the example, for example selection"
+    )
+    parser.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        metavar="DIR",
+        help="copy: the folder to write into (default: the working folder)",
+    )
     _options.add_force(parser)
     _options.add_json(parser)
     _options.wrong(parser)
@@ -43,7 +55,13 @@ def _list(args: argparse.Namespace) -> int:
 
     if args.json:
         listed = [
-            {"name": n, "kind": kind, "file": str(examples.file(n)), "sentence": examples.sentence(n), "duration": examples.duration(n)}
+            {
+                "name": n,
+                "kind": kind,
+                "file": str(examples.file(n)),
+                "sentence": examples.sentence(n),
+                "duration": examples.duration(n),
+            }
             for kind, names in (("document", examples.names()), ("script", examples.scripts()))
             for n in names
         ]
@@ -62,7 +80,10 @@ def _list(args: argparse.Namespace) -> int:
         for name in names:
             table.add_row(name, escape(examples.sentence(name)))
         console.print(table)
-    print("Run one with: deodar run example:NAME. Open one in the studio with: deodar examples open NAME. Copy one with: deodar examples copy NAME")
+    print(
+        "Run one with: deodar run example:NAME. Open one in the studio with: deodar examples open NAME. Copy"
+        " one with: deodar examples copy NAME"
+    )
     return 0
 
 
@@ -81,7 +102,11 @@ def _copy(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps({"files": [str(t) for t in targets]}, indent=2, ensure_ascii=False))
     else:
-        next_step = f"deodar studio {_options.shown(targets[0])}" if targets[0].suffix == ".json" else f"python {_options.shown(targets[0])}"
+        next_step = (
+            f"deodar studio {_options.shown(targets[0])}"
+            if targets[0].suffix == ".json"
+            else f"python {_options.shown(targets[0])}"
+        )
         print(f"Copied {', '.join(_options.shown(t) for t in targets)}. Next: {next_step}")
     return 0
 

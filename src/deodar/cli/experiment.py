@@ -16,8 +16,9 @@ if TYPE_CHECKING:
     import xarray
 
 HELP = "run the trials of an experiment, and write a table with a row for each"
-EPILOG = """Rows are written as trials end: Ctrl-C or a power failure loses none. The same call with --out FOLDER resumes,
-with the same results as without the stop."""
+EPILOG = """\
+Rows are written as trials end: Ctrl-C or a power failure loses none. The same call with --out FOLDER
+resumes, with the same results as without the stop."""
 
 MOST_CELLS = 24
 """Combinations of levels that are listed; the table holds them all."""
@@ -26,14 +27,39 @@ MOST_CELLS = 24
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("file", type=Path, metavar="FILE", help="an experiment (.json), which names its model")
-    parser.add_argument("--trials", type=_options.whole, metavar="N", help="trials of each combination of levels, instead of the file's")
-    parser.add_argument("--seed", type=_options.whole, metavar="N", help="seed of all noise and of what is drawn, instead of the file's")
-    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to resume (default: NAME-001, NAME-002, ... here)")
-    parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the trials among N processes of one core each")
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="an experiment (.json), which names its model"
+    )
+    parser.add_argument(
+        "--trials",
+        type=_options.whole,
+        metavar="N",
+        help="trials of each combination of levels, instead of the file's",
+    )
+    parser.add_argument(
+        "--seed",
+        type=_options.whole,
+        metavar="N",
+        help="seed of all noise and of what is drawn, instead of the file's",
+    )
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="DIR",
+        help="folder to write, or to resume (default: NAME-001, NAME-002, ... here)",
+    )
+    parser.add_argument(
+        "--workers",
+        type=_options.whole,
+        metavar="N",
+        help="share the trials among N processes of one core each",
+    )
     _long.add_yes(parser)
     _options.add_world(parser)
-    parser.add_argument("--check", action="store_true", help="only say whether it could be run, and in which pieces")
+    parser.add_argument(
+        "--check", action="store_true", help="only say whether it could be run, and in which pieces"
+    )
     _options.add_json(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
 
@@ -64,12 +90,21 @@ def run(args: argparse.Namespace) -> int:
     except (KeyboardInterrupt, OutputError) as stop:
         if not (out / ROWS).is_file():
             raise
-        options = {"--trials": args.trials, "--seed": args.seed, "--world": args.world, "--workers": args.workers}
+        options = {
+            "--trials": args.trials,
+            "--seed": args.seed,
+            "--world": args.world,
+            "--workers": args.workers,
+        }
         again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
         again += [f"{name} {value}" for name, value in options.items() if value is not None]
         again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
         why = f"{stop}" if isinstance(stop, OutputError) else "stopped"
-        print(f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Go on with: {' '.join(again)}", file=sys.stderr)
+        print(
+            f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Go on with:"
+            f" {' '.join(again)}",
+            file=sys.stderr,
+        )
         return 1
     _tell(args, out, data)
     return 1 if _diverged(data) == data.sizes["trial"] else 0
@@ -95,7 +130,11 @@ def _confirm(args: argparse.Namespace, bench: Any, out: Path) -> None:
 
 def _check(args: argparse.Namespace, bench: Any) -> int:
     pieces = [len(piece) for piece in bench.pieces()]
-    way = f"in {len(pieces)} batch{'es' if len(pieces) > 1 else ''} of at most {max(pieces)}" if bench.batched else "one by one"
+    way = (
+        f"in {len(pieces)} batch{'es' if len(pieces) > 1 else ''} of at most {max(pieces)}"
+        if bench.batched
+        else "one by one"
+    )
     if args.json:
         print(json.dumps({"trials": sum(pieces), "batched": bench.batched, "pieces": pieces}))
     else:
@@ -105,11 +144,20 @@ def _check(args: argparse.Namespace, bench: Any) -> int:
 
 def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
     names = sorted(p.name for p in out.iterdir())
-    outcomes = {str(name): int((data["outcome"] == name).sum()) for name in sorted(set(data["outcome"].values.tolist()))}
+    outcomes = {
+        str(name): int((data["outcome"] == name).sum())
+        for name in sorted(set(data["outcome"].values.tolist()))
+    }
     if lost := _diverged(data):
         print(f"deodar experiment: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
-        told = {"out": str(out), "trials": data.sizes["trial"], "outcomes": outcomes, "diverged": lost, "files": names}
+        told = {
+            "out": str(out),
+            "trials": data.sizes["trial"],
+            "outcomes": outcomes,
+            "diverged": lost,
+            "files": names,
+        }
         print(json.dumps(told, indent=2, ensure_ascii=False))
         return
     for line in _cells(data):
@@ -134,8 +182,13 @@ def _cells(data: xarray.Dataset) -> Iterator[str]:
     for cell in cells[:MOST_CELLS]:
         of = np.asarray([label == cell for label in labels])
         ended = data["outcome"].values[of].tolist()
-        shares = ", ".join(f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended)))
-        where = ", ".join(f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in zip(factors, cell, strict=True))
+        shares = ", ".join(
+            f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended))
+        )
+        where = ", ".join(
+            f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}"
+            for name, value in zip(factors, cell, strict=True)
+        )
         after = "" if unit in ("abstract", "") or unit.startswith("1 =") else f" {unit}"
         durations = data["duration"].values[of]
         known = durations[~np.isnan(durations)]

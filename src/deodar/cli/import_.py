@@ -12,18 +12,32 @@ from deodar.cli import _options
 if TYPE_CHECKING:
     from deodar.importers.report import Report
 
-HELP = "make a document from a file of another tool (cosivina), with a report of what was carried, approximated or dropped"
-EPILOG = """Known errors of the other tool are corrected, and listed; with --bugs they are reproduced. The report stays in the notes of the document.
-Status 1 with --strict if anything was not carried."""
+HELP = (
+    "make a document from a file of another tool (cosivina), with a report of what was carried, approximated"
+    " or dropped"
+)
+EPILOG = """\
+Known errors of the other tool are corrected, and listed; with --bugs they are reproduced. The report stays
+in the notes of the document. Status 1 with --strict if anything was not carried."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser, "the file of the other tool")
-    parser.add_argument("--out", "-o", type=Path, metavar="OUT", help="the document to write (.json); without it only the report is shown")
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="OUT",
+        help="the document to write (.json); without it only the report is shown",
+    )
     parser.add_argument("--bugs", action="store_true", help="reproduce known errors of the other tool")
-    parser.add_argument("--strict", action="store_true", help="fail, and write nothing, if anything is not carried as it stands")
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="fail, and write nothing, if anything is not carried as it stands",
+    )
     _options.add_json(parser)
     _options.add_force(parser)
 
@@ -44,10 +58,17 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         found = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
         written = str(args.out) if args.out is not None and not failed else None
-        print(json.dumps({**done.report.data(), "problems": found, "out": written}, indent=2, ensure_ascii=False))
+        print(
+            json.dumps(
+                {**done.report.data(), "problems": found, "out": written}, indent=2, ensure_ascii=False
+            )
+        )
         return int(failed)
     _show(done.report)
-    for severity, title in (("problem", "It does not run as it is:"), ("warning", "It runs, but this is probably a mistake:")):
+    for severity, title in (
+        ("problem", "It does not run as it is:"),
+        ("warning", "It runs, but this is probably a mistake:"),
+    ):
         if listed := [f"  {p}" for p in problems if p.severity == severity]:
             print("\n".join([title, *listed]))
     if failed:
@@ -83,7 +104,9 @@ def _show(report: Report) -> None:
     if losses:
         table = Table("where", "what", "verdict", "why", box=box.SIMPLE_HEAD)
         for line in losses:
-            table.add_row(*(escape(text) for text in (line.where, f"{line.part} {line.what}", line.verdict, line.why)))
+            table.add_row(
+                *(escape(text) for text in (line.where, f"{line.part} {line.what}", line.verdict, line.why))
+            )
         console.print(table)
     for bug in report.bugs:
         console.print(f"Known error of {report.tool}: {escape(bug)}.", highlight=False)

@@ -9,8 +9,9 @@ from pathlib import Path
 from deodar.cli import _options
 
 HELP = "make one file of a document and its arrays, or take such a file apart"
-EPILOG = """A package is a zip file with the document and its arrays. Every command that takes a document takes it as it is, and dd.load does; any zip
-tool unpacks it."""
+EPILOG = """\
+A package is a zip file with the document and its arrays. Every command that takes a document takes it as
+it is, and dd.load does; any zip tool unpacks it."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,9 +19,17 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = EPILOG
     _options.add_document(parser)
     parser.add_argument(
-        "--out", "-o", type=Path, metavar="OUT", help="the package to write, OUT.deodar (default: FILE's name, in the working folder)"
+        "--out",
+        "-o",
+        type=Path,
+        metavar="OUT",
+        help="the package to write, OUT.deodar (default: FILE's name, in the working folder)",
     )
-    parser.add_argument("--unpack", action="store_true", help="write FILE's document and arrays into the folder OUT (default: the working folder)")
+    parser.add_argument(
+        "--unpack",
+        action="store_true",
+        help="write FILE's document and arrays into the folder OUT (default: the working folder)",
+    )
     _options.add_force(parser)
     _options.add_json(parser)
     _options.wrong(parser)
@@ -36,7 +45,9 @@ def run(args: argparse.Namespace) -> int:
     loaded = load(args.file)
     if args.unpack:
         if not package.is_package(args.file):
-            raise DocumentError("is not a package", where=str(args.file), fix="Leave out --unpack to make one")
+            raise DocumentError(
+                "is not a package", where=str(args.file), fix="Leave out --unpack to make one"
+            )
         folder: Path = args.out or Path()
         if not folder.exists():
             claim(folder)
@@ -45,7 +56,10 @@ def run(args: argparse.Namespace) -> int:
     else:
         target = args.out or Path(f"{args.file.stem}{package.SUFFIX}")
         if target.suffix.lower() != package.SUFFIX:
-            args.wrong(f"the name of a package ends in {package.SUFFIX}: --out {_options.shown(target.with_suffix(package.SUFFIX))}")
+            args.wrong(
+                f"the name of a package ends in {package.SUFFIX}: --out"
+                f" {_options.shown(target.with_suffix(package.SUFFIX))}"
+            )
     model.save(loaded, target, args.force)
     if args.json:
         print(json.dumps({"out": str(target), "bytes": target.stat().st_size}, indent=2, ensure_ascii=False))

@@ -18,24 +18,65 @@ if TYPE_CHECKING:
     from deodar.figures._view import View
 
 HELP = "draw the variables of a record as SVG, PDF or PNG"
-EPILOG = """Without --kind each variable gets the kind that suits it: time_course (nodes, or fields at places), space_time (one dimension over
-time), snapshot (one time), snapshots (several), projection (three dimensions and more). Several variables become panels of one figure."""
+EPILOG = """\
+Without --kind each variable gets the kind that suits it: time_course (nodes, or fields at places),
+space_time (one dimension over time), snapshot (one time), snapshots (several), projection (three
+dimensions and more). Several variables become panels of one figure."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("record", type=Path, metavar="RECORD", help="a record (.zarr, .nc), or a folder that deodar run wrote")
-    parser.add_argument("variables", nargs="*", metavar="VARIABLE", help="paths of variables, for example u.activation (default: all)")
-    parser.add_argument("--kind", metavar="K", help="time_course, space_time, snapshot, snapshots, projection or path")
+    parser.add_argument(
+        "record", type=Path, metavar="RECORD", help="a record (.zarr, .nc), or a folder that deodar run wrote"
+    )
+    parser.add_argument(
+        "variables",
+        nargs="*",
+        metavar="VARIABLE",
+        help="paths of variables, for example u.activation (default: all)",
+    )
+    parser.add_argument(
+        "--kind", metavar="K", help="time_course, space_time, snapshot, snapshots, projection or path"
+    )
     parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
-    parser.add_argument("--trial", type=_options.whole, metavar="N", help="trial to draw (default: all as lines; the first as a map)")
-    parser.add_argument("--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw")
-    parser.add_argument("--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two")
-    parser.add_argument("--reduce", choices=("maximum", "integral"), default="maximum", help="how it is projected (default maximum)")
-    parser.add_argument("--place", action="append", metavar="X[,Y...]", help="place of a field whose time course is drawn; may be given again")
-    parser.add_argument("--gif", type=Path, metavar="FILE", help="also write a film of one variable that is a path (x and y over time), in its arena")
-    parser.add_argument("--out", "-o", type=Path, metavar="FILE", help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here)")
+    parser.add_argument(
+        "--trial",
+        type=_options.whole,
+        metavar="N",
+        help="trial to draw (default: all as lines; the first as a map)",
+    )
+    parser.add_argument(
+        "--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw"
+    )
+    parser.add_argument(
+        "--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two"
+    )
+    parser.add_argument(
+        "--reduce",
+        choices=("maximum", "integral"),
+        default="maximum",
+        help="how it is projected (default maximum)",
+    )
+    parser.add_argument(
+        "--place",
+        action="append",
+        metavar="X[,Y...]",
+        help="place of a field whose time course is drawn; may be given again",
+    )
+    parser.add_argument(
+        "--gif",
+        type=Path,
+        metavar="FILE",
+        help="also write a film of one variable that is a path (x and y over time), in its arena",
+    )
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="FILE",
+        help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here)",
+    )
     _options.add_force(parser)
     _options.add_json(parser)
     _options.wrong(parser)
@@ -58,10 +99,17 @@ def run(args: argparse.Namespace) -> int:
     out: Path = args.out or places.free(Path(), f"{base}-plot", ".png")
     _files.claim(out, args.force)
     views = [
-        View(data[n], at=args.at, trial=args.trial if "trial" in data[n].dims or len(names) == 1 else None, where=where or None,
-             axes=args.axes, places=spots, reduce=args.reduce)
+        View(
+            data[n],
+            at=args.at,
+            trial=args.trial if "trial" in data[n].dims or len(names) == 1 else None,
+            where=where or None,
+            axes=args.axes,
+            places=spots,
+            reduce=args.reduce,
+        )
         for n in names
-    ]  # fmt: skip
+    ]
     if args.gif is not None or (args.kind == "path" and len(views) == 1):
         figure = _path(args, data, views)
     else:
@@ -72,7 +120,10 @@ def run(args: argparse.Namespace) -> int:
         film = {} if args.gif is None else {"gif": str(args.gif)}
         print(json.dumps({"out": str(out), "kinds": kinds, **film}, indent=2, ensure_ascii=False))
     else:
-        print(f"Drew {', '.join(names)} into {_options.shown(out)}" + (f" and {_options.shown(args.gif)}" if args.gif is not None else ""))
+        print(
+            f"Drew {', '.join(names)} into {_options.shown(out)}"
+            + (f" and {_options.shown(args.gif)}" if args.gif is not None else "")
+        )
     return 0
 
 
@@ -84,15 +135,29 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
 
     if len(views) != 1:
         raise RecordError(
-            f"a film shows one variable, not {len(views)}", where="--gif", fix="Name the one that holds x and y, for example pose.output"
+            f"a film shows one variable, not {len(views)}",
+            where="--gif",
+            fix="Name the one that holds x and y, for example pose.output",
         )
     world, variable = world_of(data), data[views[0].name]
     trial, where = views[0].trial, views[0].where
     if args.gif is not None:
         if world is None:
-            raise RecordError("the record was made without a world, so there is no arena to draw the path in", where="--gif", fix="Leave out --gif")
+            raise RecordError(
+                "the record was made without a world, so there is no arena to draw the path in",
+                where="--gif",
+                fix="Leave out --gif",
+            )
         times = variable.sizes.get("time", 0)
-        path.animate_path(variable, args.gif, world, stride=max(1, -(-times // path.MOST_FRAMES)), force=args.force, trial=trial, where=where)
+        path.animate_path(
+            variable,
+            args.gif,
+            world,
+            stride=max(1, -(-times // path.MOST_FRAMES)),
+            force=args.force,
+            trial=trial,
+            where=where,
+        )
     return path.path_figure(variable, world, trial=trial, where=where)
 
 

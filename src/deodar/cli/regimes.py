@@ -14,20 +14,47 @@ if TYPE_CHECKING:
     from deodar.analysis.preshape import Boosted
     from deodar.analysis.regimes import Regimes
 
-HELP = "measure the instabilities of one field or node: detection, reverse detection, working memory, selection"
+HELP = (
+    "measure the instabilities of one field or node: detection, reverse detection, working memory, selection"
+)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument("element", metavar="ELEMENT", help="path of the field or node; it is measured alone and without noise")
-    parser.add_argument("-o", "--out", type=Path, metavar="FIGURE", help="the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)")
+    parser.add_argument(
+        "element", metavar="ELEMENT", help="path of the field or node; it is measured alone and without noise"
+    )
+    parser.add_argument(
+        "-o",
+        "--out",
+        type=Path,
+        metavar="FIGURE",
+        help="the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)",
+    )
     parser.add_argument("--force", action="store_true", help="replace the figure if it exists")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
-    parser.add_argument("--precision", choices=("float32", "float64"), default="float32", help="of the computation (default: float32)")
+    parser.add_argument(
+        "--precision",
+        choices=("float32", "float64"),
+        default="float32",
+        help="of the computation (default: float32)",
+    )
     _options.add_cores(parser)
-    parser.add_argument("--sigma", type=float, nargs="+", metavar="WIDTH", help="width of the localised input (default: that of the kernel)")
-    parser.add_argument("--input", nargs="+", default=[], metavar="PATH", help="stimuli (and couplings) of the document to keep as constant input")
+    parser.add_argument(
+        "--sigma",
+        type=float,
+        nargs="+",
+        metavar="WIDTH",
+        help="width of the localised input (default: that of the kernel)",
+    )
+    parser.add_argument(
+        "--input",
+        nargs="+",
+        default=[],
+        metavar="PATH",
+        help="stimuli (and couplings) of the document to keep as constant input",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -47,7 +74,15 @@ def run(args: argparse.Namespace) -> int:
     output.claim(target, args.force)
     sigma = args.sigma[0] if args.sigma is not None and len(args.sigma) == 1 else args.sigma
     with Console(stderr=True).status("compiling") as status:
-        found = regimes(model, args.element, sigma=sigma, precision=args.precision, inputs=args.input, finer=True, progress=status.update)
+        found = regimes(
+            model,
+            args.element,
+            sigma=sigma,
+            precision=args.precision,
+            inputs=args.input,
+            finer=True,
+            progress=status.update,
+        )
     figure = figures.regimes_figure(found)
     output.claim(target, args.force)
     output.write(target, lambda path: figures.save(figure, path))
@@ -74,11 +109,18 @@ def _table(found: Regimes) -> str:
     isolated, up, down = found.isolated, found.thresholds.detection, found.thresholds.reverse
     field = isolated.field
     axes = ", ".join(str(a) for a in isolated.axes)
-    lines = [f"{isolated.path}: {f'a field over {axes}' if axes else 'a node'}; tau {field.tau:g} {isolated.time_unit}, resting level"]
+    lines = [
+        f"{isolated.path}: {f'a field over {axes}' if axes else 'a node'}; tau {field.tau:g}"
+        f" {isolated.time_unit}, resting level"
+    ]
     lines[0] += f" {field.resting_level:g}"
     if isolated.axes:
-        at = ", ".join(f"{a.name} = {c:g}{_unit(a.unit)}" for a, c in zip(isolated.axes, isolated.center, strict=True))
-        wide = ", ".join(f"{s:.3g}{_unit(a.unit)}" for a, s in zip(isolated.axes, isolated.sigma, strict=True))
+        at = ", ".join(
+            f"{a.name} = {c:g}{_unit(a.unit)}" for a, c in zip(isolated.axes, isolated.center, strict=True)
+        )
+        wide = ", ".join(
+            f"{s:.3g}{_unit(a.unit)}" for a, s in zip(isolated.axes, isolated.sigma, strict=True)
+        )
         lines.append(f"Measured alone, without noise, with a Gaussian input at {at} of width {wide}.")
     else:
         lines.append("Measured alone, without noise, with a constant input.")
@@ -87,23 +129,40 @@ def _table(found: Regimes) -> str:
     rows = [("regime", "; ".join(found.words))]
     what = "peak" if isolated.axes else "activation above threshold"
     if up is not None:
-        kind = "the activation jumps: an instability" if up.jump else "the activation grows gradually: no instability"
+        kind = (
+            "the activation jumps: an instability"
+            if up.jump
+            else "the activation grows gradually: no instability"
+        )
         rows.append(("detection threshold", f"{_bracket(found, 'detection')}  ({kind})"))
         low = "0" if isolated.axes else f"-{found.thresholds.searched:g}"
         stays = f"none: the {what} stays down to an input of {low}"
         rows.append(("reverse detection", _bracket(found, "reverse") if down is not None else stays))
         both = found.bistable
-        rows.append(("bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none"))
+        rows.append(
+            ("bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none")
+        )
     if found.peak is not None:
         rows.append(("just above detection", _peak(found, found.peak)))
     memory = found.memory
     if memory is not None:
         left = len(memory.left)
         rows.append(
-            ("input taken away", f"{left} peak{'' if left == 1 else 's'} left: {_peak(found, memory.left[0])}" if left else f"no {what} is left")
+            (
+                "input taken away",
+                (
+                    f"{left} peak{'' if left == 1 else 's'} left: {_peak(found, memory.left[0])}"
+                    if left
+                    else f"no {what} is left"
+                ),
+            )
         )
     if found.forgetting is not None:
-        stays = "is erased by a homogeneous input below" if found.self_sustained else "would stay with a homogeneous input above"
+        stays = (
+            "is erased by a homogeneous input below"
+            if found.self_sustained
+            else "would stay with a homogeneous input above"
+        )
         rows.append(("memory", f"a peak {stays} {_bracket(found, 'forgetting')}"))
         if found.suppression is not None:
             rows.append(("", f"or by a localised input below {_bracket(found, 'suppression')}"))
@@ -111,20 +170,30 @@ def _table(found: Regimes) -> str:
         rows.append(("boost on a pre-shape", "; ".join(_boosted(found, b) for b in found.boosts)))
     if found.selection is not None:
         s = found.selection
-        stronger = "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
-        apart = f"; both stay from a distance of {_distance(found)} on" if found.separation else "; at no distance do both stay"
+        stronger = (
+            "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
+        )
+        apart = (
+            f"; both stay from a distance of {_distance(found)} on"
+            if found.separation
+            else "; at no distance do both stay"
+        )
         rows.append(("two equal inputs", _count(len(s.equal)) + apart))
         rows.append(("two inputs, one stronger", _count(len(s.different)) + stronger))
     if found.transitions and found.coarse_alone and isolated.axes:
         rows.append(("discretisation error", f"not measured: {found.coarse_alone}"))
     swept = found.ramp
     if not (swept.up.settled.all() and swept.down.settled.all()):
-        rows.append(("note", "the field did not settle at some inputs; their values are where it stood at the limit"))
+        rows.append(
+            ("note", "the field did not settle at some inputs; their values are where it stood at the limit")
+        )
     return "\n".join([*lines, "", *(f"  {label:26}{text}" for label, text in rows)])
 
 
 def _bracket(found: Regimes, name: str) -> str:
-    """A threshold, half of its interval, and how far it moves on a grid twice as fine, if that is more than half the interval."""
+    """A threshold, half of its interval, and how far it moves on a grid twice as fine, if that is more than
+    half the interval.
+    """
     t = found.transitions[name]
     half = (t.interval[1] - t.interval[0]) / 2
     text = f"{t.value:.4g} ± {half:.1g}"
@@ -133,13 +202,21 @@ def _bracket(found: Regimes, name: str) -> str:
     moved = found.discretisation[name]
     if moved is None:
         return text + ", none on a grid twice as fine"
-    return text + (f", discretisation error {moved:.2g}" if abs(moved) > half else f", discretisation error below {half:.1g}")
+    return text + (
+        f", discretisation error {moved:.2g}"
+        if abs(moved) > half
+        else f", discretisation error below {half:.1g}"
+    )
 
 
 def _peak(found: Regimes, peak: Peak) -> str:
     axes = found.isolated.axes
     widths = [f"{w:.3g}{_unit(a.unit)}" for a, w in zip(axes, peak.width, strict=True)]
-    return f"width {' x '.join(widths)}, amplitude {peak.amplitude:.3g}" if axes else f"activation {peak.amplitude:.3g}"
+    return (
+        f"width {' x '.join(widths)}, amplitude {peak.amplitude:.3g}"
+        if axes
+        else f"activation {peak.amplitude:.3g}"
+    )
 
 
 def _boosted(found: Regimes, b: Boosted) -> str:

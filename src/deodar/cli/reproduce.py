@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from deodar.papers._report import Report
 
 HELP = "run the experiments of a paper again, and check what it says"
-EPILOG = """What is done is kept after each run: Ctrl-C, or a machine that goes down, loses nothing. The same call with --out FOLDER goes on,
-with the same results as if nothing had happened. A folder that has only some of the conditions is extended by the others."""
+EPILOG = """\
+What is done is kept after each run: Ctrl-C, or a machine that goes down, loses nothing. The same call with
+--out FOLDER goes on, with the same results as if nothing had happened. A folder that has only some of the
+conditions is extended by the others."""
 
 ROWS = "runs.jsonl"
 RESULTS = "results.json"
@@ -32,10 +34,31 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
     parser.epilog = EPILOG
     parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.names())}")
-    parser.add_argument("--quick", action="store_true", help="at most 20 runs of each condition; a claim is false only where they exclude it")
-    parser.add_argument("--only", nargs="+", default=[], metavar="CONDITION", help="only conditions whose names begin so, for example z/carrot")
-    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write, or to go on with (default: PAPER-001, PAPER-002, ... here)")
-    parser.add_argument("--workers", type=_options.whole, metavar="N", help="share the runs among N processes of one core each")
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="at most 20 runs of each condition; a claim is false only where they exclude it",
+    )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="CONDITION",
+        help="only conditions whose names begin so, for example z/carrot",
+    )
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="DIR",
+        help="folder to write, or to go on with (default: PAPER-001, PAPER-002, ... here)",
+    )
+    parser.add_argument(
+        "--workers",
+        type=_options.whole,
+        metavar="N",
+        help="share the runs among N processes of one core each",
+    )
     _options.add_json(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.wrong(parser)
@@ -59,19 +82,29 @@ def run(args: argparse.Namespace) -> int:
         with Bar(args.no_progress or args.json, "runs") as bar:
             carry_out(jobs, rows, bar.show, args.workers or None)
     except KeyboardInterrupt:
-        print(f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Go on with: {_again(args, out)}", file=sys.stderr)
+        print(
+            f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Go on with: {_again(args, out)}",
+            file=sys.stderr,
+        )
         return 1
     except OutputError as error:
         why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
         print(f"deodar reproduce: {why} Go on with: {_again(args, out)}", file=sys.stderr)
         return 1
-    settings = {"paper": args.paper, "quick": args.quick, "runs": len(rows.found), "of": sum(len(j.keys) for j in paper.jobs(args.quick))}
+    settings = {
+        "paper": args.paper,
+        "quick": args.quick,
+        "runs": len(rows.found),
+        "of": sum(len(j.keys) for j in paper.jobs(args.quick)),
+    }
     return _write(args, out, paper.report(rows.found, args.quick), settings)
 
 
 def _again(args: argparse.Namespace, out: Path) -> str:
     """The call that resumes this one."""
-    again = " ".join(["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)])
+    again = " ".join(
+        ["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)]
+    )
     return again + (f" --only {' '.join(args.only)}" if args.only else "")
 
 
@@ -128,13 +161,25 @@ def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapp
             interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
             wanted = "no target" if c.origin == "none" else f"wanted {c.target}, {c.origin}"
             inferred = f"; no evidence, it assumes {c.assumes}" if c.inferred else ""
-            print(f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} ({wanted}; n {c.n}{interval}{inferred})")
-        names = ", ".join([ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)])
+            print(
+                f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} ({wanted}; n"
+                f" {c.n}{interval}{inferred})"
+            )
+        names = ", ".join(
+            [ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)]
+        )
         print(f"Written to {_options.shown(out)}: {names}.")
         required = [c for c in report.claims if c.kind == "required"]
         held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
-        print(f"{settings['runs']} of {settings['of']} runs. Of {len(required)} required claims {held} hold, {open_} are undecided.")
+        print(
+            f"{settings['runs']} of {settings['of']} runs. Of {len(required)} required claims {held} hold,"
+            f" {open_} are undecided."
+        )
     if why:
         told = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]
-        print(f"deodar reproduce: {_options.paragraph(told)} With room there, write it with: {_again(args, asked)}", file=sys.stderr)
+        print(
+            f"deodar reproduce: {_options.paragraph(told)} With room there, write it with:"
+            f" {_again(args, asked)}",
+            file=sys.stderr,
+        )
     return 1 if why or failed(report.claims) else 0

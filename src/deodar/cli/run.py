@@ -20,10 +20,24 @@ if TYPE_CHECKING:
     from deodar.recording.repeat import Repetition
 
 HELP = "run a model and record it, or run a record again and compare"
-EPILOG = """FILE is a document (.json). RECORD is a record (.zarr, .nc) or a folder that an earlier run wrote: it is run again as it was,
-and compared. Both write a new folder with the record and the model that made it. Look at it with: deodar plot FOLDER"""
+EPILOG = """\
+FILE is a document (.json). RECORD is a record (.zarr, .nc) or a folder that an earlier run wrote: it is
+run again as it was, and compared. Both write a new folder with the record and the model that made it. Look
+at it with: deodar plot FOLDER"""
 
-OF_A_RECORD = ("duration", "dt", "seed", "record", "every", "trials", "sweep", "set", "precision", "workers", "accuracy")
+OF_A_RECORD = (
+    "duration",
+    "dt",
+    "seed",
+    "record",
+    "every",
+    "trials",
+    "sweep",
+    "set",
+    "precision",
+    "workers",
+    "accuracy",
+)
 """What a record settles itself."""
 
 WARNINGS = 3
@@ -34,22 +48,55 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
-        "file", type=_options.document, metavar="FILE|RECORD", help="a document (.json, .deodar) or example:NAME to run, or a record to run again"
+        "file",
+        type=_options.document,
+        metavar="FILE|RECORD",
+        help="a document (.json, .deodar) or example:NAME to run, or a record to run again",
     )
     parser.add_argument(
-        "--duration", type=float, metavar="D", help="how long, in the document's time unit (needed for a document; of an example as its notes say)"
+        "--duration",
+        type=float,
+        metavar="D",
+        help="how long, in the document's time unit (needed for a document; of an example as its notes say)",
     )
     parser.add_argument("--dt", type=float, help="Euler step (default: the document's own, else 1)")
     parser.add_argument(
-        "--record", nargs="+", action="extend", metavar="PATH", help="ports to record, for example u.activation (default: every field, at the end)"
+        "--record",
+        nargs="+",
+        action="extend",
+        metavar="PATH",
+        help="ports to record, for example u.activation (default: every field, at the end)",
     )
     parser.add_argument("--every", type=float, metavar="T", help="time between records (default: every step)")
-    parser.add_argument("--trials", type=_options.whole, metavar="N", help="number of trials; they differ in their noise")
-    parser.add_argument("--workers", type=_options.whole, metavar="N", help="share trials and sweep points among N processes of one core each")
-    parser.add_argument("--sweep", type=_options.values, action="append", metavar="PATH=V1,V2,...", help="run at each value; several make a grid")
-    parser.add_argument("--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first")
-    parser.add_argument("--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)")
-    parser.add_argument("--out", "-o", type=Path, metavar="DIR", help="folder to write (default: NAME-001, NAME-002, ... here)")
+    parser.add_argument(
+        "--trials", type=_options.whole, metavar="N", help="number of trials; they differ in their noise"
+    )
+    parser.add_argument(
+        "--workers",
+        type=_options.whole,
+        metavar="N",
+        help="share trials and sweep points among N processes of one core each",
+    )
+    parser.add_argument(
+        "--sweep",
+        type=_options.values,
+        action="append",
+        metavar="PATH=V1,V2,...",
+        help="run at each value; several make a grid",
+    )
+    parser.add_argument(
+        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
+    )
+    parser.add_argument(
+        "--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)"
+    )
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="DIR",
+        help="folder to write (default: NAME-001, NAME-002, ... here)",
+    )
     _options.add_run(parser)
     _long.add_yes(parser)
     _options.add_world(parser)
@@ -81,7 +128,12 @@ def _is_record(path: Path) -> bool:
 
     if path.suffix.lower() == ".json" and not path.is_dir():
         return False
-    return path.is_dir() or not path.exists() or path.suffix.lower() in files.SUFFIXES.values() or files.is_record(path)
+    return (
+        path.is_dir()
+        or not path.exists()
+        or path.suffix.lower() in files.SUFFIXES.values()
+        or files.is_record(path)
+    )
 
 
 def _simulate(args: argparse.Namespace) -> int:
@@ -102,10 +154,21 @@ def _simulate(args: argparse.Namespace) -> int:
 
     def simulated(duration: float, progress: bool | None = False) -> xarray.Dataset:
         return simulate(
-            model, duration, dt=args.dt, seed=args.seed or 0, record=args.record, every=args.every, trials=args.trials,
-            sweep=dict(args.sweep) if args.sweep else None, precision=args.precision or "float32", world=_options.world(args.world),
-            progress=progress, workers=args.workers, device=args.device, accuracy=args.accuracy or "default",
-        )  # fmt: skip
+            model,
+            duration,
+            dt=args.dt,
+            seed=args.seed or 0,
+            record=args.record,
+            every=args.every,
+            trials=args.trials,
+            sweep=dict(args.sweep) if args.sweep else None,
+            precision=args.precision or "float32",
+            world=_options.world(args.world),
+            progress=progress,
+            workers=args.workers,
+            device=args.device,
+            accuracy=args.accuracy or "default",
+        )
 
     data, stopped = None, ""
     try:
@@ -117,12 +180,20 @@ def _simulate(args: argparse.Namespace) -> int:
     return _finish(args, place, data, model.document, stopped, None)
 
 
-def _confirm(args: argparse.Namespace, duration: float | None, dt: float, run: Callable[[float], object]) -> None:
+def _confirm(
+    args: argparse.Namespace, duration: float | None, dt: float, run: Callable[[float], object]
+) -> None:
     """Ask before a very long run; `run` runs a document time of it."""
     from deodar.batch.simulate import expected_steps
 
     steps = expected_steps(duration or 0.0, dt)
-    _long.confirm(args, "run", steps, f"{steps:.3g} steps of dt = {dt:g}", lambda: steps * _long.seconds_a_step(lambda n: run(n * dt)))
+    _long.confirm(
+        args,
+        "run",
+        steps,
+        f"{steps:.3g} steps of dt = {dt:g}",
+        lambda: steps * _long.seconds_a_step(lambda n: run(n * dt)),
+    )
 
 
 def _show_warnings(model: Model, file: Path) -> None:
@@ -131,7 +202,10 @@ def _show_warnings(model: Model, file: Path) -> None:
     for warning in found[:WARNINGS]:
         print(f"deodar run: warning: {warning}", file=sys.stderr)
     if len(found) > WARNINGS:
-        print(f"deodar run: warning: {len(found) - WARNINGS} more; type: deodar check {_options.shown(file)}", file=sys.stderr)
+        print(
+            f"deodar run: warning: {len(found) - WARNINGS} more; type: deodar check {_options.shown(file)}",
+            file=sys.stderr,
+        )
 
 
 def _repeat(args: argparse.Namespace) -> int:
@@ -143,7 +217,10 @@ def _repeat(args: argparse.Namespace) -> int:
 
     given = [f"--{name}" for name in OF_A_RECORD if getattr(args, name) is not None]
     if given:
-        args.wrong(f"a record is run again as it was, so {', '.join(given)} cannot be given; run its model.json instead")
+        args.wrong(
+            f"a record is run again as it was, so {', '.join(given)} cannot be given; run its model.json"
+            " instead"
+        )
     old = files.load_record(args.file)
     _options.use_cores(args.cores, provenance.cores_of(about(old)))
     place = _Place(args, str(old.attrs.get("title") or "record"))
@@ -156,7 +233,14 @@ def _repeat(args: argparse.Namespace) -> int:
 
     try:
         with _said_here():
-            done = repeat(old, simulated, _options.world(args.world), args.trust, False if args.no_progress or args.json else None, args.device)
+            done = repeat(
+                old,
+                simulated,
+                _options.world(args.world),
+                args.trust,
+                False if args.no_progress or args.json else None,
+                args.device,
+            )
     except Interrupted as error:
         done, stopped = compare(old, error.data), str(error)
     return _finish(args, place, done.data, provenance.document(about(old)), stopped, done)
@@ -187,7 +271,9 @@ class _Place:
         folder.claim(self.given or places.free(Path(), name), self.format, self.force)
 
     def write(self, data: xarray.Dataset, doc: Document, ask: bool) -> tuple[Path, Path, str]:
-        """Write it, to a second place where this one fails; the folder, the record in it, and why it is not where it was asked for."""
+        """Write it, to a second place where this one fails; the folder, the record in it, and why it is not
+        where it was asked for.
+        """
         from deodar.errors import OutputError, OutputExists, RecordError
         from deodar.recording import folder, places
 
@@ -195,8 +281,12 @@ class _Place:
         try:
             return out, folder.write(data, doc, out, self.format, self.force), ""
         except (OutputError, OutputExists, RecordError) as error:
-            format, first = (self.format, []) if isinstance(error, OutputError) else ("zarr", [out.parent])  # there is room, but not for this
-            second = _rescue.rescue(error, lambda parent: self._elsewhere(data, doc, parent, format), first, ask)
+            format, first = (
+                (self.format, []) if isinstance(error, OutputError) else ("zarr", [out.parent])
+            )  # there is room, but not for this
+            second = _rescue.rescue(
+                error, lambda parent: self._elsewhere(data, doc, parent, format), first, ask
+            )
             return *second, str(error)
 
     def _elsewhere(self, data: xarray.Dataset, doc: Document, parent: Path, format: str) -> tuple[Path, Path]:
@@ -206,11 +296,22 @@ class _Place:
         return out, folder.write(data, doc, out, format)
 
 
-def _finish(args: argparse.Namespace, place: _Place, data: xarray.Dataset, doc: Document, stopped: str, done: Repetition | None) -> int:
+def _finish(
+    args: argparse.Namespace,
+    place: _Place,
+    data: xarray.Dataset,
+    doc: Document,
+    stopped: str,
+    done: Repetition | None,
+) -> int:
     from deodar.recording.files import SUFFIXES
 
     if stopped and not data.sizes.get("time", 0):
-        print(f"deodar run: {_options.paragraph([stopped, 'Nothing had been recorded, so nothing was written'])}", file=sys.stderr)
+        print(
+            "deodar run:"
+            f" {_options.paragraph([stopped, 'Nothing had been recorded, so nothing was written'])}",
+            file=sys.stderr,
+        )
         return 1
     out, record, failed = place.write(data, doc, not args.json)
     args.format = next(k for k, suffix in SUFFIXES.items() if suffix == record.suffix)
@@ -219,21 +320,39 @@ def _finish(args: argparse.Namespace, place: _Place, data: xarray.Dataset, doc: 
         print(f"deodar run: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
         elsewhere = {"instead_of": str(place.given) if place.given else place.name} if failed else {}
-        print(json.dumps({**_answer(out, record, data, stopped, done), **elsewhere}, indent=2, ensure_ascii=False))
+        print(
+            json.dumps(
+                {**_answer(out, record, data, stopped, done), **elsewhere}, indent=2, ensure_ascii=False
+            )
+        )
     told = f"Wrote {_contents(data)} to {_options.shown(out)}"
-    look = f"Look at it with: deodar plot {_options.shown(out)}" if args.format != "csv" else f"The table is {_options.shown(record)}"
+    look = (
+        f"Look at it with: deodar plot {_options.shown(out)}"
+        if args.format != "csv"
+        else f"The table is {_options.shown(record)}"
+    )
     if stopped:
-        print(f"deodar run: {_options.paragraph([stopped, f'{told}, marked as incomplete', look])}", file=sys.stderr)
+        print(
+            f"deodar run: {_options.paragraph([stopped, f'{told}, marked as incomplete', look])}",
+            file=sys.stderr,
+        )
         return 1
     if failed:
         print(f"deodar run: {_options.paragraph([failed, f'{told} instead', look])}", file=sys.stderr)
         return 1
     if done is not None and (done.differences or not done.same_bits):
-        print(f"deodar run: {_options.paragraph([('warning: ' if done.faithful else '') + str(done)])}", file=sys.stderr)
+        print(
+            f"deodar run: {_options.paragraph([('warning: ' if done.faithful else '') + str(done)])}",
+            file=sys.stderr,
+        )
     if not args.json:
         if done is not None and done.same_bits and not done.differences:
             print(_options.paragraph([str(done)]))
-        print(_options.paragraph([told, look]).rstrip(".") if look.startswith("Look") else _options.paragraph([told, look]))
+        print(
+            _options.paragraph([told, look]).rstrip(".")
+            if look.startswith("Look")
+            else _options.paragraph([told, look])
+        )
     return 0 if good else 1
 
 
@@ -241,16 +360,23 @@ def _contents(data: xarray.Dataset) -> str:
     names = list(map(str, data.data_vars))
     shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     times = data.sizes.get("time", 0)
-    lead = [f"{data.sizes['trial']} trials" if "trial" in data.sizes else "", f"{times} times" if times != 1 else "one time"]
+    lead = [
+        f"{data.sizes['trial']} trials" if "trial" in data.sizes else "",
+        f"{times} times" if times != 1 else "one time",
+    ]
     return f"{shown} ({', '.join(t for t in lead if t)})"
 
 
-def _answer(out: Path, record: Path, data: xarray.Dataset, stopped: str, done: Repetition | None) -> dict[str, Any]:
+def _answer(
+    out: Path, record: Path, data: xarray.Dataset, stopped: str, done: Repetition | None
+) -> dict[str, Any]:
     answer: dict[str, Any] = {
         "out": str(out),
         "record": str(record),
         "model": str(out / "model.json"),
-        "variables": {str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in data.data_vars.items()},
+        "variables": {
+            str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in data.data_vars.items()
+        },
         "complete": not stopped,
     }
     if done is not None:

@@ -8,19 +8,37 @@ from pathlib import Path
 from deodar.cli import _options
 
 HELP = "open the studio in the browser: run a model, tune it, watch it"
-EPILOG = """Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder (without FILE: below the working
-folder), and listens on this machine only; with --host it can be reached from others. The page needs the token in the printed address, also on
-this machine, which other users may share. A restart at the same port keeps the token; beyond this machine each start has another."""
+EPILOG = """\
+Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder
+(without FILE: below the working folder), and listens on this machine only; with --host it can be reached
+from others. The page needs the token in the printed address, also on this machine, which other users may
+share. A restart at the same port keeps the token; beyond this machine each start has another."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser, nargs="?")
-    parser.add_argument("--port", type=_options.whole, metavar="N", help="port to listen on (default: the first free one from 8430 on; 0: any)")
-    parser.add_argument("--host", default="127.0.0.1", metavar="H", help="address to listen on (default 127.0.0.1: this machine only)")
-    parser.add_argument("--no-browser", action="store_true", help="do not open the browser, only print the address")
-    parser.add_argument("--no-token", action="store_true", help="let everybody use the studio who can connect: every user of this machine, at least")
+    parser.add_argument(
+        "--port",
+        type=_options.whole,
+        metavar="N",
+        help="port to listen on (default: the first free one from 8430 on; 0: any)",
+    )
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="H",
+        help="address to listen on (default 127.0.0.1: this machine only)",
+    )
+    parser.add_argument(
+        "--no-browser", action="store_true", help="do not open the browser, only print the address"
+    )
+    parser.add_argument(
+        "--no-token",
+        action="store_true",
+        help="let everybody use the studio who can connect: every user of this machine, at least",
+    )
     _options.add_world(parser)
     _options.add_cores(parser)
     _options.wrong(parser)
@@ -46,5 +64,15 @@ def run(args: argparse.Namespace) -> int:
     def say(address: str) -> None:
         print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
 
-    serve(file, root, args.host, args.port, not args.no_browser, args.trust, _options.world(args.world), not args.no_token, say)
+    serve(
+        file,
+        root,
+        args.host,
+        args.port,
+        not args.no_browser,
+        args.trust,
+        _options.world(args.world),
+        not args.no_token,
+        say,
+    )
     return 0

@@ -22,8 +22,8 @@ Tree = Any
 class Body:
     """A pure world and what a model uses of it.
 
-    The state of a copy holds `now` (the world), `sensed` (what it shows, by the sensor's id) and `told` (what its motors were told, by name);
-    every array has a leading axis of one, as the rows of groups have theirs.
+    The state of a copy holds `now` (the world), `sensed` (what it shows, by the sensor's id) and `told` (what
+    its motors were told, by name); every array has a leading axis of one, as the rows of groups have theirs.
 
     Attributes:
         world: its functions; its arrays come from whoever runs it.
@@ -37,24 +37,41 @@ class Body:
     @property
     def key(self) -> Hashable:
         """What makes another program when it changes."""
-        return (type(self.world), self.world.structure(), tuple(sorted(self.sensors)), tuple(sorted(self.motors)))
+        return (
+            type(self.world),
+            self.world.structure(),
+            tuple(sorted(self.sensors)),
+            tuple(sorted(self.motors)),
+        )
 
     @property
     def reads(self) -> Hashable:
-        """Names `begin` among the functions of the world: what sensors of the model read, and over which axes."""
-        return ("begin", *((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items())))
+        """Names `begin` among the functions of the world: what sensors of the model read, and over which
+        axes.
+        """
+        return (
+            "begin",
+            *((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items())),
+        )
 
     def begin(self, shared: Tree, own: Tree, now: Tree) -> Tree:
         """The state of a copy whose world stands somewhere."""
-        told = {name: jnp.zeros(signal.shape or (), jnp.result_type(float)) for name, signal in self.world.motors.items()}
+        told = {
+            name: jnp.zeros(signal.shape or (), jnp.result_type(float))
+            for name, signal in self.world.motors.items()
+        }
         return _rows({"now": now, "sensed": self._sensed(shared, own, now), "told": told})
 
     def sensed(self, state: Tree) -> dict[str, Any]:
         """What the sensors show."""
         return {ident: value[0] for ident, value in state["sensed"].items()}
 
-    def step(self, shared: Tree, own: Tree, state: Tree, commands: Mapping[str, Any], tick: Any, period: Any) -> Tree:
-        """The state at tick + 1: motors are told at multiples of the period, and what they do shows one period later."""
+    def step(
+        self, shared: Tree, own: Tree, state: Tree, commands: Mapping[str, Any], tick: Any, period: Any
+    ) -> Tree:
+        """The state at tick + 1: motors are told at multiples of the period, and what they do shows one
+        period later.
+        """
         told = dict(state["told"])
         listens = tick % period == 0
         for ident, command in commands.items():
@@ -66,7 +83,9 @@ class Body:
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
             return _rows({"now": now, "sensed": self._sensed(shared, own, now)})
 
-        moved = lax.cond((tick + jnp.uint32(1)) % period == 0, advance, lambda: {k: state[k] for k in ("now", "sensed")})
+        moved = lax.cond(
+            (tick + jnp.uint32(1)) % period == 0, advance, lambda: {k: state[k] for k in ("now", "sensed")}
+        )
         return {**moved, "told": told}
 
     def _sensed(self, shared: Tree, own: Tree, now: Tree) -> Tree:
@@ -85,7 +104,9 @@ def shared_dtype(shared: Tree) -> Any:
 
 
 def batched(tree: Tree, batch: Sequence[int]) -> Tree:
-    """Arrays of copies (copies, ...) as arrays of a batch (points, trials, ...), or of one copy where there is no batch."""
+    """Arrays of copies (copies, ...) as arrays of a batch (points, trials, ...), or of one copy where there
+    is no batch.
+    """
     return jax.tree.map(lambda a: np.asarray(a).reshape(*batch, *np.shape(a)[1:]), tree)
 
 

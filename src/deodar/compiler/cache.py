@@ -1,7 +1,7 @@
 """Compiled programs kept between processes, in the user's own cache folder.
 
-Only deodar's programs are kept, by a key made of the lowered program, the versions and the machine: JAX's own cache and its
-flags are left alone. `DEODAR_CACHE` names another folder; set to "off" it keeps nothing.
+Only deodar's programs are kept, by a key made of the lowered program, the versions and the machine: JAX's own
+cache and its flags are left alone. `DEODAR_CACHE` names another folder; set to "off" it keeps nothing.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from jax.experimental import serialize_executable
 
 MOST_BYTES = 512 * 2**20
 LISTED = 16
-"""One write in this many lists the folder for files to drop: listing thousands of files for every write takes as long as compiling."""
+"""One write in this many lists the folder for files to drop: listing thousands of files for every write takes
+as long as compiling.
+"""
 
 
 def folder() -> Path | None:
@@ -48,16 +50,33 @@ def compile(lowered: Any, options: dict[str, Any] | None, device: Any) -> tuple[
 
 def key(lowered: Any, options: dict[str, Any] | None, device: Any) -> str:
     """Name of the file of a program: equal programs on equal devices with equal versions share it."""
-    about = [jax.__version__, jaxlib.version.__version__, device.platform, device.device_kind, str(device.id), platform.machine(), _processor()]
-    about += [os.environ.get("XLA_FLAGS", ""), os.environ.get("NPROC", ""), str(os.cpu_count()), repr(options), str(lowered.in_tree)]
-    # an argument that is not used is missing in the text of the program, and is checked all the same when it is called
+    about = [
+        jax.__version__,
+        jaxlib.version.__version__,
+        device.platform,
+        device.device_kind,
+        str(device.id),
+        platform.machine(),
+        _processor(),
+    ]
+    about += [
+        os.environ.get("XLA_FLAGS", ""),
+        os.environ.get("NPROC", ""),
+        str(os.cpu_count()),
+        repr(options),
+        str(lowered.in_tree),
+    ]
+    # an argument that is not used is missing in the text of the program, and is checked all the same when it
+    # is called
     about.append(repr(lowered.args_info))
     text = "\n".join(about) + lowered.as_text()
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 
 
 def options(device: Any) -> dict[str, Any]:
-    """Options for compiling: the processor's widest vectors, where XLA would take half (elementwise work is 25 to 30 % faster)."""
+    """Options for compiling: the processor's widest vectors, where XLA would take half (elementwise work is
+    25 to 30 % faster).
+    """
     wide = device.platform == "cpu" and "avx512f" in _processor().split()
     return {"xla_cpu_prefer_vector_width": "512"} if wide else {}
 
@@ -76,7 +95,9 @@ def _read(path: Path, lowered: Any, device: Any) -> Any:
         payload = path.read_bytes()
         with contextlib.suppress(OSError):
             os.utime(path)  # used now: the longest unused go first
-        return serialize_executable.deserialize_and_load(payload, lowered.in_tree, lowered.out_tree, device.client, [device])
+        return serialize_executable.deserialize_and_load(
+            payload, lowered.in_tree, lowered.out_tree, device.client, [device]
+        )
     except FileNotFoundError:
         return None
     except Exception:  # a damaged file, or one of another build: it is compiled anew and replaced
@@ -93,7 +114,9 @@ def _write(path: Path, compiled: Any) -> None:
         Path(name).replace(path)
         if int(path.name[:8], 16) % LISTED == 0:  # the name is a hash: no process has to count
             _prune(path.parent)
-    except Exception:  # a full or read-only disk, or a backend that cannot serialise, costs time and nothing else
+    except (
+        Exception
+    ):  # a full or read-only disk, or a backend that cannot serialise, costs time and nothing else
         return
 
 

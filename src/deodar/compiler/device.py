@@ -11,20 +11,25 @@ from deodar.errors import DeviceError
 from deodar.parameters import show
 
 DEFAULT = "cpu"
-"""Where programs run unless another device is named: a step of a small model takes 1 to 20 microseconds there, less than starting its
-kernels takes on a graphics processor."""
+"""Where programs run unless another device is named: a step of a small model takes 1 to 20 microseconds
+there, less than starting its kernels takes on a graphics processor.
+"""
 
 KINDS = ("cpu", "gpu", "cuda", "rocm", "tpu")
 """Platforms that are asked for; gpu is cuda or rocm, whichever is there."""
 
 CORES = "NPROC"
-"""Environment variable from which XLA reads how many threads it may use on a CPU; without it: as many as the process may have cores."""
+"""Environment variable from which XLA reads how many threads it may use on a CPU; without it: as many as the
+process may have cores.
+"""
 
 INSTALL = "For a graphics processor of NVIDIA type: pip install 'jax[cuda12]'"
 
 
 def find(name: str | None = None) -> Any:
-    """The device called `cpu`, `gpu`, `cuda`, `rocm`, `tpu`, or one of several by its number: `gpu:1`. None: the CPU.
+    """The device called `cpu`, `gpu`, `cuda`, `rocm`, `tpu`, or one of several by its number: `gpu:1`.
+
+    None: the CPU.
 
     Raises:
         DeviceError: there is no such device here.
@@ -36,7 +41,10 @@ def find(name: str | None = None) -> Any:
     devices = _of(kind)
     index = int(number) if number.isdecimal() else -1 if colon else 0
     if not 0 <= index < len(devices):
-        raise DeviceError(f"there is no device {wanted!r} here; there is: {', '.join(names())}", fix="" if _of("gpu") else INSTALL)
+        raise DeviceError(
+            f"there is no device {wanted!r} here; there is: {', '.join(names())}",
+            fix="" if _of("gpu") else INSTALL,
+        )
     return devices[index]
 
 
@@ -52,7 +60,9 @@ def names() -> list[str]:
 
 
 def cores() -> int:
-    """Cores that programs on the CPU use, or will use: as the environment says, else those that this process may use."""
+    """Cores that programs on the CPU use, or will use: as the environment says, else those that this process
+    may use.
+    """
     given = os.environ.get(CORES, "")
     return int(given) if given.isdecimal() and int(given) > 0 else available()
 

@@ -1,6 +1,7 @@
 """Executables of one model: compiled ahead of time, so that running never traces.
 
-One executable runs any number of steps: the numbers of steps and of records are arguments, not part of the program.
+One executable runs any number of steps: the numbers of steps and of records are arguments, not part of the
+program.
 """
 
 from __future__ import annotations
@@ -39,13 +40,17 @@ MOST_KEPT = 16
 """Executable sets that one model keeps; the oldest go first."""
 
 PAIRS_FROM = 1000
-"""Cells with noise, for each call of a step, from which noise is drawn in pairs: they save 0.4 ns a cell and step, a copy costs compile time."""
+"""Cells with noise, for each call of a step, from which noise is drawn in pairs: they save 0.4 ns a cell and
+step, a copy costs compile time.
+"""
 
 MOST_COPIED = 12
 """Calls of a step beyond which three copies of it would compile for seconds."""
 
 SHARED_BYTES = 8 * 2**20
-"""Arrays among the parameters, in bytes, beyond which an executable belongs to its model alone: it holds them."""
+"""Arrays among the parameters, in bytes, beyond which an executable belongs to its model alone: it holds
+them.
+"""
 
 RARELY = {"xla_backend_optimization_level": 0}
 """For what runs once, or when a width changes: it compiles in half the time."""
@@ -100,7 +105,9 @@ class Executable:
         self.batch = batch
         self.sweep = tuple(tuple(s) for s in sweep)
         lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
-        self.plan: Plan = plan(doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None)
+        self.plan: Plan = plan(
+            doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None
+        )
         self.layout = Layout(self.plan, precision, self.sweep)
         self.program = Program(self.plan, precision, self.layout.swept, body)
         self.body = body
@@ -119,7 +126,7 @@ class Executable:
         self._example = jax.tree.map(_form, example)
         self.seconds = time.process_time() - began
 
-    # -------------------------------------------------------------------------------- values
+    # ------------------------------------------------------------------------------------------------- values
 
     def holds(self, leaf: Leaf) -> bool:
         """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
@@ -129,19 +136,31 @@ class Executable:
         """The parameters of a document of this structure, on the host."""
         return self.layout.values(doc, self.batch.points or 1, swept)
 
-    # -------------------------------------------------------------------------------- functions
+    # ---------------------------------------------------------------------------------------------- functions
 
     def prepare(self, values: Tree) -> Tree:
         """Constants of the groups."""
         return self.call(self._prepare, values)
 
     def embodied(self, world: Any, state: Tree, keys: Tree) -> tuple[Tree, Tree, Tree]:
-        """What all copies share of a world inside the step, which has begun, and state and keys with what each has of it."""
+        """What all copies share of a world inside the step, which has begun, and state and keys with what
+        each has of it.
+        """
         body = self.body
         assert body is not None and isinstance(world, PureWorld)
         shared, own, now = world.parts()
-        joined = world.call(body.reads, lambda of: jax.vmap(dc.replace(body, world=of).begin, in_axes=(None, 0, 0)), shared, own, now)
-        return shared, {**state, "world": batched(joined, self.batch.shape)}, {**keys, "world": batched(own, self.batch.shape)}
+        joined = world.call(
+            body.reads,
+            lambda of: jax.vmap(dc.replace(body, world=of).begin, in_axes=(None, 0, 0)),
+            shared,
+            own,
+            now,
+        )
+        return (
+            shared,
+            {**state, "world": batched(joined, self.batch.shape)},
+            {**keys, "world": batched(own, self.batch.shape)},
+        )
 
     def init(self, values: Tree, seed: int, trials: Sequence[int]) -> tuple[Tree, Tree]:
         """State at the start and noise keys, for the given trials of a seed."""
@@ -187,7 +206,7 @@ class Executable:
         cells = sum(int(np.prod(shape(self.axes(p)), dtype=int)) for p in ports) * self.batch.size
         return max(1, min(16384, BUFFER_BYTES // max(1, cells * self.program.dtype.itemsize)))
 
-    # -------------------------------------------------------------------------------- traced
+    # ------------------------------------------------------------------------------------------------- traced
 
     def _start(self, values: Tree, seed: Any, trials: Any) -> tuple[Tree, Tree]:
         one = self.program.init
@@ -203,7 +222,16 @@ class Executable:
         return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
 
     def _chunk(
-        self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, whole: Any, real: Any
+        self,
+        ports: Sequence[Port],
+        capacity: int,
+        values: Tree,
+        constants: Tree,
+        state: Tree,
+        keys: Tree,
+        sensed: Tree,
+        whole: Any,
+        real: Any,
     ) -> Any:
         clock = unpacked(whole, real)
 
@@ -212,13 +240,25 @@ class Executable:
 
         return self._batched(one, values, constants, state, keys)
 
-    def _read(self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, whole: Any, real: Any) -> Any:
+    def _read(
+        self,
+        ports: Sequence[Port],
+        values: Tree,
+        constants: Tree,
+        state: Tree,
+        keys: Tree,
+        sensed: Tree,
+        whole: Any,
+        real: Any,
+    ) -> Any:
         clock = unpacked(whole, real)
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
             constants = self.program.settle(values, constants)
             still = self.program.steady(values, constants, sensed)
-            return self.program.observe(ports, values, constants, state, keys, sensed, still, clock, clock["tick"])
+            return self.program.observe(
+                ports, values, constants, state, keys, sensed, still, clock, clock["tick"]
+            )
 
         return self._batched(one, values, constants, state, keys)
 
@@ -226,17 +266,33 @@ class Executable:
         if self.batch.trials == 1:
             one = _alone(one)
         elif self.batch.trials is not None:
-            one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials)  # also without any state or noise
+            one = jax.vmap(
+                one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials
+            )  # also without any state or noise
         if self.batch.points is None:
             return one(values | {"swept": ()}, constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
-        return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(values, constants, state, keys)
+        return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(
+            values, constants, state, keys
+        )
 
     def _swept_axes(self, values: Tree) -> Tree:
         return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
-    def _run(self, ports: Sequence[Port], capacity: int, values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Any:
-        """`head` steps, a record, then `every` steps and a record until there are `records`; without ports `head` steps."""
+    def _run(
+        self,
+        ports: Sequence[Port],
+        capacity: int,
+        values: Tree,
+        constants: Tree,
+        state: Tree,
+        keys: Tree,
+        sensed: Tree,
+        clock: Tree,
+    ) -> Any:
+        """`head` steps, a record, then `every` steps and a record until there are `records`; without ports
+        `head` steps.
+        """
         program = self.program
         constants = program.settle(values, constants)
         still = program.steady(values, constants, sensed)
@@ -245,29 +301,46 @@ class Executable:
         shapes = [leaf.shape for leaf in leaves_of]
 
         def full(flat: Tree) -> Tree:
-            return jax.tree.unflatten(tree, [a.reshape(s) for a, s in zip(jax.tree.leaves(flat), shapes, strict=True)])
+            return jax.tree.unflatten(
+                tree, [a.reshape(s) for a, s in zip(jax.tree.leaves(flat), shapes, strict=True)]
+            )
 
-        def flat(state: Tree) -> Tree:  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
+        def flat(
+            state: Tree,
+        ) -> (
+            Tree
+        ):  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
         def steps(n: Any, tick: Any, state: Tree) -> tuple[Any, Tree]:
             def one(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
                 tick, state = carry
-                return tick + jnp.uint32(1), flat(program.step(values, constants, full(state), keys, {}, sensed, still, clock, tick))
+                return tick + jnp.uint32(1), flat(
+                    program.step(values, constants, full(state), keys, {}, sensed, still, clock, tick)
+                )
 
             def two(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
                 tick, state = carry
-                for drawn in program.draw(keys, tick):  # noise comes in pairs: for an even tick and the odd one after it
-                    state = flat(program.step(values, constants, full(state), keys, drawn, sensed, still, clock, tick))
+                for drawn in program.draw(
+                    keys, tick
+                ):  # noise comes in pairs: for an even tick and the odd one after it
+                    state = flat(
+                        program.step(values, constants, full(state), keys, drawn, sensed, still, clock, tick)
+                    )
                     tick = tick + jnp.uint32(1)
                 return tick, state
 
             if not self.draws_pairs():
                 return lax.fori_loop(0, n, one, (tick, state))
             lead = jnp.minimum(n, (tick % jnp.uint32(2)).astype(n.dtype))
-            singles, doubles = jnp.stack([lead, (n - lead) % 2]), jnp.stack([(n - lead) // 2, jnp.zeros_like(n)])
+            singles, doubles = (
+                jnp.stack([lead, (n - lead) % 2]),
+                jnp.stack([(n - lead) // 2, jnp.zeros_like(n)]),
+            )
 
-            def phase(p: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:  # up to an even tick, pairs, what is left
+            def phase(
+                p: Any, carry: tuple[Any, Tree]
+            ) -> tuple[Any, Tree]:  # up to an even tick, pairs, what is left
                 return lax.fori_loop(0, doubles[p], two, lax.fori_loop(0, singles[p], one, carry))
 
             return lax.fori_loop(0, 2, phase, (tick, state))
@@ -281,7 +354,13 @@ class Executable:
             tick, state, buffers = carry
             tick, state = steps(jnp.where(r == 0, head, every), tick, state)
             seen = program.observe(ports, values, constants, full(state), keys, sensed, still, clock, tick)
-            return tick, state, tuple(lax.dynamic_update_index_in_dim(b, s, r, 0) for b, s in zip(buffers, seen, strict=True))
+            return (
+                tick,
+                state,
+                tuple(
+                    lax.dynamic_update_index_in_dim(b, s, r, 0) for b, s in zip(buffers, seen, strict=True)
+                ),
+            )
 
         _, state, buffers = lax.fori_loop(0, records, segment, (clock["tick"], flat(state), buffers))
         state = full(state)
@@ -289,20 +368,32 @@ class Executable:
 
     def draws_pairs(self) -> bool:
         """Whether drawing noise for two steps at once is worth a program with three copies of the step."""
-        cells = sum(self.plan.groups[g].rows * math.prod(shape(self.plan.groups[g].noise or ())) for g in self.program.paired)
+        cells = sum(
+            self.plan.groups[g].rows * math.prod(shape(self.plan.groups[g].noise or ()))
+            for g in self.program.paired
+        )
         calls = len(self.program.moving)
         return calls <= MOST_COPIED and cells * self.batch.size >= PAIRS_FROM * calls
 
-    # -------------------------------------------------------------------------------- compiling
+    # ---------------------------------------------------------------------------------------------- compiling
 
-    def compile(self, function: Any, *args: Any, options: Mapping[str, Any] | None = None) -> tuple[Any, Tree]:
+    def compile(
+        self, function: Any, *args: Any, options: Mapping[str, Any] | None = None
+    ) -> tuple[Any, Tree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
         # full products everywhere: processors that multiply in fewer digits (TF32) would do so otherwise
-        with precision_context(self.precision), jax.default_device(self.device), jax.default_matmul_precision("highest"):
-            # unused arguments stay: two programs that differ in which argument they use must not look alike to the cache
+        with (
+            precision_context(self.precision),
+            jax.default_device(self.device),
+            jax.default_matmul_precision("highest"),
+        ):
+            # unused arguments stay: two programs that differ in which argument they use must not look alike
+            # to the cache
             lowered = jax.jit(function, keep_unused=True).lower(*args)
-            executable, fresh = cache.compile(lowered, {**cache.options(self.device), **(options or {})}, self.device)
+            executable, fresh = cache.compile(
+                lowered, {**cache.options(self.device), **(options or {})}, self.device
+            )
         self.traced += 1
         self.compiled += fresh
         self.seconds += time.process_time() - began
@@ -342,10 +433,11 @@ def executable(
     accuracy: str = "default",
     body: Body | None = None,
 ) -> Executable:
-    """The executable of a document, by default the model's present one, for the CPU or a device; kept by the model, so that it compiles once.
+    """The executable of a document, by default the model's present one, for the CPU or a device; kept by the
+    model, so that it compiles once.
 
-    `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may take what is cheaper and errs by less
-    than 1e-4 in activation.
+    `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may
+    take what is cheaper and errs by less than 1e-4 in activation.
     """
     batch, doc, place = batch or Batch(), doc or model.document, devices.find(device)
     if precision not in PRECISIONS:
@@ -358,7 +450,18 @@ def executable(
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.outside())
     ways = () if exact else tuple(ways_of(doc, lifted, batch.size, body is not None).items())
-    key = (signature(doc), ways, outside, precision, exact, batch, tuple(map(tuple, sweep)), neutral, devices.name(place), body and body.key)
+    key = (
+        signature(doc),
+        ways,
+        outside,
+        precision,
+        exact,
+        batch,
+        tuple(map(tuple, sweep)),
+        neutral,
+        devices.name(place),
+        body and body.key,
+    )
     if key not in model.programs:
         if doc is model.document:
             model.require()
@@ -385,12 +488,16 @@ class _Request:
     body: Body | None = dc.field(compare=False)
 
     def make(self) -> Executable:
-        return Executable(self.doc, self.precision, self.batch, self.sweep, self.device, self.exact, self.body)
+        return Executable(
+            self.doc, self.precision, self.batch, self.sweep, self.device, self.exact, self.body
+        )
 
 
 @functools.lru_cache(maxsize=48)
 def _shared(request: _Request) -> Executable:
-    """The executable of all models of this process that ask for the same: one that is built again, as by a notebook cell, compiles nothing."""
+    """The executable of all models of this process that ask for the same: one that is built again, as by a
+    notebook cell, compiles nothing.
+    """
     return request.make()
 
 
@@ -415,5 +522,8 @@ def require_trust(model: Model, doc: Document) -> None:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",
                 where=e.path,
-                fix="If you trust it, type dd.load(file, trust=True), or --trust; after unpickling dd.Model(document=model.document, trusted=True)",
+                fix=(
+                    "If you trust it, type dd.load(file, trust=True), or --trust; after unpickling"
+                    " dd.Model(document=model.document, trusted=True)"
+                ),
             )

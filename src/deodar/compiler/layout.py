@@ -21,14 +21,17 @@ class Layout:
     """Places of the leaves of a plan.
 
     Attributes:
-        swept: for each swept leaf its places in the parameter vector; at the end those of the digits that rounding takes from exact leaves.
+        swept: for each swept leaf its places in the parameter vector; at the end those of the digits that
+            rounding takes from exact leaves.
     """
 
     def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[Leaf]]) -> None:
         self.plan, self.precision, self.dtype = plan, precision, np.dtype(precision)
         lows = [[(i, path + LOW) for i, path in leafs if path in self._group(i).exact] for leafs in sweep]
         self._rounded = [k for k, low in enumerate(lows) if low]
-        self.swept = [[self.place(leaf) for leaf in leafs] for leafs in [*sweep, *(lows[k] for k in self._rounded)]]
+        self.swept = [
+            [self.place(leaf) for leaf in leafs] for leafs in [*sweep, *(lows[k] for k in self._rounded)]
+        ]
 
     def place(self, leaf: Leaf) -> int:
         """Place of a scalar leaf in the parameter vector."""
@@ -42,21 +45,30 @@ class Layout:
         return leaf[1] in group.offset or leaf[1] in group.arrays
 
     def values(self, doc: Document, points: int = 1, swept: Sequence[Any] | None = None) -> Tree:
-        """The parameters of a document of this structure, on the host; `swept`: the values of each entry of the sweep at its points."""
+        """The parameters of a document of this structure, on the host; `swept`: the values of each entry of
+        the sweep at its points.
+        """
         vector = np.zeros(self.plan.size, self.dtype)
         arrays: dict[str, np.ndarray] = {}
         by = doc.by_id()
         for g, group in enumerate(self.plan.groups):
-            columns = [{path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)} for n in group.nodes]
+            columns = [
+                {path: value for path, value, _ in leaves(by[n.id].element if n.declared else n.element)}
+                for n in group.nodes
+            ]
             for name, offset in group.offset.items():
                 path = name.removesuffix(LOW)
                 for n, c in zip(group.nodes, columns, strict=True):
                     require_range(doc, (n.id, path), c[path], self.precision)
                 vector[offset : offset + group.rows] = self._part(name, [c[path] for c in columns])
             for name in group.arrays:
-                arrays[array_key(g, name)] = np.stack([self._part(name, c[name.removesuffix(LOW)]) for c in columns])
+                arrays[array_key(g, name)] = np.stack(
+                    [self._part(name, c[name.removesuffix(LOW)]) for c in columns]
+                )
         if swept is None:
-            given = [np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.swept]
+            given = [
+                np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.swept
+            ]
         else:
             given = [*swept, *(split(swept[k], self.dtype)[1] for k in self._rounded)]
         return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.dtype) for s in given)}
@@ -90,5 +102,7 @@ def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None
     if abs(value) > float(np.finfo(precision).max):
         entry = doc.by_id().get(leaf[0])
         raise ParameterError(
-            f"is {value:g}, beyond what {precision} can hold", where=f"{entry.path if entry else leaf[0]}.{leaf[1]}", fix="Take precision='float64'"
+            f"is {value:g}, beyond what {precision} can hold",
+            where=f"{entry.path if entry else leaf[0]}.{leaf[1]}",
+            fix="Take precision='float64'",
         )

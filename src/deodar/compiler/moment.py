@@ -14,7 +14,8 @@ REAL = ("start", "dt")
 
 
 def packed(now: Mapping[str, Any], dtype: Any) -> tuple[np.ndarray, np.ndarray]:
-    """When it is, and how many steps and records there are to be, as two arrays: each argument of a program costs microseconds.
+    """When it is, and how many steps and records there are to be, as two arrays: each argument of a program
+    costs microseconds.
 
     The time is `start` at the tick `origin`; `start` and `dt` keep the digits of float64.
     """
@@ -24,4 +25,6 @@ def packed(now: Mapping[str, Any], dtype: Any) -> tuple[np.ndarray, np.ndarray]:
 
 def unpacked(whole: Any, real: Any) -> dict[str, Any]:
     """The same by name."""
-    return {name: whole[k] for k, name in enumerate(WHOLE)} | {name: Exact(real[0, k], real[1, k]) for k, name in enumerate(REAL)}
+    return {name: whole[k] for k, name in enumerate(WHOLE)} | {
+        name: Exact(real[0, k], real[1, k]) for k, name in enumerate(REAL)
+    }

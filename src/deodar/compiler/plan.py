@@ -1,7 +1,8 @@
 """The plan between model and program: plain data without JAX, to be printed and tested.
 
-Nodes of equal structure are rows of one group, stacked on a leading axis. The schedule is a list of calls, and every sum
-of the graph a list of index arrays. A planner may replace the partition, or rewrite a plan into another one.
+Nodes of equal structure are rows of one group, stacked on a leading axis. The schedule is a list of calls,
+and every sum of the graph a list of index arrays. A planner may replace the partition, or rewrite a plan into
+another one.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ class Group:
         nodes: the rows, in the order of their ids.
         offset: for each scalar leaf, its place in the parameter vector (one entry a row).
         arrays: paths of the leaves that are arrays.
-        exact: paths of the leaves that keep the digits of float64; the path with `LOW` behind it holds what is lost by rounding.
+        exact: paths of the leaves that keep the digits of float64; the path with `LOW` behind it holds what
+            is lost by rounding.
         cost: for each leaf, `live` or `rebuild`.
         still: whether its outputs stay the same during a chunk.
         noise: axes over which a row draws noise, or None.
@@ -73,21 +75,26 @@ class Call:
 
 
 COLUMNS = 64
-"""Sources of a row that are added in one expression; further ones are added by a loop, so that a program does not grow with the number of inputs."""
+"""Sources of a row that are added in one expression; further ones are added by a loop, so that a program does
+not grow with the number of inputs.
+"""
 
 
 @dc.dataclass
 class Read:
     """Rows of one buffer that are added to rows of one port.
 
-    Each row sums in the order of the sources' ids within a group of sources, and group after group in the order of their first ids.
+    Each row sums in the order of the sources' ids within a group of sources, and group after group in the
+    order of their first ids.
 
     Attributes:
         source: group, port and instant of the buffer.
-        table: rows of the source, (rows of the port, at most COLUMNS); an entry equal to the number of the source's rows means none.
+        table: rows of the source, (rows of the port, at most COLUMNS); an entry equal to the number of the
+            source's rows means none.
         whole: whether no entry means none.
-        more: where rows have more sources: the rows of the port, and the rows of their further sources, (blocks, COLUMNS, rows). Rows with few
-            sources do not occur there, so the size is at most a few times that of the connections.
+        more: where rows have more sources: the rows of the port, and the rows of their further sources,
+            (blocks, COLUMNS, rows). Rows with few sources do not occur there, so the size is at most a few
+            times that of the connections.
     """
 
     source: tuple[int, str, Instant]
@@ -110,11 +117,19 @@ class Plan:
 
     def describe(self) -> str:
         """The plan in words, one line a group and a call."""
-        lines = [f"{len(self.groups)} groups, {self.size} parameters, all parts meet every {self.ticks} ticks"]
+        lines = [
+            f"{len(self.groups)} groups, {self.size} parameters, all parts meet every {self.ticks} ticks"
+        ]
         for k, g in enumerate(self.groups):
             names = ", ".join(n.path for n in g.nodes[:4]) + (", ..." if g.rows > 4 else "")
-            lines.append(f"group {k}: {g.rows} x {type(g.like.element).__name__} every {g.like.every}{' still' if g.still else ''}: {names}")
-            lines += [f"  {key}: {choice.way}{' shared' if key == g.way.shared else ''}" for key, choice in g.way.choices]
+            lines.append(
+                f"group {k}: {g.rows} x {type(g.like.element).__name__} every"
+                f" {g.like.every}{' still' if g.still else ''}: {names}"
+            )
+            lines += [
+                f"  {key}: {choice.way}{' shared' if key == g.way.shared else ''}"
+                for key, choice in g.way.choices
+            ]
         lines += [f"call: {c.role} of group {c.group} at t{' + dt' if c.instant else ''}" for c in self.calls]
         return "\n".join(lines)
 
@@ -136,15 +151,29 @@ class Plan:
                 if (g, port) in done:
                     continue
                 done.add((g, port))
-                for read in self.reads.get((g, port), ()):  # a port that it passes on may be one that it has not got now
+                for read in self.reads.get(
+                    (g, port), ()
+                ):  # a port that it passes on may be one that it has not got now
                     source = read.source[0]
                     want.add(source)
-                    todo.append((source, [p for o in self.groups[source].like.outs for p in self.groups[source].like.passes(o)]))
+                    todo.append(
+                        (
+                            source,
+                            [
+                                p
+                                for o in self.groups[source].like.outs
+                                for p in self.groups[source].like.passes(o)
+                            ],
+                        )
+                    )
         return [c for c in self.calls if c.role == "output" and c.instant == 0 and c.group in want]
 
 
 def by_structure(node: Node, still: bool, neutral: frozenset[str], way: Way) -> Hashable:
-    """Rows that share one group: equal level, rate, structure, axes and way. A sensor stands alone: a world feeds it by name."""
+    """Rows that share one group: equal level, rate, structure, axes and way.
+
+    A sensor stands alone: a world feeds it by name.
+    """
     alone = node.id if isinstance(node.element, Sensor) else ""
     ins, outs = tuple(sorted(node.ins.items())), tuple(node.outs.items())
     return (node.level, node.every, still, structure(node.element, neutral), ins, outs, way, alone)
@@ -162,7 +191,8 @@ def plan(
 
     Args:
         doc: a document without problems, else they are raised together.
-        lifted: leaves that are traced although they have their neutral value (because they are swept, or have left it once).
+        lifted: leaves that are traced although they have their neutral value (because they are swept, or have
+            left it once).
         exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
         copies: how many copies of the model run at once.
         partition: which nodes share a group; none: `by_structure`.
@@ -172,19 +202,30 @@ def plan(
     acts, loops = order(nodes) if not problems else ([], [])
     if problems or loops:
         raise ModelError([*problems, *loops])
-    neutral = {n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes}
+    neutral = {
+        n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes
+    }
     still = _still(nodes, embodied)
     found = ways(nodes, still, {n.id for n in nodes} if exact else _swept(nodes, lifted), copies)
     nodes = shared(nodes, found)
     groups, row = _groups(nodes, neutral, still, found, partition or by_structure)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
-    reads = {(g, port): _reads(group, port, groups, row) for g, group in enumerate(groups) for port in group.like.reads}
-    sensors = {n.id: k for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if isinstance(n.element, Sensor))}
+    reads = {
+        (g, port): _reads(group, port, groups, row)
+        for g, group in enumerate(groups)
+        for port in group.like.reads
+    }
+    sensors = {
+        n.id: k
+        for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if isinstance(n.element, Sensor))
+    }
     return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
 
 
-def ways_of(doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False) -> dict[str, Way]:
+def ways_of(
+    doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False
+) -> dict[str, Way]:
     """How each element would apply its kernels, where not by matrices."""
     nodes, problems = resolve(doc)
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
@@ -262,7 +303,9 @@ def cost(p: Parameter) -> str:
     return "rebuild" if p.form == "array" else p.cost
 
 
-def _reads(group: Group, port: str, groups: Sequence[Group], row: Mapping[str, tuple[int, int]]) -> list[Read]:
+def _reads(
+    group: Group, port: str, groups: Sequence[Group], row: Mapping[str, tuple[int, int]]
+) -> list[Read]:
     found: dict[tuple[int, str, Instant], list[list[int]]] = {}
     for r, n in enumerate(group.nodes):
         for ident, source_port, instant in sorted(n.reads[port]):
@@ -274,12 +317,17 @@ def _reads(group: Group, port: str, groups: Sequence[Group], row: Mapping[str, t
     out: list[Read] = []
     for key in sorted(found):
         rows, nothing = found[key], groups[key[0]].rows
-        table, more = _padded(rows, 0, min(COLUMNS, max(map(len, rows))), nothing), list[tuple[np.ndarray, np.ndarray]]()
+        table, more = (
+            _padded(rows, 0, min(COLUMNS, max(map(len, rows))), nothing),
+            list[tuple[np.ndarray, np.ndarray]](),
+        )
         begin = COLUMNS
         while longer := [r for r, sources in enumerate(rows) if len(sources) > begin]:
             most = max(map(len, rows)) if len(longer) == 1 else 2 * begin
             end = begin + -(-(most - begin) // COLUMNS) * COLUMNS
-            block = _padded([rows[r] for r in longer], begin, end, nothing).T.reshape(-1, COLUMNS, len(longer))
+            block = _padded([rows[r] for r in longer], begin, end, nothing).T.reshape(
+                -1, COLUMNS, len(longer)
+            )
             more.append((np.asarray(longer, np.int32), block))
             begin = end
         whole = all(bool((part < nothing).all()) for part in (table, *(block for _, block in more)))

@@ -1,4 +1,6 @@
-"""The cost model of convolutions against the machine at hand: every way that is open, what it should cost, and what it costs."""
+"""The cost model of convolutions against the machine at hand: every way that is open, what it should cost,
+and what it costs.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ NAMES = "xyz"
 
 @dc.dataclass(frozen=True)
 class Case:
-    """A field and its kernels: samples on each axis, the boundary of all, widths in samples, and how many copies run at once."""
+    """A field and its kernels: samples on each axis, the boundary of all, widths in samples, and how many
+    copies run at once.
+    """
 
     samples: tuple[int, ...]
     boundary: str = "periodic"
@@ -36,7 +40,10 @@ class Case:
 
     def __str__(self) -> str:
         many = f"{self.copies} of " if self.copies > 1 else ""
-        return f"{many}{' x '.join(map(str, self.samples))} {self.boundary}, sigma {', '.join(f'{s:g}' for s in self.sigmas)}"
+        return (
+            f"{many}{' x '.join(map(str, self.samples))} {self.boundary}, sigma"
+            f" {', '.join(f'{s:g}' for s in self.sigmas)}"
+        )
 
     @property
     def axes(self) -> Axes:
@@ -68,7 +75,9 @@ CASES = (
 
 @dc.dataclass(frozen=True)
 class Measured:
-    """One way of one case: what a step of all copies should cost and costs, in microseconds; `chosen`: whether it is the one that is taken."""
+    """One way of one case: what a step of all copies should cost and costs, in microseconds; `chosen`:
+    whether it is the one that is taken.
+    """
 
     case: Case
     way: str
@@ -83,7 +92,13 @@ def measure(case: Case) -> Iterator[Measured]:
     terms = interaction.spans(case.kernels, case.axes)[key]
     found = candidates(case.axes, tuple(key.split()), interaction.covering(terms), len(terms), case.copies)
     for k, choice in enumerate(sorted(found, key=lambda c: c.nanoseconds)):
-        yield Measured(case, choice.way, choice.nanoseconds * case.copies / 1000, 1e6 * _seconds(case, key, choice), k == 0)
+        yield Measured(
+            case,
+            choice.way,
+            choice.nanoseconds * case.copies / 1000,
+            1e6 * _seconds(case, key, choice),
+            k == 0,
+        )
 
 
 def _seconds(case: Case, key: str, choice: Choice) -> float:

@@ -1,7 +1,8 @@
 """The program: pure functions of arrays that compute a plan.
 
-Elements see one copy of themselves. Rows of a group, trials and points of a sweep are `vmap`s around them; rates are
-`lax.cond`s whose predicate is never batched (under `vmap` a batched predicate would compute both branches in every step).
+Elements see one copy of themselves. Rows of a group, trials and points of a sweep are `vmap`s around them;
+rates are `lax.cond`s whose predicate is never batched (under `vmap` a batched predicate would compute both
+branches in every step).
 """
 
 from __future__ import annotations
@@ -30,7 +31,9 @@ Tree = Any
 
 @dc.dataclass(frozen=True)
 class Port:
-    """A port of a row of a group (of all rows: None), to be read: output port, or input port (then the sum that arrives there)."""
+    """A port of a row of a group (of all rows: None), to be read: output port, or input port (then the sum
+    that arrives there).
+    """
 
     group: int
     row: int | None
@@ -40,7 +43,8 @@ class Port:
 class _NotHere:
     """Stands for a live parameter inside `prepare`, which must not use one: any arithmetic with it raises.
 
-    A sign is let through: a kernel's terms are listed there too, whose amplitudes may be negated and are not used.
+    A sign is let through: a kernel's terms are listed there too, whose amplitudes may be negated and are not
+    used.
     """
 
     def __neg__(self) -> _NotHere:
@@ -59,36 +63,49 @@ class Program:
     """The functions of one plan in one precision.
 
     Arguments they share:
-        values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value for each sweep).
+        values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value
+            for each sweep).
         constants: what `prepare` made of them, one entry a group.
         state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible).
         keys: noise keys of the noisy groups; of a world inside the step its own arrays, under `world`.
         sensed: readings of the sensors; of a world inside the step they are in the state.
-        clock: `tick` and `origin` (uint32), `start` (document time at the tick `origin`), `dt`, `period` (of a world inside, in ticks).
+        clock: `tick` and `origin` (uint32), `start` (document time at the tick `origin`), `dt`, `period` (of
+            a world inside, in ticks).
     """
 
-    def __init__(self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = (), body: Body | None = None) -> None:
+    def __init__(
+        self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = (), body: Body | None = None
+    ) -> None:
         self.plan = plan
         self.body = body
         self.precision = precision
         self.dtype: Any = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
         self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
-        self.paired = [g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful]
-        self.slow = [g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful]
+        self.paired = [
+            g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful
+        ]
+        self.slow = [
+            g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
+        ]
         self.still = [c for c in plan.calls if plan.groups[c.group].still]
         self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
-        self.settings = [Setting(g.like.ins, g.like.outs, self.dtype, dict(g.way.choices), g.way.shared) for g in plan.groups]
+        self.settings = [
+            Setting(g.like.ins, g.like.outs, self.dtype, dict(g.way.choices), g.way.shared)
+            for g in plan.groups
+        ]
 
-    # -------------------------------------------------------------------------------- prepare and init
+    # --------------------------------------------------------------------------------------- prepare and init
 
     def prepare(self, values: Tree) -> list[Any]:
         """Constants of every group; with a sweep axis where a swept parameter rebuilds them."""
         out: list[Any] = []
         for g in range(len(self.plan.groups)):
             if self.rebuilt[g]:
-                out.append(jax.vmap(lambda swept, g=g: self._prepared(g, values | {"swept": swept}))(values["swept"]))
+                out.append(
+                    jax.vmap(lambda swept, g=g: self._prepared(g, values | {"swept": swept}))(values["swept"])
+                )
             else:
                 out.append(self._prepared(g, values | {"swept": ()}))
         return out
@@ -99,11 +116,14 @@ class Program:
         keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
         return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}, keys
 
-    # -------------------------------------------------------------------------------- steps
+    # -------------------------------------------------------------------------------------------------- steps
 
     def settle(self, values: Tree, constants: Tree) -> list[Any]:
         """What groups make of their constants and of live parameters once a chunk."""
-        return [self._each(g, lambda e, at, c: e.settle(at, c), values, constants[g]) for g in range(len(self.plan.groups))]
+        return [
+            self._each(g, lambda e, at, c: e.settle(at, c), values, constants[g])
+            for g in range(len(self.plan.groups))
+        ]
 
     def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
@@ -123,8 +143,22 @@ class Program:
             str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
         }
 
-    def step(self, values: Tree, constants: Tree, state: Tree, keys: Tree, drawn: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any) -> Tree:
-        """The state at tick + 1: every output at t is read, then all new states are committed together. `drawn`: noise of the fast groups."""
+    def step(
+        self,
+        values: Tree,
+        constants: Tree,
+        state: Tree,
+        keys: Tree,
+        drawn: Tree,
+        sensed: Tree,
+        still: Buffers,
+        clock: Tree,
+        tick: Any,
+    ) -> Tree:
+        """The state at tick + 1: every output at t is read, then all new states are committed together.
+
+        `drawn`: noise of the fast groups.
+        """
         sensed = self._seen(state, sensed)
         buffers, old = dict(still), state["groups"]
         new, held = list(old), dict(state["held"])
@@ -146,7 +180,9 @@ class Program:
                 new[call.group] = self._gated(call.group, run, old, held, tick)
         if self.body is None:
             return {"groups": new, "held": held}
-        told = {ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]}
+        told = {
+            ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]
+        }
         world = self.body.step(values["world"], keys["world"], state["world"], told, tick, clock["period"])
         return {"groups": new, "held": held, "world": world}
 
@@ -154,14 +190,34 @@ class Program:
         return sensed if self.body is None else {**sensed, **self.body.sensed(state["world"])}
 
     def observe(
-        self, ports: Sequence[Port], values: Tree, constants: Tree, state: Tree, keys: Tree, sensed: Tree, still: Buffers, clock: Tree, tick: Any
+        self,
+        ports: Sequence[Port],
+        values: Tree,
+        constants: Tree,
+        state: Tree,
+        keys: Tree,
+        sensed: Tree,
+        still: Buffers,
+        clock: Tree,
+        tick: Any,
     ) -> tuple[Array, ...]:
         """Ports at the state's own time; connections that read `current` see that same state."""
         buffers, sensed = dict(still), self._seen(state, sensed)
         for call in self.plan.needed([(p.group, p.name) for p in ports]):
             if not self.plan.groups[call.group].still:
                 time = self._time(clock, tick, self.plan.groups[call.group])
-                self._output(call, buffers, values, constants, state["groups"][call.group], keys, sensed, time, tick, now=True)
+                self._output(
+                    call,
+                    buffers,
+                    values,
+                    constants,
+                    state["groups"][call.group],
+                    keys,
+                    sensed,
+                    time,
+                    tick,
+                    now=True,
+                )
         return tuple(self._port(p, buffers) for p in ports)
 
     def finite(self, state: Tree) -> tuple[Array, list[Array]]:
@@ -174,7 +230,7 @@ class Program:
             out.append(good)
         return jnp.all(jnp.stack([jnp.all(good) for good in out])) if out else jnp.ones((), bool), out
 
-    # -------------------------------------------------------------------------------- one group
+    # ---------------------------------------------------------------------------------------------- one group
 
     def _prepared(self, g: int, values: Tree) -> Any:
         return self._each(g, lambda e, at: e.prepare(at), values, only="rebuild")
@@ -198,16 +254,40 @@ class Program:
         if group.like.id in self.plan.sensors:
             inputs = {"sensed": jnp.asarray(sensed[group.like.id], self.dtype)[None]}
         noise = None if group.like.element.stateful else self._noise(g, keys, tick)
-        out = self._each(g, lambda e, at, s, x, c, z: e.output(at, s, x, c, time, z), values, shown, inputs, constants[g], noise)
+        out = self._each(
+            g,
+            lambda e, at, s, x, c, z: e.output(at, s, x, c, time, z),
+            values,
+            shown,
+            inputs,
+            constants[g],
+            noise,
+        )
         for port, axes in group.like.outs.items():
-            buffers[g, port, call.instant] = jnp.broadcast_to(jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes)))
+            buffers[g, port, call.instant] = jnp.broadcast_to(
+                jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes))
+            )
 
-    def _advance(self, g: int, values: Tree, constants: Tree, state: Any, inputs: Any, noise: Any, time: Time) -> Any:
-        new = self._each(g, lambda e, at, s, x, c, z: e.advance(at, s, x, c, time, z), values, state, inputs, constants[g], noise)
+    def _advance(
+        self, g: int, values: Tree, constants: Tree, state: Any, inputs: Any, noise: Any, time: Time
+    ) -> Any:
+        new = self._each(
+            g,
+            lambda e, at, s, x, c, z: e.advance(at, s, x, c, time, z),
+            values,
+            state,
+            inputs,
+            constants[g],
+            noise,
+        )
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, state)
 
-    def _gated(self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Any) -> Any:
-        """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks later."""
+    def _gated(
+        self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Any
+    ) -> Any:
+        """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks
+        later.
+        """
         k = self.plan.groups[g].like.every
         if k == 1:
             return run()
@@ -227,7 +307,9 @@ class Program:
     def _time(self, clock: Tree, tick: Any, group: Group) -> Time:
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
 
-    def _inputs(self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False) -> dict[str, Any]:
+    def _inputs(
+        self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False
+    ) -> dict[str, Any]:
         ports = [p for p in self.plan.groups[g].like.reads if only is None or p in only]
         return {p: self._sum(g, p, buffers, now) for p in ports}
 

@@ -1,8 +1,9 @@
 """Which way every kernel of a model is applied, and which couplings are added up as waves.
 
-A convolution is cheap between transforms. Where fields of the same axes are coupled by Gaussian kernels, each field is therefore transformed
-once, all kernels are applied to its waves, what arrives at a field is added up as waves, and there is one way back. `ways` decides, before
-anything is compiled, by the costs of `numerics.choice`; `shared` rewrites the nodes: ports whose names end in `WAVES` hold what travels so.
+A convolution is cheap between transforms. Where fields of the same axes are coupled by Gaussian kernels, each
+field is therefore transformed once, all kernels are applied to its waves, what arrives at a field is added up
+as waves, and there is one way back. `ways` decides, before anything is compiled, by the costs of
+`numerics.choice`; `shared` rewrites the nodes: ports whose names end in `WAVES` hold what travels so.
 """
 
 from __future__ import annotations
@@ -43,16 +44,27 @@ Circle = tuple[list[Node], str, Choice]
 
 
 def widths(doc: Document) -> dict[str, Any]:
-    """What of its kernels' widths the way of an element is decided by: while it stays equal, so do all ways."""
+    """What of its kernels' widths the way of an element is decided by: while it stays equal, so do all
+    ways.
+    """
     return {e.id: interaction.buckets(e.element.kernels()) for e in doc.entries if e.element.kernels()}
 
 
-def ways(nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str], copies: int = 1) -> dict[str, Way]:
-    """The way of every node; those in `exact` take matrices. `copies`: how many of the whole model run at once."""
+def ways(
+    nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str], copies: int = 1
+) -> dict[str, Way]:
+    """The way of every node; those in `exact` take matrices.
+
+    `copies`: how many of the whole model run at once.
+    """
     alike = Counter(_likeness(n) for n in nodes)
     out: dict[str, Way] = {}
     for n in nodes:
-        own = {} if n.id in exact else interaction.choices(n.element.kernels(), _axes(n), copies * alike[_likeness(n)])
+        own = (
+            {}
+            if n.id in exact
+            else interaction.choices(n.element.kernels(), _axes(n), copies * alike[_likeness(n)])
+        )
         out[n.id] = Way(_sorted(own))
     free = [n for n in nodes if n.element.sharing and not still[n.id] and n.id not in exact and _axes(n)]
     for members, key, choice in _merged(list(_circles(free, out, copies)), free, out, copies):
@@ -62,12 +74,18 @@ def ways(nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str
 
 
 def shared(nodes: Sequence[Node], found: dict[str, Way]) -> list[Node]:
-    """The nodes, with the second parts of ports where they share waves. What cannot share after all takes back its choice in `found`."""
+    """The nodes, with the second parts of ports where they share waves.
+
+    What cannot share after all takes back its choice in `found`.
+    """
     by = {n.id: n for n in nodes}
     smooth: set[str] = set()
-    """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it."""
+    """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it.
+    """
     for n in _upstream_first([n for n in nodes if found[n.id].shared and n.element.sharing != "ends"]):
-        if n.element.sharing == "filters" or (n.reads["input"] and all(s[0] in smooth and _joined(by[s[0]], n, found) for s in n.reads["input"])):
+        if n.element.sharing == "filters" or (
+            n.reads["input"] and all(s[0] in smooth and _joined(by[s[0]], n, found) for s in n.reads["input"])
+        ):
             smooth.add(n.id)
         else:
             found[n.id] = EXACT
@@ -85,37 +103,62 @@ def _with_waves(n: Node, by: Mapping[str, Node], found: Mapping[str, Way], smoot
             return False
         if source.element.sharing == "ends":
             return through
-        # beyond a border there is nothing; as waves what a kernel has spread over it would still be there for the next
+        # beyond a border there is nothing; as waves what a kernel has spread over it would still be there for
+        # the next
         return slot[0] in smooth and not (through and "zero" in way.shared)
 
     arriving = [slot for slot in n.reads["input"] if comes(slot)]
     staying = [slot for slot in n.reads["input"] if not comes(slot)]
-    reads = n.reads | {"input" + REST: staying, "input" + WAVES: [(i, port + WAVES, instant) for i, port, instant in arriving]}
+    reads = n.reads | {
+        "input" + REST: staying,
+        "input" + WAVES: [(i, port + WAVES, instant) for i, port, instant in arriving],
+    }
     if n.element.sharing == "ends":
-        reads["output" + WAVES] = [(n.id, "output" + WAVES, 0)]  # its own, for its lateral interaction: transformed once
-    return dc.replace(n, ins=n.ins | {"input" + REST: n.ins["input"], "input" + WAVES: waves}, outs=n.outs | {"output" + WAVES: waves}, reads=reads)
+        reads["output" + WAVES] = [
+            (n.id, "output" + WAVES, 0)
+        ]  # its own, for its lateral interaction: transformed once
+    return dc.replace(
+        n,
+        ins=n.ins | {"input" + REST: n.ins["input"], "input" + WAVES: waves},
+        outs=n.outs | {"output" + WAVES: waves},
+        reads=reads,
+    )
 
 
 def _joined(a: Node, b: Node, found: Mapping[str, Way]) -> bool:
     """Whether both share the same waves."""
     one, other = found[a.id], found[b.id]
-    same = bool(one.shared) and one.shared == other.shared and dict(one.choices)[one.shared] == dict(other.choices)[other.shared]
+    same = (
+        bool(one.shared)
+        and one.shared == other.shared
+        and dict(one.choices)[one.shared] == dict(other.choices)[other.shared]
+    )
     return same and a.every == b.every and _axes(a) == _axes(b)
 
 
-def _merged(circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Iterator[Circle]:
-    """Circles over the same axes with the same waves, and fields that would take waves on their own, where that costs little more: fewer groups."""
+def _merged(
+    circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str, Way], copies: int
+) -> Iterator[Circle]:
+    """Circles over the same axes with the same waves, and fields that would take waves on their own, where
+    that costs little more: fewer groups.
+    """
     places: dict[Any, list[Circle]] = {}
     for circle in circles:
         first = circle[0][0]
         places.setdefault((_axes(first), first.every, circle[1]), []).append(circle)
     for (axes, every, key), found in places.items():
         inside = {n.id for members, _, _ in found for n in members}
-        beside = [n for n in free if n.element.sharing == "ends" and n.id not in inside and (_axes(n), n.every) == (axes, every)]
+        beside = [
+            n
+            for n in free
+            if n.element.sharing == "ends" and n.id not in inside and (_axes(n), n.every) == (axes, every)
+        ]
         beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "way", "") == "waves"]
         everyone = [n for n in free if n.id in inside | {n.id for n in beside}]
         choice = _waves_of(everyone, key, copies)
-        apart = sum(_shared_cost(members, key, own) for members, _, own in found) + sum(_alone(n, key, alone, axes, copies) for n in beside)
+        apart = sum(_shared_cost(members, key, own) for members, _, own in found) + sum(
+            _alone(n, key, alone, axes, copies) for n in beside
+        )
         if _shared_cost(everyone, key, choice) <= WORTH * apart:
             yield everyone, key, choice
         else:
@@ -123,7 +166,9 @@ def _merged(circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str,
 
 
 def _circles(free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Iterator[Circle]:
-    """Nodes that are linked through filters of one kind of boundaries, where sharing waves is cheaper for them than each on its own."""
+    """Nodes that are linked through filters of one kind of boundaries, where sharing waves is cheaper for
+    them than each on its own.
+    """
     by = {n.id: n for n in free}
     keys = {n.id: _key(n) for n in free if n.element.sharing == "filters"}
     readers: dict[str, list[str]] = {}
@@ -152,7 +197,9 @@ def _circles(free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Ite
 
 def _linked(a: Node, b: Node) -> bool:
     """Whether two neighbours could share waves: not two fields without a kernel between them."""
-    return _axes(a) == _axes(b) and a.every == b.every and not a.element.sharing == b.element.sharing == "ends"
+    return (
+        _axes(a) == _axes(b) and a.every == b.every and not a.element.sharing == b.element.sharing == "ends"
+    )
 
 
 def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
@@ -163,7 +210,9 @@ def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
 
 
 def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:
-    """What they cost together: half of a transform for each field whose output is wanted as waves, half for each way back."""
+    """What they cost together: half of a transform for each field whose output is wanted as waves, half for
+    each way back.
+    """
     axes = _axes(members[0])
     there = {s[0] for n in members if n.element.sharing == "filters" for s in n.reads["input"]}
     total = 0.0

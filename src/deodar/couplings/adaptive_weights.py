@@ -19,10 +19,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class AdaptiveWeights(Coupling):
-    r"""A weight between every place of the source and every place of the target; weights of active places follow what the target does.
+    r"""A weight between every place of the source and every place of the target; weights of active places
+    follow what the target does.
 
-    The plain rule: everything counts as it is, and weights follow the target down to nothing as well. `Hebbian` looks at peaks only, learns
-    while both sides are active, and has other rules, bounds and random weights; it costs far less for maps between planes.
+    The plain rule: everything counts as it is, and weights follow the target down to nothing as well.
+    `Hebbian` looks at peaks only, learns while both sides are active, and has other rules, bounds and random
+    weights; it costs far less for maps between planes.
 
     Equation:
         y(x) = \int W(x', x)\, \mathrm{input}(x')\, dx'
@@ -31,7 +33,8 @@ class AdaptiveWeights(Coupling):
 
     Parameters:
         axes: axes of the output; none: one number.
-        rate: speed of learning, per unit of the document's time and of the input; from 0 to the inverse of the step.
+        rate: speed of learning, per unit of the document's time and of the input; from 0 to the inverse of
+            the step.
         initial: all weights at the start.
         gated: whether there is a port `gate`; without it learning never stops.
         apart: whether there is a port `pre`; without it the weights learn from the input.
@@ -48,7 +51,8 @@ class AdaptiveWeights(Coupling):
         start: samples of the input's axes, then samples of `axes`; per unit of the source's axes.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields, drawn to the target's activity).
+        Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields, drawn to the
+        target's activity).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
@@ -76,18 +80,32 @@ class AdaptiveWeights(Coupling):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         needed = shape(ins["input"]) + shape(self.axes)
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield f"start has shape {list(self.start.shape)}; source and target samples make {list(needed)}", "Give weights of that shape"
+            yield (
+                f"start has shape {list(self.start.shape)}; source and target samples make {list(needed)}",
+                "Give weights of that shape",
+            )
         if self.apart and ins["pre"] != ins["input"]:
             yield f"its axes are not those that arrive at pre, {describe(ins['pre'])}"
 
     def init(self, at: Setting) -> Arrays:
-        return {"weights": at.full((*at.ins["input"], *self.axes), self.initial) if self.start is None else at.array(self.start)}
+        return {
+            "weights": at.full((*at.ins["input"], *self.axes), self.initial)
+            if self.start is None
+            else at.array(self.start)
+        }
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         x = inputs["input"]
-        return {"output": cell(at.ins["input"]) * jnp.tensordot(x, state["weights"], axes=x.ndim, precision="highest")}
+        return {
+            "output": cell(at.ins["input"])
+            * jnp.tensordot(x, state["weights"], axes=x.ndim, precision="highest")
+        }
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         x, w = inputs["pre" if self.apart else "input"], state["weights"]
         speed = self.rate * jnp.maximum(inputs["gate"], 0.0) if self.gated else self.rate
         pre = x.reshape(x.shape + (1,) * len(self.axes))

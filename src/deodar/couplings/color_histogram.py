@@ -20,7 +20,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class ColorHistogram(Coupling):
-    r"""For each column of a picture the histogram of its hues: which colours stand in which direction, and how much of the column they fill.
+    r"""For each column of a picture the histogram of its hues: which colours stand in which direction, and
+    how much of the column they fill.
 
     A column full of one hue gives 1 there.
 
@@ -32,23 +33,30 @@ class ColorHistogram(Coupling):
         \sigma = 0\text{:}\quad y(x, h) = n(x, h)
 
     Parameters:
-        axes: the side of the picture that is kept (its sampling may be coarser than the picture's), then hue; hue is periodic.
+        axes: the side of the picture that is kept (its sampling may be coarser than the picture's), then hue;
+            hue is periodic.
         sigma: width of the smoothing over hue, in units of the hue axis; 0: none.
         palest: saturation (0 to 1) below which a pixel has no hue.
         darkest: value (largest channel, 0 to 1) below which a pixel has no hue.
 
     Ports:
-        input: picture over two dimensions and a last axis of three samples, the channels red, green and blue, values 0 to 1.
+        input: picture over two dimensions and a last axis of three samples, the channels red, green and blue,
+            values 0 to 1.
         output: over `axes`, 0 to 1 (with smoothing where a column has several hues: their sum).
 
     Reference:
-        Sandamirskaya & Schöner (2010), Serial order in an acting system, Neural Netw. 23, 1164-1179, figure 8 and section 4. It gives neither the
-        limits nor the smoothing and the scale: these are ours (a share per single bin reaches none of its thresholds).
+        Sandamirskaya & Schöner (2010), Serial order in an acting system, Neural Netw. 23, 1164-1179, figure 8
+        and section 4. It gives neither the limits nor the smoothing and the scale: these are ours (a share
+        per single bin reaches none of its thresholds).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="side of the picture that is kept, then hue")] = ()
-    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the smoothing over hue")] = 0.0
-    palest: Annotated[float, Live(lower=0, upper=1, meaning="saturation below which a pixel has no hue")] = 0.3
+    sigma: Annotated[
+        float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the smoothing over hue")
+    ] = 0.0
+    palest: Annotated[float, Live(lower=0, upper=1, meaning="saturation below which a pixel has no hue")] = (
+        0.3
+    )
     darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no hue")] = 0.15
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
@@ -57,7 +65,9 @@ class ColorHistogram(Coupling):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 2:
-            yield "needs a picture (two dimensions and three channels) and gives one of its dimensions and hue"
+            yield (
+                "needs a picture (two dimensions and three channels) and gives one of its dimensions and hue"
+            )
             return
         kept, hue = self.axes
         if not hue.periodic:
@@ -65,7 +75,10 @@ class ColorHistogram(Coupling):
         side = next((a for a in source[:2] if a.name == kept.name), None)
         if side is None or not same_side(side, kept):
             found = side or " and ".join(a.name for a in source[:2])
-            yield f"axis {kept.name!r} does not fit the picture's: {found} there, {kept} here (ends may differ by a grid step)"
+            yield (
+                f"axis {kept.name!r} does not fit the picture's: {found} there, {kept} here (ends may differ"
+                " by a grid step)"
+            )
 
     def prepare(self, at: Setting) -> Any:
         kept = self._kept(at)
@@ -78,7 +91,9 @@ class ColorHistogram(Coupling):
         turns = (at.points(hue) - hue.lower) / hue.range
         return constants | {"smooth": jnp.exp(-0.5 * (from_hues(hue, turns, at.dtype) / self.sigma) ** 2)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         hue = self.axes[-1]
         turn, saturation, value = hue_saturation_value(inputs["input"])
         coloured = (saturation >= self.palest) & (value >= self.darkest) & (saturation > 0)

@@ -20,7 +20,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class ColorSpace(Coupling):
-    r"""Hue and saturation of a picture as a space code over (place, hue): where which colour is, and how strongly.
+    r"""Hue and saturation of a picture as a space code over (place, hue): where which colour is, and how
+    strongly.
 
     H(p) and S(p) are hue and saturation of pixel p; S counts as 0 where the value is below `darkest`. For
     sigma = 0, w is a density of integral 1, which divides S between the two nearest samples.
@@ -33,24 +34,31 @@ class ColorSpace(Coupling):
             \frac{|d|}{\mathrm{step}}\right)
 
     Parameters:
-        axes: the picture's two dimensions (their sampling may be coarser than the picture's) and hue last; hue is periodic.
-        sigma: width of the code along hue, in units of the hue axis; 0: the hue itself (divided between its two neighbours).
-        darkest: value (largest channel, 0 to 1) below which a pixel has no colour: its saturation is mostly noise.
+        axes: the picture's two dimensions (their sampling may be coarser than the picture's) and hue last;
+            hue is periodic.
+        sigma: width of the code along hue, in units of the hue axis; 0: the hue itself (divided between its
+            two neighbours).
+        darkest: value (largest channel, 0 to 1) below which a pixel has no colour: its saturation is mostly
+            noise.
 
     Ports:
-        input: picture over the same two dimensions and a last axis of three samples, the channels red, green and blue,
-            values 0 to 1.
-        output: over `axes`; 0 to 1, for sigma = 0 per unit of the hue axis, 0 to 1 / step. Its integral over hue does not depend on the
-            sampling of hue.
+        input: picture over the same two dimensions and a last axis of three samples, the channels red, green
+            and blue, values 0 to 1.
+        output: over `axes`; 0 to 1, for sigma = 0 per unit of the hue axis, 0 to 1 / step. Its integral over
+            hue does not depend on the sampling of hue.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 11 and the smoothing after it. Hue and
-        saturation: Smith (1978), Color gamut transform pairs, SIGGRAPH '78 (HSV).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 11 and the smoothing after it.
+        Hue and saturation: Smith (1978), Color gamut transform pairs, SIGGRAPH '78 (HSV).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="two dimensions of the picture, then hue")] = ()
-    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the code along hue")] = 0.0
-    darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no colour")] = 0.15
+    sigma: Annotated[
+        float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the code along hue")
+    ] = 0.0
+    darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no colour")] = (
+        0.15
+    )
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
@@ -67,12 +75,17 @@ class ColorSpace(Coupling):
             yield f"the hue axis {self.axes[-1].name!r} must be periodic: red lies on both sides of its ends"
         for fine, coarse in zip(source[:2], self.axes[:2], strict=True):
             if not same_side(fine, coarse):
-                yield f"axis {coarse.name!r} does not fit the picture's: {fine} there, {coarse} here (ends may differ by a grid step)"
+                yield (
+                    f"axis {coarse.name!r} does not fit the picture's: {fine} there, {coarse} here (ends may"
+                    " differ by a grid step)"
+                )
 
     def prepare(self, at: Setting) -> Any:
         return [cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         hue_axis = self.axes[-1]
         turn, saturation, value = hue_saturation_value(inputs["input"])
         saturation = jnp.where(value < self.darkest, 0.0, saturation)

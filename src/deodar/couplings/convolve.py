@@ -51,10 +51,14 @@ class Convolve(Coupling):
         for i, kernel in enumerate(self.kernel):
             yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         x = inputs["input"]
         parts = [kernel.bounds(ins["input"]) for kernel in self.kernel]
-        return {"output": total(*(times((0.0, k[1]), x) for k in parts), *(times((k[0], 0.0), x) for k in parts))}
+        return {
+            "output": total(*(times((0.0, k[1]), x) for k in parts), *(times((k[0], 0.0), x) for k in parts))
+        }
 
     def prepare(self, at: Setting) -> Any:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype, at.choices)}
@@ -62,8 +66,14 @@ class Convolve(Coupling):
     def settle(self, at: Setting, constants: Any) -> Any:
         return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         if not at.shared:
-            return {"output": interaction.apply(constants["kernel"], at.ins["input"], inputs["input"], at.choices)}
-        waves = constants["kernel"]["waves"][at.shared] * (inputs["input" + WAVES] + interaction.to_waves(at.waves, inputs["input" + REST]))
+            return {
+                "output": interaction.apply(constants["kernel"], at.ins["input"], inputs["input"], at.choices)
+            }
+        waves = constants["kernel"]["waves"][at.shared] * (
+            inputs["input" + WAVES] + interaction.to_waves(at.waves, inputs["input" + REST])
+        )
         return {"output": interaction.from_waves(at.waves, waves), "output" + WAVES: waves}

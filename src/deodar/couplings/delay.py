@@ -16,7 +16,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Delay(Element):
-    r"""Shows its input one step later; what a connection with `reads="delayed"` stands for. For any other delay: DelayLine.
+    r"""Shows its input one step later; what a connection with `reads="delayed"` stands for.
+
+    For any other delay: DelayLine.
 
     Equation:
         y(x, t + dt) = \mathrm{input}(x, t)
@@ -41,14 +43,20 @@ class Delay(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         return {"held": at.full(tuple(self.axes), self.initial)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": state["held"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"held": inputs["input"]}

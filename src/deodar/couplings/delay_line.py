@@ -25,10 +25,12 @@ NEAR = 1e-3
 @register
 @dataclass(frozen=True)
 class DelayLine(Element):
-    r"""Shows its input after a delay of any length: conduction times, the latency of a sensor, a train of past moments.
+    r"""Shows its input after a delay of any length: conduction times, the latency of a sensor, a train of
+    past moments.
 
-    It keeps its input at moments that lie delay / slots apart, or one step where that is longer, and takes the straight line between the two
-    that it needs. So it is exact where the delay is a whole number of steps and no more of them than `slots`.
+    It keeps its input at moments that lie delay / slots apart, or one step where that is longer, and takes
+    the straight line between the two that it needs. So it is exact where the delay is a whole number of steps
+    and no more of them than `slots`.
 
     Equation:
         y(x, t) = \begin{cases} \mathrm{input}(x, t - \mathrm{delay}) & t \ge \mathrm{delay} \\
@@ -36,8 +38,8 @@ class DelayLine(Element):
 
     Parameters:
         axes: where it is defined; none: one number.
-        delay: how long, in the document's time unit; > 0. Shorter than a step: one step. Where it is made longer while the model runs, the
-            oldest moment that is kept is shown until there are older ones.
+        delay: how long, in the document's time unit; > 0. Shorter than a step: one step. Where it is made
+            longer while the model runs, the oldest moment that is kept is shown until there are older ones.
         slots: how many moments it keeps.
         initial: what it shows before anything has arrived.
 
@@ -60,16 +62,27 @@ class DelayLine(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         # one slot more on either side of the delay: the moments around it are both there
         rows = self.slots + 2
-        kept = jnp.broadcast_to(at.full(tuple(self.axes), self.initial), (rows, *(a.samples for a in self.axes)))
-        return {"kept": kept, "moments": jnp.full((rows,), -NEVER, at.dtype), "moments_low": jnp.zeros(rows, at.dtype), "newest": at.full((), 0.0)}
+        kept = jnp.broadcast_to(
+            at.full(tuple(self.axes), self.initial), (rows, *(a.samples for a in self.axes))
+        )
+        return {
+            "kept": kept,
+            "moments": jnp.full((rows,), -NEVER, at.dtype),
+            "moments_low": jnp.zeros(rows, at.dtype),
+            "newest": at.full((), 0.0),
+        }
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         kept, rows = state["kept"], self.slots + 2
         first = state["newest"].astype(jnp.int32)
         with exact():
@@ -79,21 +92,34 @@ class DelayLine(Element):
             older = jnp.minimum(younger + 1, rows - 1)
             a, b = ages[younger], ages[older]
             share = jnp.clip((delay - a) / jnp.where(b > a, b - a, 1.0), 0.0, 1.0)
-            # no interpolation towards what has not arrived: the initial value holds until the first moment is old enough
+            # no interpolation towards what has not arrived: the initial value holds until the first moment is
+            # old enough
             share = jnp.where((b >= NEVER) | (b - delay < near), 1.0, share)
             share = jnp.where(a >= delay - near, 0.0, share).astype(at.dtype)
         young, old = kept[jnp.mod(first + younger, rows)], kept[jnp.mod(first + older, rows)]
         return {"output": (1 - share) * young + share * old}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         newest, now = state["newest"], time.moment
         with exact():
-            due = self._ages(state, time)[newest.astype(jnp.int32)] >= wide(self.delay) / self.slots - NEAR * time.wide_dt
+            due = (
+                self._ages(state, time)[newest.astype(jnp.int32)]
+                >= wide(self.delay) / self.slots - NEAR * time.wide_dt
+            )
         newest = jnp.where(due, jnp.mod(newest - 1, self.slots + 2), newest)
         place = newest.astype(jnp.int32)
         new = {"kept": inputs["input"], "moments": now.high, "moments_low": now.low}
-        return {"newest": newest} | {name: state[name].at[place].set(jnp.where(due, value, state[name][place])) for name, value in new.items()}
+        return {"newest": newest} | {
+            name: state[name].at[place].set(jnp.where(due, value, state[name][place]))
+            for name, value in new.items()
+        }
 
     def _ages(self, state: Arrays, time: Time) -> Any:
         """Age of each of the moments in float64, inside `exact()`."""
-        return jnp.where(state["moments"] > -0.5 * NEVER, time.wide - wide(Exact(state["moments"], state["moments_low"])), NEVER)
+        return jnp.where(
+            state["moments"] > -0.5 * NEVER,
+            time.wide - wide(Exact(state["moments"], state["moments_low"])),
+            NEVER,
+        )

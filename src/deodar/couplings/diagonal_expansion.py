@@ -18,7 +18,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class DiagonalExpansion(Coupling):
-    r"""Sends one place to all pairs of places whose sum it is: the input of a transformation field along its diagonals.
+    r"""Sends one place to all pairs of places whose sum it is: the input of a transformation field along its
+    diagonals.
 
     Samples are counted from the lower ends.
 
@@ -33,8 +34,8 @@ class DiagonalExpansion(Coupling):
         output: over `axes`.
 
     Reference:
-        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic remapping,
-        Biol. Cybern. 106, 89-109 (the diagonal input of the transformation field).
+        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic
+        remapping, Biol. Cybern. 106, 89-109 (the diagonal input of the transformation field).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x, y]")
@@ -52,9 +53,17 @@ class DiagonalExpansion(Coupling):
         if len(own) != 2:
             yield f"has {len(own)} axes; a diagonal lies between two", "Give two axes"
         elif given != (sum(own) - 1,):
-            yield f"its input has {list(given)} samples; the diagonals of {list(own)} samples are {sum(own) - 1}", "Give it an input of these"
+            yield (
+                (
+                    f"its input has {list(given)} samples; the diagonals of {list(own)} samples are"
+                    f" {sum(own) - 1}"
+                ),
+                "Give it an input of these",
+            )
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         n, m = shape(self.axes)
         return {"output": inputs["input"][np.add.outer(np.arange(n), np.arange(m))]}
 

@@ -18,7 +18,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class DiagonalSum(Coupling):
-    r"""Adds up two places: reads a transformation field out along its diagonals, so that a peak at (x, y) arrives at x + y.
+    r"""Adds up two places: reads a transformation field out along its diagonals, so that a peak at (x, y)
+    arrives at x + y.
 
     Samples are counted from the lower ends; the second grid step multiplies the sum.
 
@@ -33,8 +34,8 @@ class DiagonalSum(Coupling):
         output: over `axes`.
 
     Reference:
-        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic remapping,
-        Biol. Cybern. 106, 89-109 (the projection along the diagonals of the transformation field).
+        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic
+        remapping, Biol. Cybern. 106, 89-109 (the projection along the diagonals of the transformation field).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axis of the sum")] = needed("[x]")
@@ -53,11 +54,16 @@ class DiagonalSum(Coupling):
             yield f"needs an input of two axes, not of {len(given)}", "Put a Project before it"
         elif shape(self.axes) != (sum(given) - 1,):
             yield (
-                f"its axes have {list(shape(self.axes))} samples; the diagonals of {list(given)} samples are {sum(given) - 1}",
+                (
+                    f"its axes have {list(shape(self.axes))} samples; the diagonals of {list(given)} samples"
+                    f" are {sum(given) - 1}"
+                ),
                 "Give one axis of these",
             )
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         x = inputs["input"]
         n, m = x.shape
         # rows of n + m samples, read again as rows of n + m - 1: each lies one further on than the row before

@@ -39,13 +39,17 @@ class Gain(Coupling):
     linear: ClassVar[bool] = True
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "scales"
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
 
     def polarity(self) -> Sign:
         return sign_of(self.factor)
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         if not at.shared:
             return {"output": self.factor * inputs["input"]}
         waves = self.factor * inputs["input" + WAVES]

@@ -28,8 +28,8 @@ class GainAdaptation(Coupling):
         \tau \frac{d\lambda(x)}{dt} = \mathrm{gate}\, \mathrm{error}\, f(x)
 
     Parameters:
-        tau: time scale: document time times error times input, over a change of the gains; > 0, and no shorter
-            than the step.
+        tau: time scale: document time times error times input, over a change of the gains; > 0, and no
+            shorter than the step.
         initial: gains at the start, the same everywhere.
         gated: whether there is a port `gate`; without it the time window is always open.
         start: gains at the start, in place of `initial`: what was learned before.
@@ -46,9 +46,10 @@ class GainAdaptation(Coupling):
         start: the samples of the input's axes, in their order.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 13, with eq. 9. Corrected: the printed epsilon is error times time window, here two
-        ports, and the error has a sign, so that gains can also fall. With the decay of eq. 9 multiplied by the integral of f (as printed the
-        attractor would not switch off with the peak) a peak's value moves by error integral f^2 / (tau integral f): an error decays
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 13, with eq. 9. Corrected: the printed epsilon is
+        error times time window, here two ports, and the error has a sign, so that gains can also fall. With
+        the decay of eq. 9 multiplied by the integral of f (as printed the attractor would not switch off with
+        the peak) a peak's value moves by error integral f^2 / (tau integral f): an error decays
         exponentially, at a speed that depends neither on the width of the peak nor on the sampling.
     """
 
@@ -76,17 +77,30 @@ class GainAdaptation(Coupling):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(ins["input"])
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield f"start has shape {list(self.start.shape)}, the input has {list(needed)} samples", "Give gains of that shape"
+            yield (
+                f"start has shape {list(self.start.shape)}, the input has {list(needed)} samples",
+                "Give gains of that shape",
+            )
 
     def init(self, at: Setting) -> Arrays:
-        return {"gains": at.full(at.ins["input"], self.initial) if self.start is None else at.array(self.start)}
+        return {
+            "gains": at.full(at.ins["input"], self.initial) if self.start is None else at.array(self.start)
+        }
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         gains, f = state["gains"], inputs["input"] * cell(at.ins["input"])
         drive, whole = jnp.sum(gains * f), jnp.sum(f)
-        return {"output": drive, "value": jnp.where(whole > 0, drive / jnp.where(whole > 0, whole, 1.0), 0.0), "gains": gains}
+        return {
+            "output": drive,
+            "value": jnp.where(whole > 0, drive / jnp.where(whole > 0, whole, 1.0), 0.0),
+            "gains": gains,
+        }
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         speed = time.dt / self.tau * inputs["error"]
         if self.gated:
             speed = speed * jnp.maximum(inputs["gate"], 0.0)

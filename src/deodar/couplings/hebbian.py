@@ -25,11 +25,13 @@ MOST_PATCHES = 64
 @register
 @dataclass(frozen=True)
 class Hebbian(Coupling):
-    r"""Learns which places of two arrays are active together, and brings the one about from the other: a map between any two fields or nodes.
+    r"""Learns which places of two arrays are active together, and brings the one about from the other: a map
+    between any two fields or nodes.
 
-    It looks at peaks only. What does not exceed the threshold counts as 0 on both sides, and nothing is learned unless something is active
-    on both: a source that is on while its target has not answered yet unlearns nothing. While one side is silent a step costs next to nothing.
-    `AdaptiveWeights` is the plain rule `outstar` without a threshold, which follows the target wherever it goes.
+    It looks at peaks only. What does not exceed the threshold counts as 0 on both sides, and nothing is
+    learned unless something is active on both: a source that is on while its target has not answered yet
+    unlearns nothing. While one side is silent a step costs next to nothing. `AdaptiveWeights` is the plain
+    rule `outstar` without a threshold, which follows the target wherever it goes.
 
     Weights change only while something is active on both sides, and those that change are kept at or below
     `saturation`. The rules outstar, hebb and association, and their decay, act on weights from active
@@ -50,17 +52,18 @@ class Hebbian(Coupling):
     Parameters:
         axes: axes of the output; none: one number.
         rule: outstar, association, hebb, instar or oja.
-        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, as the rule says); from 0 to the inverse
-            of the step.
-        decay: speed at which weights fade that are in use, per unit of the document's time; from 0 to the inverse of the step.
+        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, as the
+            rule says); from 0 to the inverse of the step.
+        decay: speed at which weights fade that are in use, per unit of the document's time; from 0 to the
+            inverse of the step.
         saturation: upper bound of weights that change; 0: none.
         threshold: what input and post must exceed to count; >= 0.
         gated: whether there is a port `gate`; without it learning never waits.
         initial: weights at the start; where they are random, the largest.
         random: whether weights at the start are uniform between 0 and `initial`, instead of `initial` itself.
         share: share of the patches that are connected at the start; the other weights are 0. From 0 to 1.
-        patches: number of patches along each axis inside which weights at the start are alike; where random or sparse. It makes the map at the
-            start independent of the sampling.
+        patches: number of patches along each axis inside which weights at the start are alike; where random
+            or sparse. It makes the map at the start independent of the sampling.
         seed: of the weights at the start, 0 to 2^32 - 1; where random or sparse.
         start: weights at the start, in place of the five above: what was learned before.
 
@@ -72,25 +75,31 @@ class Hebbian(Coupling):
         weights: W, over `axes`, then the axes of the input.
 
     Shapes:
-        start: samples of `axes`, then samples of the input's axes; per unit of the source's axes, as in `Weights`.
+        start: samples of `axes`, then samples of the input's axes; per unit of the source's axes, as in
+        `Weights`.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 12: `association`, with the thresholded sum of both sides as a step. Printed, all
-        weights decay at every reward, which forgets the rest of the map: here those in use. Grossberg (1968), Proc. Natl. Acad. Sci. 59
-        (outstar, instar); Oja (1982), J. Math. Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 12: `association`, with the thresholded sum of both
+        sides as a step. Printed, all weights decay at every reward, which forgets the rest of the map: here
+        those in use. Grossberg (1968), Proc. Natl. Acad. Sci. 59 (outstar, instar); Oja (1982), J. Math.
+        Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
     rule: Annotated[str, Recompile(choices=plasticity.RULES, meaning="how weights change")] = "outstar"
     rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.01
-    decay: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed at which weights in use fade")] = 0.0
+    decay: Annotated[
+        float, Live("1/time", role="rate", lower=0, meaning="speed at which weights in use fade")
+    ] = 0.0
     saturation: Annotated[float, Live(lower=0, meaning="upper bound of weights that change; 0: none")] = 0.0
     threshold: Annotated[float, Live(lower=0, meaning="what input and post must exceed to count")] = 0.5
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
     initial: Annotated[float, Live(meaning="weights at the start, or the largest of them")] = 0.0
     random: Annotated[bool, Recompile(meaning="whether weights at the start are random")] = False
     share: Annotated[float, Live(lower=0, upper=1, meaning="share of patches connected at the start")] = 1.0
-    patches: Annotated[int, Recompile(lower=1, upper=MOST_PATCHES, meaning="patches along each axis at the start")] = 16
+    patches: Annotated[
+        int, Recompile(lower=1, upper=MOST_PATCHES, meaning="patches along each axis at the start")
+    ] = 16
     seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of the weights at the start")] = 0
     start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, target samples first")] = None
 
@@ -113,7 +122,10 @@ class Hebbian(Coupling):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield f"start has shape {list(self.start.shape)}; target and source samples make {list(needed)}", "Give weights of that shape"
+            yield (
+                f"start has shape {list(self.start.shape)}; target and source samples make {list(needed)}",
+                "Give weights of that shape",
+            )
 
     def init(self, at: Setting) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
@@ -121,23 +133,36 @@ class Hebbian(Coupling):
             given = at.array(self.start)
             return {"weights": jnp.moveaxis(given, range(len(post)), range(-len(post), 0)) if post else given}
         scale = jnp.asarray(self.initial, at.dtype)
-        drawn = random_weights(at.ins["input"], tuple(self.axes), self.patches, self.share, self.seed, at.dtype)
+        drawn = random_weights(
+            at.ins["input"], tuple(self.axes), self.patches, self.share, self.seed, at.dtype
+        )
         return {"weights": (scale * (drawn if self.random else jnp.sign(drawn))).reshape(*pre, *post)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
-        out = cell(at.ins["input"]) * plasticity.read(self._matrix(state["weights"], pre), self._active(inputs["input"]))
+        out = cell(at.ins["input"]) * plasticity.read(
+            self._matrix(state["weights"], pre), self._active(inputs["input"])
+        )
         w = state["weights"]
-        return {"output": out.reshape(post), "weights": jnp.moveaxis(w, range(len(pre)), range(-len(pre), 0)) if pre else w}
+        return {
+            "output": out.reshape(post),
+            "weights": jnp.moveaxis(w, range(len(pre)), range(-len(pre), 0)) if pre else w,
+        }
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         w, pre = state["weights"], shape(at.ins["input"])
         step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)
         if "output" in inputs:
             step = plasticity.after(step, inputs["output"])
         most = jnp.where(self.saturation > 0, self.saturation, jnp.inf).astype(at.dtype)
         x, z = self._active(inputs["input"]), self._active(inputs["post"])
-        new = plasticity.learn(self.rule, self._matrix(w, pre), x, z, self.rate * step, self.decay * step, most)
+        new = plasticity.learn(
+            self.rule, self._matrix(w, pre), x, z, self.rate * step, self.decay * step, most
+        )
         return {"weights": new.reshape(w.shape)}
 
     def lasting(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
@@ -153,4 +178,14 @@ class Hebbian(Coupling):
     @classmethod
     def example(cls) -> Hebbian:
         target = Axis("target", 0, 12, samples=13)
-        return cls([target], gated=True, random=True, initial=0.4, share=0.8, decay=0.001, saturation=0.7, threshold=0.2, name="example")
+        return cls(
+            [target],
+            gated=True,
+            random=True,
+            initial=0.4,
+            share=0.8,
+            decay=0.001,
+            saturation=0.7,
+            threshold=0.2,
+            name="example",
+        )

@@ -21,7 +21,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Interaction(Coupling):
-    r"""What a field's own kernels and global inhibition do, as a signal of its own: between fields, or from a field back to itself.
+    r"""What a field's own kernels and global inhibition do, as a signal of its own: between fields, or from a
+    field back to itself.
 
     Equation:
         y(x) = \sum_k \int k(x - x')\, \mathrm{input}(x')\, dx'
@@ -41,7 +42,9 @@ class Interaction(Coupling):
     """
 
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
-    global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the input")] = 0.0
+    global_inhibition: Annotated[
+        float, Live("activation", meaning="inhibition by the integral of the input")
+    ] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "total": ("input",)}
     linear: ClassVar[bool] = True
@@ -63,7 +66,12 @@ class Interaction(Coupling):
     def settle(self, at: Setting, constants: Any) -> Any:
         return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         x, axes = inputs["input"], at.ins["input"]
         total = cell(axes) * jnp.sum(x)
-        return {"output": interaction.apply(constants["kernel"], axes, x) - self.global_inhibition * total, "total": total}
+        return {
+            "output": interaction.apply(constants["kernel"], axes, x) - self.global_inhibition * total,
+            "total": total,
+        }

@@ -31,7 +31,8 @@ class Logarithm(Coupling):
         output: the same axes.
 
     Reference:
-        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), appendix A and its published simulator (proximity sensors).
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), appendix A and its published simulator
+        (proximity sensors).
     """
 
     factor: Annotated[float, Live(meaning="strength")] = 1.0
@@ -40,5 +41,7 @@ class Logarithm(Coupling):
     def polarity(self) -> Sign:
         return sign_of(self.factor)
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": self.factor * jnp.log1p(jnp.maximum(inputs["input"], 0.0) / self.scale)}

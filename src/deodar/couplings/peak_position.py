@@ -28,7 +28,8 @@ class PeakPosition(Coupling):
             i x / P} f(x)\, dx
 
     Parameters:
-        axis: the dimension read out; other axes of the source are integrated out. By default the axis of the source, which then has one.
+        axis: the dimension read out; other axes of the source are integrated out. By default the axis of the
+            source, which then has one.
         least: N below which there is no peak; > 0.
         absent: position while there is no peak (or, on a ring, input without direction), in axis units.
 
@@ -41,8 +42,12 @@ class PeakPosition(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13.
     """
 
-    axis: Annotated[Axis | None, Recompile(meaning="dimension read out; by default the axis of the source")] = None
-    least: Annotated[float, Live("input x axis", lower=1e-9, meaning="integral below which there is no peak")] = 0.1
+    axis: Annotated[
+        Axis | None, Recompile(meaning="dimension read out; by default the axis of the source")
+    ] = None
+    least: Annotated[
+        float, Live("input x axis", lower=1e-9, meaning="integral below which there is no peak")
+    ] = 0.1
     absent: Annotated[float, Live("axis", meaning="position while there is no peak")] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "strength": ("input",)}
@@ -54,14 +59,22 @@ class PeakPosition(Coupling):
         found = ins["input"]
         if len(found) > 1:
             names = " or ".join(axis.name for axis in found)
-            yield f"the source has {len(found)} axes, so the one that is read out has to be stated", f"Set its axis: {names}"
+            yield (
+                f"the source has {len(found)} axes, so the one that is read out has to be stated",
+                f"Set its axis: {names}",
+            )
         elif not found:
-            yield "the source has no axis, so there is no position to read out", "Connect a field over an axis"
+            yield (
+                "the source has no axis, so there is no position to read out",
+                "Connect a field over an axis",
+            )
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": (), "strength": ()}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         [axis] = at.ins["input"]
         place, there, n = centre(axis, inputs["input"] * axis.step, self.least)
         return {"output": jnp.where(there, place, self.absent), "strength": n}

@@ -22,7 +22,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class PopulationActivity(Coupling):
-    r"""What a population of neurons says about a dimension: their tuning curves, each weighted by the firing rate, summed.
+    r"""What a population of neurons says about a dimension: their tuning curves, each weighted by the firing
+    rate, summed.
 
     r is the input; where no neuron is tuned to x, the normalized form is 0.
 
@@ -31,11 +32,12 @@ class PopulationActivity(Coupling):
         \text{normalized:}\quad y(x) = \mathrm{amplitude} \frac{\sum_i T_i(x)\, r_i}{\sum_i T_i(x)}
 
     Parameters:
-        tuning: T, the tuning curve of each neuron: its mean rate as a function of x. `PopulationActivity.of(preferred, sigma, axes)` makes
-            Gaussians.
+        tuning: T, the tuning curve of each neuron: its mean rate as a function of x.
+            `PopulationActivity.of(preferred, sigma, axes)` makes Gaussians.
         axes: the dimensions to which the neurons are tuned; at least one.
         amplitude: factor from the sum to activation.
-        normalized: whether it is the mean of the rates weighted by the tuning: so places to which more neurons are tuned weigh no more.
+        normalized: whether it is the mean of the rates weighted by the tuning: so places to which more
+            neurons are tuned weigh no more.
 
     Ports:
         input: r, an axis with one sample for each neuron.
@@ -45,14 +47,19 @@ class PopulationActivity(Coupling):
         tuning: neurons first, then the samples of `axes`.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, figure 1; Bastian, Schöner & Riehle (2003), Preshaping and continuous evolution of motor
-        cortical representations during movement preparation, Eur. J. Neurosci. 18, 2047-2058.
+        Sandamirskaya (2014), Front. Neurosci. 7:276, figure 1; Bastian, Schöner & Riehle (2003), Preshaping
+        and continuous evolution of motor cortical representations during movement preparation, Eur. J.
+        Neurosci. 18, 2047-2058.
     """
 
     tuning: Annotated[ArrayLike, Rebuild(meaning="tuning curve of each neuron")] = FrozenArray(np.eye(21))
-    axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions to which the neurons are tuned")] = needed("[x]")
+    axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions to which the neurons are tuned")] = needed(
+        "[x]"
+    )
     amplitude: Annotated[float, Live("activation", meaning="factor from the sum to activation")] = 1.0
-    normalized: Annotated[bool, Recompile(meaning="whether it is a mean of the rates, weighted by the tuning")] = False
+    normalized: Annotated[
+        bool, Recompile(meaning="whether it is a mean of the rates, weighted by the tuning")
+    ] = False
 
     linear: ClassVar[bool] = True
 
@@ -64,15 +71,27 @@ class PopulationActivity(Coupling):
             yield "axes", "is empty; neurons are tuned to something"
         given = self.tuning.shape if isinstance(self.tuning, FrozenArray) else ()
         if given[1:] != shape(self.axes) or not given:
-            yield "tuning", f"has shape {list(given)}; it has the neurons first, then the samples of its axes, {list(shape(self.axes))}"
+            yield (
+                "tuning",
+                (
+                    f"has shape {list(given)}; it has the neurons first, then the samples of its axes,"
+                    f" {list(shape(self.axes))}"
+                ),
+            )
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        arriving, neurons = shape(ins["input"]), len(self.tuning.data) if isinstance(self.tuning, FrozenArray) else 0
+        arriving, neurons = (
+            shape(ins["input"]),
+            len(self.tuning.data) if isinstance(self.tuning, FrozenArray) else 0,
+        )
         if arriving != (neurons,):
-            yield f"has the tuning of {neurons} neurons; its input has {list(arriving)} samples", "Give it one rate for each neuron"
+            yield (
+                f"has the tuning of {neurons} neurons; its input has {list(arriving)} samples",
+                "Give it one rate for each neuron",
+            )
 
     def prepare(self, at: Setting) -> Any:
         tuning = at.array(self.tuning)
@@ -81,15 +100,25 @@ class PopulationActivity(Coupling):
             tuning = jnp.where(whole == 0, 0.0, tuning / jnp.where(whole == 0, 1.0, whole))
         return {"tuning": tuning}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        return {"output": self.amplitude * jnp.tensordot(inputs["input"], constants["tuning"], axes=1, precision="highest")}
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
+        return {
+            "output": (
+                self.amplitude
+                * jnp.tensordot(inputs["input"], constants["tuning"], axes=1, precision="highest")
+            )
+        }
 
     @classmethod
-    def of(cls, preferred: Any, sigma: PerAxis, axes: Sequence[Axis], rate: float = 1.0, **others: Any) -> PopulationActivity:
+    def of(
+        cls, preferred: Any, sigma: PerAxis, axes: Sequence[Axis], rate: float = 1.0, **others: Any
+    ) -> PopulationActivity:
         """Neurons with Gaussian tuning curves, on a periodic axis the shortest way round.
 
         Args:
-            preferred: the value that each neuron prefers, in axis units; for several axes a row for each neuron.
+            preferred: the value that each neuron prefers, in axis units; for several axes a row for each
+                neuron.
             sigma: width of all tuning curves in axis units, one or one for each axis; > 0.
             axes: the dimensions to which they are tuned.
             rate: the rate at the preferred value.
@@ -102,7 +131,8 @@ class PopulationActivity(Coupling):
         places = places[:, None] if places.ndim == 1 and len(axes) == 1 else places
         if places.ndim != 2 or places.shape[1] != len(axes):
             raise ParameterError(
-                f"preferred has shape {list(np.shape(preferred))}; it has a row for each neuron with one value for each of {len(axes)} axes"
+                f"preferred has shape {list(np.shape(preferred))}; it has a row for each neuron with one"
+                f" value for each of {len(axes)} axes"
             )
         tuning = np.full(len(places), rate)
         widths = per_axis(sigma if isinstance(sigma, (int, float)) else tuple(sigma), axes)
@@ -110,7 +140,9 @@ class PopulationActivity(Coupling):
             distance = axis.points - places[:, d, None]
             if axis.periodic:
                 distance = distance - axis.range * np.round(distance / axis.range)
-            tuning = tuning[..., None] * np.exp(-0.5 * (distance / width) ** 2).reshape(len(places), *(1,) * d, axis.samples)
+            tuning = tuning[..., None] * np.exp(-0.5 * (distance / width) ** 2).reshape(
+                len(places), *(1,) * d, axis.samples
+            )
         return cls(tuning, tuple(axes), **others)
 
     @classmethod

@@ -37,8 +37,12 @@ class Product(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "factor")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "factor")}
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": times(inputs["input"], inputs["factor"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": inputs["input"] * inputs["factor"]}

@@ -45,9 +45,13 @@ class Project(Coupling):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions of the output")] = ()
-    reduce: Annotated[str, Recompile(choices=resampling.REDUCTIONS, meaning="how missing axes contract")] = "integral"
+    reduce: Annotated[str, Recompile(choices=resampling.REDUCTIONS, meaning="how missing axes contract")] = (
+        "integral"
+    )
     rename: Annotated[Mapping[str, str], Recompile(meaning="source name to name here")] = ()  # type: ignore[assignment]
-    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS, meaning="where the sampling differs")] = "linear"
+    interpolation: Annotated[
+        str, Recompile(choices=resampling.INTERPOLATIONS, meaning="where the sampling differs")
+    ] = "linear"
 
     @property
     def linear(self) -> bool:  # type: ignore[override]
@@ -69,21 +73,44 @@ class Project(Coupling):
             yield f"two axes of the source would be called {sorted(source)} here"
         for name, axis in zip(source, ins["input"], strict=True):
             if name in here and not self._same(here[name], axis, name):
-                yield f"axis {name!r} is {axis} at the source and {here[name]} here; bounds, unit or periodicity differ"
+                yield (
+                    f"axis {name!r} is {axis} at the source and {here[name]} here; bounds, unit or"
+                    " periodicity differ"
+                )
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         here, there = [a.name for a in self.axes], self._source(ins["input"])
         if here and there and not set(here) & set(there) and self.reduce in ("integral", "sum", "mean"):
             yield (
-                f"shares no axis with its source: it keeps the {self.reduce} over {', '.join(there)} alone, and is uniform along {', '.join(here)}",
-                "Rename the axis that is meant (rename={...}), or take Weights; for one number for all places write Project([])",
+                (
+                    f"shares no axis with its source: it keeps the {self.reduce} over {', '.join(there)}"
+                    f" alone, and is uniform along {', '.join(here)}"
+                ),
+                (
+                    "Rename the axis that is meant (rename={...}), or take Weights; for one number for all"
+                    " places write Project([])"
+                ),
             )
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         here = {a.name for a in self.axes}
-        gone = [a for name, a in zip(self._source(ins["input"]), ins["input"], strict=True) if name not in here]
-        size = math.prod(a.step * a.samples for a in gone) if self.reduce == "integral" else math.prod(a.samples for a in gone)
-        return {"output": times((size, size), inputs["input"]) if self.reduce in ("integral", "sum") else inputs["input"]}
+        gone = [
+            a for name, a in zip(self._source(ins["input"]), ins["input"], strict=True) if name not in here
+        ]
+        size = (
+            math.prod(a.step * a.samples for a in gone)
+            if self.reduce == "integral"
+            else math.prod(a.samples for a in gone)
+        )
+        return {
+            "output": (
+                times((size, size), inputs["input"])
+                if self.reduce in ("integral", "sum")
+                else inputs["input"]
+            )
+        }
 
     def prepare(self, at: Setting) -> Any:
         here = {a.name: a for a in self.axes}
@@ -93,7 +120,9 @@ class Project(Coupling):
                 out[name] = resampling.weights(axis, here[name].points, self.interpolation, at.dtype)
         return out
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         y, keep = inputs["input"], self._source(at.ins["input"])
         names = [a.name for a in self.axes]
         for d in reversed(range(len(keep))):
@@ -118,7 +147,11 @@ class Project(Coupling):
     def _same(self, here: Axis, there: Axis, name: str) -> bool:
         # a renamed axis keeps its bounds but may carry another unit: image column and pan angle, say
         renamed = name in dict(self._renames()).values()
-        return here.fits(Axis(here.name, there.lower, there.upper, there.samples, there.periodic, here.unit) if renamed else there)
+        return here.fits(
+            Axis(here.name, there.lower, there.upper, there.samples, there.periodic, here.unit)
+            if renamed
+            else there
+        )
 
     @classmethod
     def example(cls) -> Project:

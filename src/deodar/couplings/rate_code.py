@@ -20,11 +20,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class RateCode(Coupling):
-    r"""The numbers that the place of a peak stands for: the way back from SpaceCode, with the same gain and offset.
+    r"""The numbers that the place of a peak stands for: the way back from SpaceCode, with the same gain and
+    offset.
 
-    It is the exact inverse of SpaceCode where the samples hold the whole peak: on a line as long as the peak ends before the axis does (at
-    4 sigma from an end the place is wrong by 1.4e-4 sigma at most, at 6 sigma by 6.1e-9), on a ring for peaks that are no wider than a twelfth of it.
-    Nearer to an end the mean is drawn inwards, by what is cut off. A ring tells no turns: c lies between its ends.
+    It is the exact inverse of SpaceCode where the samples hold the whole peak: on a line as long as the peak
+    ends before the axis does (at 4 sigma from an end the place is wrong by 1.4e-4 sigma at most, at 6 sigma
+    by 6.1e-9), on a ring for peaks that are no wider than a twelfth of it. Nearer to an end the mean is drawn
+    inwards, by what is cut off. A ring tells no turns: c lies between its ends.
 
     Equation:
         y_i = \begin{cases} \frac{c_i - \mathrm{offset}_i}{\mathrm{gain}_i} & \int f(x)\, dx >
@@ -38,22 +40,27 @@ class RateCode(Coupling):
         gain: axis units per unit of the output, one or one for each axis; not 0.
         offset: place of the peak for an output of 0, in axis units, one or one for each axis.
         least: integral of the input up to which there is no peak; > 0.
-        absent: output while there is no peak (or, on a ring, input without direction), one or one for each axis.
+        absent: output while there is no peak (or, on a ring, input without direction), one or one for each
+            axis.
 
     Ports:
         input: f, over `axes`.
-        output: y, one number for one axis; for several an axis with one sample for each of them, in their order.
+        output: y, one number for one axis; for several an axis with one sample for each of them, in their
+            order.
         strength: the integral of f, one number.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13 (the read-out of a peak); on a ring the population
-        vector: Georgopoulos, Schwartz & Kettner (1986), Science 233, 1416-1419.
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13 (the read-out of a
+        peak); on a ring the population vector: Georgopoulos, Schwartz & Kettner (1986), Science 233,
+        1416-1419.
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = needed("[x]")
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the output")] = 1.0
     offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an output of 0")] = 0.0
-    least: Annotated[float, Live("input x axis", lower=1e-9, meaning="integral up to which there is no peak")] = 0.1
+    least: Annotated[
+        float, Live("input x axis", lower=1e-9, meaning="integral up to which there is no peak")
+    ] = 0.1
     absent: Annotated[PerAxis, Live(meaning="output while there is no peak")] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "strength": ("input",)}
@@ -71,7 +78,9 @@ class RateCode(Coupling):
         n = len(self.axes)
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else (), "strength": ()}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         axes, f = tuple(self.axes), inputs["input"] * cell(self.axes)
         every = zip(axes, *(per_axis(v, axes) for v in (self.gain, self.offset, self.absent)), strict=True)
         found: list[Any] = []

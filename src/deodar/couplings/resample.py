@@ -38,7 +38,9 @@ class Resample(Coupling):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="the grid wanted")] = ()
-    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS, meaning="between samples")] = "linear"
+    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS, meaning="between samples")] = (
+        "linear"
+    )
 
     linear: ClassVar[bool] = True
 
@@ -61,21 +63,31 @@ class Resample(Coupling):
         for a, b in zip(ins["input"], self.axes, strict=True):
             if a.unit != b.unit:
                 yield (
-                    f"the axis {a.name!r} is in {a.unit!r} at the source and in {b.unit!r} here, and numbers are taken as they are, not converted",
+                    (
+                        f"the axis {a.name!r} is in {a.unit!r} at the source and in {b.unit!r} here, and"
+                        " numbers are taken as they are, not converted"
+                    ),
                     "Give both axes one unit",
                 )
             if not a.periodic and (b.lower > a.upper or b.upper < a.lower):
-                what = f"its axis {b.name!r} ({b.lower:g}..{b.upper:g}) and the source's ({a.lower:g}..{a.upper:g}) share nothing, so it gives 0"
+                what = (
+                    f"its axis {b.name!r} ({b.lower:g}..{b.upper:g}) and the source's"
+                    f" ({a.lower:g}..{a.upper:g}) share nothing, so it gives 0"
+                )
                 yield what, "Give both axes bounds that overlap"
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> Any:
         pairs = zip(at.ins["input"], self.axes, strict=True)
         return [resampling.weights(a, b.points, self.interpolation, at.dtype) for a, b in pairs]
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         y = inputs["input"]
         for d, weights in enumerate(constants):
             y = along(weights, y, d)

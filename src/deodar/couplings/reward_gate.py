@@ -46,12 +46,22 @@ class RewardGate(Coupling):
         output: epsilon, one number; it follows the reward in the same instant.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 16 (graded), and the time windows of eqs. 12 and 13. The window of fixed length is
-        ours: it bounds what one reward can teach, and lasts beyond a reward that is shorter.
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 16 (graded), and the time windows of eqs. 12 and 13.
+        The window of fixed length is ours: it bounds what one reward can teach, and lasts beyond a reward
+        that is shorter.
     """
 
     threshold: Annotated[float, Live(lower=0, meaning="what the reward must exceed")] = 0.5
-    duration: Annotated[float, Live("time", role="duration", exact=True, lower=0, meaning="how long a window is open; 0: while reward lasts")] = 0.0
+    duration: Annotated[
+        float,
+        Live(
+            "time",
+            role="duration",
+            exact=True,
+            lower=0,
+            meaning="how long a window is open; 0: while reward lasts",
+        ),
+    ] = 0.0
     strength: Annotated[float, Live(meaning="output while open, or its factor")] = 1.0
     graded: Annotated[bool, Recompile(meaning="whether the output follows the reward")] = False
     gated: Annotated[bool, Recompile(meaning="whether reward waits for the gate")] = False
@@ -75,15 +85,25 @@ class RewardGate(Coupling):
     def init(self, at: Setting) -> Arrays:
         return {"onset": at.full((), NEVER), "onset_low": at.full((), 0.0), "rewarded": at.full((), 0.0)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         reward = self._reward(at, inputs)
         with exact():
-            duration, passed = wide(self.duration), time.wide - wide(Exact(state["onset"], state["onset_low"]))
-            lasts, bounded = passed < duration - 0.5 * time.wide_dt, duration > 0  # to half a step, so that rounding moves no edge
+            duration, passed = (
+                wide(self.duration),
+                time.wide - wide(Exact(state["onset"], state["onset_low"])),
+            )
+            lasts, bounded = (
+                passed < duration - 0.5 * time.wide_dt,
+                duration > 0,
+            )  # to half a step, so that rounding moves no edge
         is_open = jnp.where(bounded, self._onset(state, reward) | lasts, reward > self.threshold)
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         reward, now = self._reward(at, inputs), time.moment
         begins = self._onset(state, reward)
         return {

@@ -33,8 +33,8 @@ class Shift(Coupling):
         output: the same axes.
 
     Reference:
-        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), appendix A (the
-        plain shifts between its fields).
+        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), appendix
+        A (the plain shifts between its fields).
     """
 
     amount: Annotated[PerAxis, Rebuild("axis", meaning="how far")] = 0.0
@@ -44,17 +44,27 @@ class Shift(Coupling):
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         for a, amount in zip(ins["input"], per_axis(self.amount, ins["input"]), strict=True):
             if not a.periodic and abs(float(amount)) > a.range:
-                what = f"its amount {float(amount):g} is longer than the axis {a.name!r} ({a.range:g}), so everything is shifted out and it gives 0"
+                what = (
+                    f"its amount {float(amount):g} is longer than the axis {a.name!r} ({a.range:g}), so"
+                    " everything is shifted out and it gives 0"
+                )
                 yield what, f"Take an amount below {a.range:g}, or a periodic axis"
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> Any:
         axes = at.ins["input"]
-        return [resampling.steps(a, amount, at.dtype) for a, amount in zip(axes, per_axis(self.amount, axes), strict=True)]
+        return [
+            resampling.steps(a, amount, at.dtype)
+            for a, amount in zip(axes, per_axis(self.amount, axes), strict=True)
+        ]
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         y = inputs["input"]
         for d, (axis, (whole, part)) in enumerate(zip(at.ins["input"], constants, strict=True)):
             y = resampling.shifted(y, d, axis.periodic, whole, part)

@@ -36,8 +36,12 @@ class Sigmoid(Coupling):
 
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="g")] = Logistic()
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": self.sigmoid.bounds(inputs["input"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": self.sigmoid(inputs["input"])}

@@ -38,15 +38,16 @@ class SpaceCode(Coupling):
         gain: axis units per unit of the input, one or one for each axis.
         offset: place of the peak for an input of 0, in axis units, one or one for each axis.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis; none: the axis decides.
+        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis;
+            none: the axis decides.
 
     Ports:
         input: one number for one axis; for several an axis with one sample for each of them, in their order.
         output: over `axes`.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1 (sensors as space code); Billing, Lowe &
-        Sandamirskaya (2015), Adapt. Behav. 23(5), figure 4 (place and head direction).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1 (sensors as space
+        code); Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), figure 4 (place and head direction).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = needed("[x]")
@@ -54,10 +55,17 @@ class SpaceCode(Coupling):
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the input")] = 1.0
     offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an input of 0")] = 0.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(default=False, kw_only=True)
+    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(
+        default=False, kw_only=True
+    )
     boundary: Annotated[
         Sequence[str] | None,
-        Recompile(choices=("periodic", "zero"), meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides"),
+        Recompile(
+            choices=("periodic", "zero"),
+            meaning=(
+                "whether it wraps round the ends, one for all axes or one for each; none: the axis decides"
+            ),
+        ),
     ] = dc.field(default=None, kw_only=True)
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
@@ -74,16 +82,31 @@ class SpaceCode(Coupling):
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
-            yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes", "Give one for all axes, or one for each"
+            yield (
+                f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes",
+                "Give one for all axes, or one for each",
+            )
         arriving, wanted = shape(ins["input"]), len(self.axes)
         if arriving != (wanted,) and not (wanted == 1 and arriving == ()):
             takes = "one number" if wanted == 1 else f"one axis with {wanted} samples"
-            yield f"takes {takes}, one for each of its axes; its input has {list(arriving)} samples", "Give it what it takes"
+            yield (
+                f"takes {takes}, one for each of its axes; its input has {list(arriving)} samples",
+                "Give it what it takes",
+            )
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         axes, values = tuple(self.axes), jnp.reshape(inputs["input"], (len(self.axes),))
         ends = boundaries(self.boundary, axes)
-        every = zip(axes, ends, per_axis(self.sigma, axes), per_axis(self.gain, axes), per_axis(self.offset, axes), strict=True)
+        every = zip(
+            axes,
+            ends,
+            per_axis(self.sigma, axes),
+            per_axis(self.gain, axes),
+            per_axis(self.offset, axes),
+            strict=True,
+        )
         factors: list[Any] = []
         for d, (axis, end, sigma, gain, offset) in enumerate(every):
             distance = at.points(axis) - (gain * values[d] + offset)
@@ -97,9 +120,15 @@ class SpaceCode(Coupling):
             factors.append(factor)
         y = self.amplitude * factors[0]
         for factor in factors[1:]:
-            # as a product of matrices (the second row adds nothing) it is made once: the compiler would else put the exponentials into
-            # every sum that reads it, which doubled the step of a model with 16 fields
-            y = jnp.tensordot(jnp.stack([y, jnp.zeros_like(y)]), jnp.stack([factor, factor]), axes=(0, 0), precision="highest")
+            # as a product of matrices (the second row adds nothing) it is made once: the compiler would else
+            # put the exponentials into every sum that reads it, which doubled the step of a model with 16
+            # fields
+            y = jnp.tensordot(
+                jnp.stack([y, jnp.zeros_like(y)]),
+                jnp.stack([factor, factor]),
+                axes=(0, 0),
+                precision="highest",
+            )
         return {"output": y}
 
     @classmethod

@@ -19,7 +19,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SteeredShift(Coupling):
-    r"""Moves a pattern by what another element says: from one frame of reference to another that moves against it.
+    r"""Moves a pattern by what another element says: from one frame of reference to another that moves
+    against it.
 
     Interpolated linearly; zero comes in at the ends of an axis that is not periodic.
 
@@ -34,13 +35,14 @@ class SteeredShift(Coupling):
 
     Ports:
         input: any axes, those of `along` among them.
-        by: one number for one axis; for several an axis with one sample for each of them, in their order. Where each has an element
-            or a gain of its own, put one SteeredShift behind the other.
+        by: one number for one axis; for several an axis with one sample for each of them, in their order.
+            Where each has an element or a gain of its own, put one SteeredShift behind the other.
         output: the axes of `input`.
 
     Reference:
-        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic remapping,
-        Biol. Cybern. 106, 89-109 (the map that its transformation field computes: place on the retina and gaze to place in the world).
+        Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic
+        remapping, Biol. Cybern. 106, 89-109 (the map that its transformation field computes: place on the
+        retina and gaze to place in the world).
     """
 
     along: Annotated[Sequence[str], Recompile(meaning="names of the axes along which it shifts")] = ("x",)
@@ -63,12 +65,20 @@ class SteeredShift(Coupling):
         known, arriving = [a.name for a in ins["input"]], shape(ins["by"])
         for name in self.along:
             if name not in known:
-                yield f"shifts along {name!r}, which is no axis of its input", did_you_mean(name, known) or "Give it an input that has this axis"
+                yield (
+                    f"shifts along {name!r}, which is no axis of its input",
+                    did_you_mean(name, known) or "Give it an input that has this axis",
+                )
         if len(self.along) > 1 and arriving != (len(self.along),):
             takes = f"one axis with {len(self.along)} samples, one for each of {', '.join(self.along)}"
-            yield f"takes at its port `by` {takes}; what comes has {list(arriving)} samples", "Give it that, or put one SteeredShift behind the other"
+            yield (
+                f"takes at its port `by` {takes}; what comes has {list(arriving)} samples",
+                "Give it that, or put one SteeredShift behind the other",
+            )
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         y, names = inputs["input"], [a.name for a in at.ins["input"]]
         amounts = jnp.reshape(inputs["by"], (len(self.along),))
         for k, name in enumerate(self.along):

@@ -25,7 +25,8 @@ class Threshold(Coupling):
             \text{else} \end{cases}
 
     Parameters:
-        level: the threshold, in units of the input. For all or nothing use the coupling `Sigmoid` with `Step`.
+        level: the threshold, in units of the input. For all or nothing use the coupling `Sigmoid` with
+            `Step`.
 
     Ports:
         input: any axes.
@@ -37,10 +38,14 @@ class Threshold(Coupling):
 
     level: Annotated[float, Live(meaning="the threshold")] = 0.5
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         low, high = inputs["input"]
         return {"output": ZERO if high <= self.level else hull(ZERO, (max(low, self.level), high))}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.where(x > self.level, x, jnp.zeros_like(x))}

@@ -17,7 +17,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class TurnLimit(Coupling):
-    r"""Slows both wheels of a vehicle alike where they would turn it too fast: the circle on which it drives stays the same.
+    r"""Slows both wheels of a vehicle alike where they would turn it too fast: the circle on which it drives
+    stays the same.
 
     Equation:
         s = \min\!\left(1, \frac{\mathrm{limit}}{|\mathrm{speed}\, (\mathrm{left} -
@@ -40,10 +41,15 @@ class TurnLimit(Coupling):
     """
 
     speed: Annotated[float, Live("motor", meaning="speed of a wheel for an input of 1")] = 500.0
-    limit: Annotated[float, Live("motor", lower=1e-6, meaning="largest difference between the speeds of the wheels")] = 400.0
+    limit: Annotated[
+        float, Live("motor", lower=1e-6, meaning="largest difference between the speeds of the wheels")
+    ] = 400.0
 
     inputs: ClassVar[tuple[str, ...]] = ("left", "right")
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"to_left": ("left", "right"), "to_right": ("left", "right")}
+    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "to_left": ("left", "right"),
+        "to_right": ("left", "right"),
+    }
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
@@ -51,7 +57,9 @@ class TurnLimit(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"to_left": (), "to_right": ()}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         left, right = self.speed * inputs["left"], self.speed * inputs["right"]
         share = self.limit / jnp.maximum(jnp.abs(left - right), self.limit)
         return {"to_left": share * left, "to_right": share * right}

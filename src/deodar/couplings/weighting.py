@@ -56,12 +56,17 @@ class Weighting(Coupling):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         if given != shape(self.axes):
-            yield f"weights has shape {list(given)}, its axes have {list(shape(self.axes))} samples", "Give weights of that shape"
+            yield (
+                f"weights has shape {list(given)}, its axes have {list(shape(self.axes))} samples",
+                "Give weights of that shape",
+            )
 
     def prepare(self, at: Setting) -> Any:
         return {"weights": at.array(self.weights)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": constants["weights"] * inputs["input"]}
 
     @classmethod

@@ -62,13 +62,21 @@ class Weights(Coupling):
         given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         needed = shape(self.axes) + shape(ins["input"])
         if given != needed:
-            yield f"weights has shape {list(given)}; target and source samples make {list(needed)}", "Give weights of that shape"
+            yield (
+                f"weights has shape {list(given)}; target and source samples make {list(needed)}",
+                "Give weights of that shape",
+            )
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if isinstance(self.weights, FrozenArray) and not self.weights.data.any():
-            yield "its weights are all zero, so nothing passes", "Give it the weights of the map, or remove it"
+            yield (
+                "its weights are all zero, so nothing passes",
+                "Give it the weights of the map, or remove it",
+            )
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         if not isinstance(self.weights, FrozenArray):
             return {}
         rows = self.weights.data.reshape(math.prod(shape(self.axes)), -1) * cell(ins["input"])
@@ -78,7 +86,9 @@ class Weights(Coupling):
     def prepare(self, at: Setting) -> Any:
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.tensordot(constants["weights"], x, axes=x.ndim, precision="highest")}
 

@@ -1,4 +1,6 @@
-"""`deodar demo saliency`: a colour cue selects an object in a photograph, and a motor variable turns to it."""
+"""`deodar demo saliency`: a colour cue selects an object in a photograph, and a motor variable turns to
+it.
+"""
 
 from __future__ import annotations
 
@@ -39,10 +41,15 @@ PERIOD = 50.0
 """ms between two pictures of a film or a camera."""
 
 NEAR = 2.0
-"""Distance from a peak within which the motor variable counts as converged, in scene units: one sample of the fields. Ours."""
+"""Distance from a peak within which the motor variable counts as converged, in scene units: one sample of the
+fields. Ours.
+"""
 
 LEAST_RIGHT = 10
-"""Of the twelve cues for a colour that is present in an untuned photograph, how many have to be selected. Ours."""
+"""Of the twelve cues for a colour that is present in an untuned photograph, how many have to be selected.
+
+Ours.
+"""
 
 FOUND_HERE = "parameters that were found on this photograph"
 
@@ -80,7 +87,8 @@ class Cue:
 class Scene:
     """A picture and the cues to be tried on it.
 
-    Of a film or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether parameters were found on the picture.
+    Of a film or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether
+    parameters were found on the picture.
     """
 
     name: str
@@ -99,7 +107,8 @@ class Outcome:
         cue: the cue.
         peaks, spatial: peaks of the colour-space field and of the spatial field.
         places, spatial_places, motor: the same and the motor variable, in pixels.
-        gap: distance of the motor variable from the nearest peak of the spatial field, in scene units; None without a peak.
+        gap: distance of the motor variable from the nearest peak of the spatial field, in scene units; None
+            without a peak.
         moved: distance of the motor variable from where it began, in scene units.
     """
 
@@ -114,7 +123,9 @@ class Outcome:
 
     @property
     def right(self) -> bool:
-        """Whether the fields select what the marks ask for: one peak in each, in the region; no peak in either where the colour is absent."""
+        """Whether the fields select what the marks ask for: one peak in each, in the region; no peak in
+        either where the colour is absent.
+        """
         if self.cue.expect == "absent":
             return not self.peaks and not self.spatial
         one = len(self.places) == 1 and len(self.spatial_places) == 1
@@ -128,7 +139,9 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Result:
-    """A scene, run: the record over time, the largest activation before the cue, and an outcome for each cue."""
+    """A scene, run: the record over time, the largest activation before the cue, and an outcome for each
+    cue.
+    """
 
     scene: Scene
     record: xarray.Dataset
@@ -150,7 +163,8 @@ def photographs(untuned: bool = False) -> list[Scene]:
     """The photographs that come with deodar, with what a person marked in them.
 
     Args:
-        untuned: the twelve that were marked before the architecture first saw them, in place of the three on which its parameters were found.
+        untuned: the twelve that were marked before the architecture first saw them, in place of the three on
+            which its parameters were found.
     """
     folder = resources.files("deodar.demos") / "photographs"
     if untuned:
@@ -160,7 +174,10 @@ def photographs(untuned: bool = False) -> list[Scene]:
     for name, entry in marks.items():
         with resources.as_file(folder / entry["picture"]) as path:
             picture = Picture(path)
-        cues = [Cue(c["hue"], c["name"], c["expect"], c.get("object", ""), _outlines(c.get("outlines", []))) for c in entry["cues"]]
+        cues = [
+            Cue(c["hue"], c["name"], c["expect"], c.get("object", ""), _outlines(c.get("outlines", [])))
+            for c in entry["cues"]
+        ]
         scenes.append(Scene(name, entry["title"], picture, tuple(cues), tuned=not untuned))
     return scenes
 
@@ -182,13 +199,17 @@ def filmed(file: Path, hues: Sequence[float]) -> Scene:
 
 
 def watched(camera: Camera, hues: Sequence[float]) -> Scene:
-    """What a camera sees for as long as a run lasts, recorded by the clock on the wall, so that all cues are tried on the same."""
+    """What a camera sees for as long as a run lasts, recorded by the clock on the wall, so that all cues are
+    tried on the same.
+    """
     cues, eye = _cues(hues), Model("eye", dt=PERIOD)
     eye.add(Sensor("eye", retina(), sensor="picture"))
     began: list[float] = []
 
     def wait(done: int) -> None:
-        began.append(time.monotonic() - done * PERIOD / 1000)  # the first counts: before it, programs are compiled
+        began.append(
+            time.monotonic() - done * PERIOD / 1000
+        )  # the first counts: before it, programs are compiled
         time.sleep(max(0.0, began[0] + done * PERIOD / 1000 - time.monotonic()))
 
     try:
@@ -200,11 +221,16 @@ def watched(camera: Camera, hues: Sequence[float]) -> Scene:
 
 def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
     if not all(0 <= h < 360 for h in hues):
-        raise DocumentError(f"a cue is a hue from 0 to 360 degrees, not {', '.join(f'{h:g}' for h in hues)}", fix="0 is red, 120 green, 240 blue")
-    return tuple(Cue(h) for h in (hues or WHEEL))
+        raise DocumentError(
+            f"a cue is a hue from 0 to 360 degrees, not {', '.join(f'{h:g}' for h in hues)}",
+            fix="0 is red, 120 green, 240 blue",
+        )
+    return tuple(Cue(h) for h in hues or WHEEL)
 
 
-def look(scene: Scene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None) -> Result:
+def look(
+    scene: Scene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None
+) -> Result:
     """All cues of a scene as one batch: first half a second without a cue, then three seconds with it.
 
     Args:
@@ -217,12 +243,19 @@ def look(scene: Scene, seed: int = 0, step: Callable[[], None] = lambda: None, m
     sweep = {"cue.center": [c.hue for c in scene.cues]}
     paths = ["seen.output", "colour.activation", "spatial.activation", "pan.output", "tilt.output"]
     world = scene.world or scene.picture
-    record = simulate(model, DURATION, seed=seed, record=paths, every=EVERY, sweep=sweep, world=world, progress=False)
+    record = simulate(
+        model, DURATION, seed=seed, record=paths, every=EVERY, sweep=sweep, world=world, progress=False
+    )
     step()
     end = simulate(model, DURATION, seed=seed, sweep=sweep, world=world, progress=False).isel(time=-1)
     step()
     before = record["seen.output"].sel(time=record["time"] < CUE_AT)
-    return Result(scene, record, float(before.max()), tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues))))
+    return Result(
+        scene,
+        record,
+        float(before.max()),
+        tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues))),
+    )
 
 
 def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int) -> Outcome:
@@ -235,7 +268,16 @@ def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int)
     gap = min((math.dist(motor, p.position) for p in spatial), default=None)
     moved = math.dist(motor, (SIDE / 2, SIDE / 2))
     places, spatial_places = (_places(scene_, p, (x, y)) for p in (found, spatial))
-    return Outcome(scene_.cues[k], found, spatial, places, spatial_places, scene_.picture.to_pixels((x, y), *motor), gap, moved)
+    return Outcome(
+        scene_.cues[k],
+        found,
+        spatial,
+        places,
+        spatial_places,
+        scene_.picture.to_pixels((x, y), *motor),
+        gap,
+        moved,
+    )
 
 
 def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
@@ -243,12 +285,18 @@ def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float]
 
 
 def claims(result: Result) -> list[Claim]:
-    """One claim for the time without a cue, and for each cue of a marked picture one for the fields and one for the motor variable.
+    """One claim for the time without a cue, and for each cue of a marked picture one for the fields and one
+    for the motor variable.
 
-    Each is reported. On the photographs on which the parameters were found none of them is evidence; `totals` says what is required of the others.
+    Each is reported. On the photographs on which the parameters were found none of them is evidence; `totals`
+    says what is required of the others.
     """
     name = result.scene.name
-    found: dict[str, Any] = {"assumes": FOUND_HERE, "inferred": True} if result.scene.tuned and any(c.expect for c in result.scene.cues) else {}
+    found: dict[str, Any] = (
+        {"assumes": FOUND_HERE, "inferred": True}
+        if result.scene.tuned and any(c.expect for c in result.scene.cues)
+        else {}
+    )
     marks: dict[str, Any] = {"kind": "reported", "source": SOURCE, "origin": "ours", **found}
     quiet = f"{name}, no cue: the colour-space field stays below threshold"
     out = [Claim(quiet, round(result.quiet, 3), "< 0", result.quiet < 0, **marks)]
@@ -260,34 +308,78 @@ def claims(result: Result) -> list[Claim]:
             "motor variable": [round(v) for v in o.motor],
         }
         if not o.cue.expect:
-            out.append(Claim(f"{name}, cue {o.cue.hue:g} deg", value, "not marked", None, kind="reported", origin="none"))
+            out.append(
+                Claim(
+                    f"{name}, cue {o.cue.hue:g} deg",
+                    value,
+                    "not marked",
+                    None,
+                    kind="reported",
+                    origin="none",
+                )
+            )
             continue
         cue = f"{name}, cue {o.cue.name} ({o.cue.hue:g} deg)"
         present = o.cue.expect == "present"
-        what = f"exactly one peak, on {o.cue.object}; the spatial field follows" if present else "no such colour in the picture, no peak"
-        target = "one peak in the marked region, one spatial peak there too" if present else "no peak in either field"
+        what = (
+            f"exactly one peak, on {o.cue.object}; the spatial field follows"
+            if present
+            else "no such colour in the picture, no peak"
+        )
+        target = (
+            "one peak in the marked region, one spatial peak there too"
+            if present
+            else "no peak in either field"
+        )
         out.append(Claim(f"{cue}: {what}", value, target, o.right, **marks))
         what = "the motor variable converges to the peak" if present else "the motor variable stays"
-        distance, target = (o.gap, f"at most {NEAR:g} from the spatial peak") if present else (o.moved, f"at most {NEAR / 10:g} from its start")
+        distance, target = (
+            (o.gap, f"at most {NEAR:g} from the spatial peak")
+            if present
+            else (o.moved, f"at most {NEAR / 10:g} from its start")
+        )
         held = o.converged if (o.gap is not None) == present else False
-        out.append(Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, **marks))
+        out.append(
+            Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, **marks)
+        )
     return out
 
 
 def totals(results: Sequence[Result]) -> list[Claim]:
-    """What is required of the untuned photographs together, and in how many the motor variable arrives in time. The targets are ours."""
+    """What is required of the untuned photographs together, and in how many the motor variable arrives in
+    time. The targets are ours.
+    """
     asked = [o for r in results if not r.scene.tuned for o in r.outcomes]
     if not asked:
         return []
     present, absent = ([o for o in asked if o.cue.expect == e] for e in ("present", "absent"))
     right, silent = sum(o.right for o in present), sum(o.right for o in absent)
     arrived = sum(o.gap is not None and o.converged for o in present)
-    says = ("a present colour is selected", "an absent colour selects nothing", "the motor variable converges to the peak")
+    says = (
+        "a present colour is selected",
+        "an absent colour selects nothing",
+        "the motor variable converges to the peak",
+    )
     selected, nothing, motor = (f"untuned: {what}" for what in says)
     return [
-        Claim(selected, right, f"at least {LEAST_RIGHT} of {len(present)}", right >= LEAST_RIGHT, n=len(present), origin="ours"),
+        Claim(
+            selected,
+            right,
+            f"at least {LEAST_RIGHT} of {len(present)}",
+            right >= LEAST_RIGHT,
+            n=len(present),
+            origin="ours",
+        ),
         Claim(nothing, silent, f"all of {len(absent)}", silent == len(absent), n=len(absent), origin="ours"),
-        Claim(motor, arrived, f"all of {len(present)}", arrived == len(present), "reported", n=len(present), origin="ours"),
+        Claim(
+            motor,
+            arrived,
+            f"all of {len(present)}",
+            arrived == len(present),
+            "reported",
+            n=len(present),
+            origin="ours",
+        ),
     ]
 
 
@@ -298,22 +390,31 @@ def sentence(results: Sequence[Result]) -> str:
     if asked:
         present, absent = ([o.right for o in asked if o.cue.expect == e] for e in ("present", "absent"))
         return (
-            f"{len(results)} photographs: silent without a cue in {quiet}; {sum(present)} of {len(present)} cued colours selected on the right"
-            f" object; {sum(absent)} of {len(absent)} cues of absent colours selected nothing."
+            f"{len(results)} photographs: silent without a cue in {quiet}; {sum(present)} of {len(present)}"
+            f" cued colours selected on the right object; {sum(absent)} of {len(absent)} cues of absent"
+            " colours selected nothing."
         )
     found = [f"{o.cue.hue:g} deg: {_where(o)}" for r in results for o in r.outcomes if o.peaks or o.spatial]
-    return f"Selected: {'; '.join(found)}. Other cues selected nothing." if found else "No cue selected anything."
+    return (
+        f"Selected: {'; '.join(found)}. Other cues selected nothing."
+        if found
+        else "No cue selected anything."
+    )
 
 
 def _where(outcome: Outcome) -> str:
-    """Where the peaks of the spatial field are; of the colour-space field, where the spatial field has none."""
+    """Where the peaks of the spatial field are; of the colour-space field, where the spatial field has
+    none.
+    """
     places = outcome.spatial_places or outcome.places
     text = " and ".join(f"column {x:.0f}, row {y:.0f}" for x, y in places)
     return text if outcome.spatial else f"{text} (without a peak of the spatial field)"
 
 
 def spatial_pixels(result: Result) -> np.ndarray:
-    """Corners (left, right, bottom, top) of the spatial field's picture in pixels, for drawing over the photograph."""
+    """Corners (left, right, bottom, top) of the spatial field's picture in pixels, for drawing over the
+    photograph.
+    """
     x, y, _ = scene()
     left, top = result.scene.picture.to_pixels((x, y), x.lower - x.step / 2, y.lower - y.step / 2)
     right, bottom = result.scene.picture.to_pixels((x, y), x.upper + x.step / 2, y.upper + y.step / 2)

@@ -17,7 +17,10 @@ from deodar.figures._style import figure as sheet
 
 ROW = 1.75
 WIDTH = 9.6
-EXPLAINED = "white line: threshold\narrow: cued hue\ncircle: peak\ndotted outlines: right\n  places, marked by a person\ndotted lines: spatial peak"
+EXPLAINED = (
+    "white line: threshold\narrow: cued hue\ncircle: peak\ndotted outlines: right\n  places, marked by a"
+    " person\ndotted lines: spatial peak"
+)
 LOWEST, HIGHEST = -6.0, 4.0
 """Activation at the ends of the colour scale, the same in all pictures, so that they can be compared."""
 
@@ -28,7 +31,12 @@ def figure(result: Result) -> Figure:
     with style():
         out = sheet(WIDTH, ROW * rows + 0.5)
         grid = out.subplots(rows, 4, squeeze=False, width_ratios=(1.15, 1.0, 1.1, 1.35))
-        titles = ("picture, selected place", "colour-space field (seen along y)", "spatial field", "motor variable")
+        titles = (
+            "picture, selected place",
+            "colour-space field (seen along y)",
+            "spatial field",
+            "motor variable",
+        )
         for axes, title in zip(grid[0], titles, strict=True):
             axes.set_title(title, fontweight="bold")
         before = int(np.searchsorted(result.record["time"].values, CUE_AT)) - 1
@@ -48,13 +56,17 @@ def figure(result: Result) -> Figure:
         bar = out.colorbar(image, cax=grid[0, 3].inset_axes((0.02, 0.12, 0.045, 0.8)))
         bar.set_label("activation (0: threshold)")
         bar.ax.axhline(0, color="white", linewidth=1)
-        told = grid[0, 3].text(0.34, 0.92, EXPLAINED, va="top", fontsize=6.5, linespacing=1.6, transform=grid[0, 3].transAxes)
+        told = grid[0, 3].text(
+            0.34, 0.92, EXPLAINED, va="top", fontsize=6.5, linespacing=1.6, transform=grid[0, 3].transAxes
+        )
         told.set_in_layout(False)
     return out
 
 
 def overview(results: Sequence[Result], columns: int = 4) -> Figure:
-    """All photographs with what the cues of present colours selected: marked region, peaks, end of the motor variable."""
+    """All photographs with what the cues of present colours selected: marked region, peaks, end of the motor
+    variable.
+    """
     shown = [(r, o) for r in results for o in r.outcomes if o.cue.expect != "absent"]
     rows = -(-len(shown) // columns)
     with style():
@@ -77,7 +89,9 @@ def _label(axes: Any, text: str, hue: float | None) -> None:
     axes.set_ylabel(text, labelpad=16)
     if hue is not None:
         colour = colorsys.hsv_to_rgb(hue / 360, 0.9, 0.85)
-        axes.add_patch(Rectangle((-0.115, 0.0), 0.06, 1.0, transform=axes.transAxes, color=colour, clip_on=False))
+        axes.add_patch(
+            Rectangle((-0.115, 0.0), 0.06, 1.0, transform=axes.transAxes, color=colour, clip_on=False)
+        )
 
 
 def _photograph(axes: Any, result: Result, outcome: Outcome | None) -> None:
@@ -88,7 +102,9 @@ def _photograph(axes: Any, result: Result, outcome: Outcome | None) -> None:
     if outcome is None:
         return
     for outline in outcome.cue.outlines:
-        axes.add_patch(Polygon(outline, closed=True, fill=False, edgecolor="white", linewidth=0.8, linestyle=":"))
+        axes.add_patch(
+            Polygon(outline, closed=True, fill=False, edgecolor="white", linewidth=0.8, linestyle=":")
+        )
     size = max(result.scene.picture.size)
     for place in outcome.places:
         axes.add_patch(Circle(place, 0.06 * size, fill=False, edgecolor="black", linewidth=2.6))
@@ -111,14 +127,22 @@ def _colour_space(axes: Any, result: Result, k: int, at: int, hue: float | None 
     x, hues = result.record["x"].values, result.record["hue"].values
     step = hues[1] - hues[0]
     extent = (x[0] - 1, x[-1] + 1, hues[0] - step / 2, hues[-1] + step / 2)
-    image = axes.imshow(seen.T, origin="lower", aspect="auto", extent=extent, cmap=SEQUENTIAL, vmin=LOWEST, vmax=HIGHEST)
+    image = axes.imshow(
+        seen.T, origin="lower", aspect="auto", extent=extent, cmap=SEQUENTIAL, vmin=LOWEST, vmax=HIGHEST
+    )
     axes.contour(x, hues, seen.T, levels=[0.0], colors="white", linewidths=0.8)
     axes.set_yticks([0, 120, 240, 360])
     axes.set_ylim(extent[2], extent[3])
     axes.set_ylabel("hue (deg)")
     axes.set_xlabel("x")
     if hue is not None:
-        axes.annotate("", xy=(1.0, hue), xytext=(1.09, hue), xycoords=("axes fraction", "data"), arrowprops={"arrowstyle": "-|>", "lw": 0.8})
+        axes.annotate(
+            "",
+            xy=(1.0, hue),
+            xytext=(1.09, hue),
+            xycoords=("axes fraction", "data"),
+            arrowprops={"arrowstyle": "-|>", "lw": 0.8},
+        )
     return image
 
 
@@ -126,7 +150,15 @@ def _spatial(axes: Any, result: Result, k: int, at: int) -> None:
     u = result.record["spatial.activation"].isel({"cue.center": k, "time": at}).values
     width, height = result.scene.picture.size
     corners = spatial_pixels(result)
-    axes.imshow(u.T, origin="upper", extent=tuple(corners), cmap=SEQUENTIAL, vmin=LOWEST, vmax=HIGHEST, interpolation="nearest")
+    axes.imshow(
+        u.T,
+        origin="upper",
+        extent=tuple(corners),
+        cmap=SEQUENTIAL,
+        vmin=LOWEST,
+        vmax=HIGHEST,
+        interpolation="nearest",
+    )
     axes.set_anchor("N")
     axes.set_xlim(0, width)
     axes.set_ylim(height, 0)

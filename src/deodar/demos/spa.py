@@ -1,4 +1,6 @@
-"""`deodar demo spa`: a robot plans its way through a maze and drives it; an obstacle comes, and it plans anew on the way. Or any other maze."""
+"""`deodar demo spa`: a robot plans its way through a maze and drives it; an obstacle comes, and it plans anew
+on the way. Or any other maze.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,10 @@ MEMORY = 400e6
 """Bytes that the motivation fields of a record may take; in a large maze records are further apart for it."""
 
 SOON = 50
-"""Steps after the plan is complete within which the robot leaves. Ours: the paper has it start to move when the plan is complete."""
+"""Steps after the plan is complete within which the robot leaves.
+
+Ours: the paper has it start to move when the plan is complete.
+"""
 
 START = "the start of case 3, which the paper does not print"
 """It was inferred from the plan, the wave and the route of this very run, so these are no evidence."""
@@ -47,7 +52,9 @@ COMES = 336
 """Step at which the obstacle comes, as in figure 11; it stays."""
 
 PLANNED, ARRIVES = 210, 1250
-"""Steps at which the plan is complete and the robot at its goal, as the paper tells of this run (figures 10 to 12)."""
+"""Steps at which the plan is complete and the robot at its goal, as the paper tells of this run (figures 10
+to 12).
+"""
 
 NEAR = 7.0
 """Distance from the goal at which it counts as reached, cm (published simulator)."""
@@ -59,7 +66,11 @@ INTENDED = 0.5
 NORTH, SOUTH = place(30, 0)[1], place(50, 0)[1]
 """Beyond which y, cm, it is on the northern and on the southern route (published simulator)."""
 
-RECORDED = ["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS), *(f"{name}.motivation.activation" for name in DIRECTIONS)]
+RECORDED = [
+    "pose.output",
+    *(f"{name}.strongest.output" for name in DIRECTIONS),
+    *(f"{name}.motivation.activation" for name in DIRECTIONS),
+]
 SITES = (0, 500, 850, 1250)
 """Steps at which the robot stands at the places that the paper calls location 1 to 4."""
 
@@ -104,7 +115,12 @@ class Result:
         """Locations 1 to 4, as far as the record goes: x and y in cm."""
         poses = self.record["pose.output"]
         sites = SITES if self.told else ()
-        return [(float(x), float(y)) for step in sites if step <= poses["time"].values[-1] for x, y, _ in [poses.sel(time=step).values]]
+        return [
+            (float(x), float(y))
+            for step in sites
+            if step <= poses["time"].values[-1]
+            for x, y, _ in [poses.sel(time=step).values]
+        ]
 
     @property
     def path(self) -> np.ndarray:
@@ -118,17 +134,28 @@ def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = la
     arena = maze("z")
     center, size = OBSTACLES["full"]
     arena.place("obstacle", center, size, windows=(COMES * STEP_MS, 1e9))
-    return read(simulate(spa(arena), duration, seed=seed, record=RECORDED, every=EVERY, world=arena, progress=done), arena)
+    return read(
+        simulate(spa(arena), duration, seed=seed, record=RECORDED, every=EVERY, world=arena, progress=done),
+        arena,
+    )
 
 
-def drive(arena: Arena, noise: str = "low", seed: int = 0, duration: int = LONGEST, done: Callable[[int], None] = lambda _: None) -> Result:
+def drive(
+    arena: Arena,
+    noise: str = "low",
+    seed: int = 0,
+    duration: int = LONGEST,
+    done: Callable[[int], None] = lambda _: None,
+) -> Result:
     """A run in any maze, which is made by `dd.architectures.maze`; nothing comes on the way."""
     if arena.goals is None:
         raise WorldError("the maze has no goal", where=arena.source, fix="Give one: --goal X Y, in cm")
     model = spa(arena, noise)
     cells = math.prod(axis.samples for axis in model["north.motivation"].element.axes)  # type: ignore[attr-defined]
     every = EVERY * max(1, math.ceil(duration / EVERY * cells * 4 * len(DIRECTIONS) / MEMORY))
-    found = read(simulate(model, duration, seed=seed, record=RECORDED, every=every, world=arena, progress=done), arena)
+    found = read(
+        simulate(model, duration, seed=seed, record=RECORDED, every=every, world=arena, progress=done), arena
+    )
     return dc.replace(found, told=False)
 
 
@@ -147,7 +174,9 @@ def read(record: xarray.Dataset, arena: Arena) -> Result:
     north = _first(after & (pose[:, 1] > NORTH))
     south = _first(after & (pose[:, 1] < SOUTH) & (np.arange(len(pose)) > (0 if north is None else north)))
     arrived = _first(np.linalg.norm(pose[:, :2] - arena.goals[0] / arena.scale, axis=1) <= NEAR)
-    planned, left, north, south, arrived = (None if k is None else round(float(times[k])) for k in (planned, left, north, south, arrived))
+    planned, left, north, south, arrived = (
+        None if k is None else round(float(times[k])) for k in (planned, left, north, south, arrived)
+    )
     return Result(record, arena, planned, left, north, south, arrived)
 
 
@@ -160,7 +189,12 @@ def claims(result: Result) -> list[Claim]:
     r = result
     if not r.told:
         return _reported(r)
-    switched = r.north is not None and r.south is not None and r.arrived is not None and r.north < r.south < r.arrived
+    switched = (
+        r.north is not None
+        and r.south is not None
+        and r.arrived is not None
+        and r.north < r.south < r.arrived
+    )
     gone = path_until(r.path, r.goal, NEAR)
     at = None
     if len(r.sites) > 1:
@@ -177,12 +211,38 @@ def claims(result: Result) -> list[Claim]:
     wave = "the wave reaches location 2, in the motivation to go west, at step"
     path = None if gone is None else round(path_length(gone), 1)
     return [
-        Claim("it leaves when the plan is complete: steps from one to the other", waits, f"0 to {SOON}", waits is not None and waits <= SOON, **ours),
-        Claim("it takes the north route, and the south route after the obstacle came", route, f"north first, south after {COMES}", turned, **ours),
-        Claim(f"it arrives within {NEAR:g} cm of the goal, at step", r.arrived, f"< {DURATION}", r.arrived is not None, **ours),
-        Claim(text, r.planned, f"{PLANNED} +- 10 %", _within(r.planned, PLANNED, 0.1), **printed, inferred=True),
+        Claim(
+            "it leaves when the plan is complete: steps from one to the other",
+            waits,
+            f"0 to {SOON}",
+            waits is not None and waits <= SOON,
+            **ours,
+        ),
+        Claim(
+            "it takes the north route, and the south route after the obstacle came",
+            route,
+            f"north first, south after {COMES}",
+            turned,
+            **ours,
+        ),
+        Claim(
+            f"it arrives within {NEAR:g} cm of the goal, at step",
+            r.arrived,
+            f"< {DURATION}",
+            r.arrived is not None,
+            **ours,
+        ),
+        Claim(
+            text, r.planned, f"{PLANNED} +- 10 %", _within(r.planned, PLANNED, 0.1), **printed, inferred=True
+        ),
         Claim(wave, at, "150 +- 10 %", _within(at, 150, 0.1), **placed, inferred=True),
-        Claim("it arrives around step 1250", r.arrived, f"{ARRIVES} +- 10 %", _within(r.arrived, ARRIVES, 0.1), **printed),
+        Claim(
+            "it arrives around step 1250",
+            r.arrived,
+            f"{ARRIVES} +- 10 %",
+            _within(r.arrived, ARRIVES, 0.1),
+            **printed,
+        ),
         Claim("length of its path, cm", path, "none", None, "reported", origin="none"),
     ]
 
@@ -208,7 +268,14 @@ def sentence(result: Result) -> str:
     said: Sequence[tuple[str, int | None]] = (
         ("planned", result.planned),
         ("left", result.left),
-        *((("on the north route", result.north), ("on the south route", result.south)) if result.told else ()),
+        *(
+            (("on the north route", result.north), ("on the south route", result.south))
+            if result.told
+            else ()
+        ),
         ("at the goal", result.arrived),
     )
-    return "; ".join(f"{what} at step {k}" if k is not None else f"never {what}" for what, k in said) + f" (one step is {STEP_MS:g} ms)."
+    return (
+        "; ".join(f"{what} at step {k}" if k is not None else f"never {what}" for what, k in said)
+        + f" (one step is {STEP_MS:g} ms)."
+    )

@@ -1,4 +1,6 @@
-"""The figure of the planning demo: where the robot went, what was motivated when the plan was complete, and how that changed."""
+"""The figure of the planning demo: where the robot went, what was motivated when the plan was complete, and
+how that changed.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ RANGE = 10.0
 
 
 def figure(result: Result) -> Figure:
-    """Path (as figure 11 of the paper), motivation fields at two moments (figure 12), and at four places over time (figure 10)."""
+    """Path (as figure 11 of the paper), motivation fields at two moments (figure 12), and at four places over
+    time (figure 10).
+    """
     r = result
     with style():
         out = sheet(DOUBLE, 6.6 if r.told else 4.4)
@@ -44,13 +48,23 @@ def _path(axes: Any, r: Result) -> None:
     for thing in r.arena.furniture.things:
         if r.told and thing is not None and thing.name == "obstacle":
             x0, y0, x1, y1 = (100 * v for v in thing.box)
-            axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#e0c8a0", edgecolor="#8a6d3b", linewidth=0.6))
+            axes.add_patch(
+                Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#e0c8a0", edgecolor="#8a6d3b", linewidth=0.6)
+            )
             axes.text((x0 + x1) / 2, (y0 + y1) / 2, f"from\n{COMES}", ha="center", va="center", fontsize=6)
     axes.plot(*r.path[:, :2].T, color=COLORS[0])
     axes.plot(*r.path[:: 100 // r.every, :2].T, ".", color=COLORS[0], markersize=4)
     for number, site in enumerate(r.sites, 1):
         axes.plot(*site, "x", color=COLORS[1], markersize=5)
-        axes.annotate(f"{number}", site, xytext=(5, -3), textcoords="offset points", fontsize=8, color=COLORS[1], fontweight="bold")
+        axes.annotate(
+            f"{number}",
+            site,
+            xytext=(5, -3),
+            textcoords="offset points",
+            fontsize=8,
+            color=COLORS[1],
+            fontweight="bold",
+        )
     axes.plot(*r.goal, "+", color=COLORS[2], markersize=9, markeredgewidth=1.8)
     axes.set_title("path, a dot every 100 steps")
     axes.set_xlabel("x (cm)")
@@ -78,7 +92,13 @@ def _motivation(axes: Any, r: Result, name: str, step: int | None) -> None:
     extent = (x[0] - 0.5, x[-1] + 0.5, y[0] - 0.5, y[-1] + 0.5)
     axes.imshow(u.values.T, extent=extent, cmap=DIVERGING, vmin=-RANGE, vmax=RANGE)
     axes.contour(x, y, u.values.T, levels=[0.0], colors="black", linewidths=0.4)
-    axes.plot(*r.record["pose.output"].values[step // r.every, :2], "o", markerfacecolor="white", markeredgecolor="black", markersize=3.5)
+    axes.plot(
+        *r.record["pose.output"].values[step // r.every, :2],
+        "o",
+        markerfacecolor="white",
+        markeredgecolor="black",
+        markersize=3.5,
+    )
     axes.plot(*r.goal, "+", color="white", markersize=5)
     left, low, right, high = (100 * v for v in r.arena.layout.border)
     axes.set_xlim(left, right)
@@ -95,16 +115,34 @@ def _courses(place: Any, r: Result) -> None:
         axes.axhline(0, color=THRESHOLD, linewidth=0.5, linestyle=":")
         axes.set_ylabel(f"location {number}")
     for name in DIRECTIONS:
-        rows[-1].plot(times, r.record[f"{name}.strongest.output"].values, color=COLOUR[name], linewidth=0.7, label=name)
+        rows[-1].plot(
+            times, r.record[f"{name}.strongest.output"].values, color=COLOUR[name], linewidth=0.7, label=name
+        )
     rows[-1].set_ylabel("intention")
     rows[-1].set_xlabel("time (steps of 64 ms)")
     rows[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.1))
     below = "largest output of the intention fields"
-    rows[0].set_title(f"activation of the motivation fields at {len(r.sites)} places; below: {below}" if r.sites else below, pad=12)
+    rows[0].set_title(
+        f"activation of the motivation fields at {len(r.sites)} places; below: {below}" if r.sites else below,
+        pad=12,
+    )
     for axes in rows:
-        for step, words in ((r.planned, "planned"), (COMES if r.told else None, "obstacle"), (r.arrived, "arrived")):
+        for step, words in (
+            (r.planned, "planned"),
+            (COMES if r.told else None, "obstacle"),
+            (r.arrived, "arrived"),
+        ):
             if step is not None:
                 axes.axvline(step, color="#999999", linewidth=0.5)
                 if axes is rows[-1]:
-                    axes.text(step, 1.02, f" {words}", fontsize=6, color="#555555", va="bottom", ha="left", transform=axes.get_xaxis_transform())
+                    axes.text(
+                        step,
+                        1.02,
+                        f" {words}",
+                        fontsize=6,
+                        color="#555555",
+                        va="bottom",
+                        ha="left",
+                        transform=axes.get_xaxis_transform(),
+                    )
     rows[0].set_xlim(0, times[-1] if r.arrived is None else min(times[-1], r.arrived + 50))

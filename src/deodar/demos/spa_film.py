@@ -33,11 +33,18 @@ FLOOR, WALL, OBSTACLE, ROBOT = (250, 250, 248), (70, 70, 74), (215, 185, 135), (
 
 
 def film(result: Result, file: str | Path) -> Path:
-    """Write a GIF: each place in the colours of the behaviours that are motivated there, the path, the robot, walls and goal."""
+    """Write a GIF: each place in the colours of the behaviours that are motivated there, the path, the robot,
+    walls and goal.
+    """
     path = output.claim(file)
     last = len(result.path)
     frames = [_frame(result, k) for k in range(0, last, max(1, BETWEEN // result.every))]
-    output.write(path, lambda beside: frames[0].save(beside, format="GIF", save_all=True, append_images=frames[1:], duration=SHOWN_MS, loop=0))
+    output.write(
+        path,
+        lambda beside: frames[0].save(
+            beside, format="GIF", save_all=True, append_images=frames[1:], duration=SHOWN_MS, loop=0
+        ),
+    )
     return path
 
 
@@ -61,8 +68,17 @@ def _frame(r: Result, k: int) -> Image.Image:
     pen.line([at(*p) for p in pose[: k + 1, :2]] if k else [at(*pose[0, :2])] * 2, fill=ROBOT, width=2)
     px, py, heading = (float(v) for v in pose[k])
     radius = r.arena.vehicle.radius * 100
-    pen.ellipse([*at(px - radius, py + radius), *at(px + radius, py - radius)], fill=(255, 255, 255), outline=ROBOT, width=2)
-    pen.line([at(px, py), at(px + radius * math.cos(heading), py + radius * math.sin(heading))], fill=ROBOT, width=3)
+    pen.ellipse(
+        [*at(px - radius, py + radius), *at(px + radius, py - radius)],
+        fill=(255, 255, 255),
+        outline=ROBOT,
+        width=2,
+    )
+    pen.line(
+        [at(px, py), at(px + radius * math.cos(heading), py + radius * math.sin(heading))],
+        fill=ROBOT,
+        width=3,
+    )
     gx, gy = r.goal
     for dx, dy in ((3, 0), (0, 3)):
         pen.line([at(gx - dx, gy - dy), at(gx + dx, gy + dy)], fill=ROBOT, width=3)

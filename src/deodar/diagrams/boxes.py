@@ -15,9 +15,15 @@ from deodar.numerics.signs import Sign
 
 INK, SOFT, FAINT = "#1a1a1a", "#4d4d4d", "#8c8c8c"
 FILLS = {
-    "field": "#eaf2fa", "node": "#eaf2fa", "source": "#fdf6e3", "sensor": "#e9f5ee", "motor": "#e9f5ee", "coupling": "#ffffff", "missing": "#ffffff",
+    "field": "#eaf2fa",
+    "node": "#eaf2fa",
+    "source": "#fdf6e3",
+    "sensor": "#e9f5ee",
+    "motor": "#e9f5ee",
+    "coupling": "#ffffff",
+    "missing": "#ffffff",
     "group": "#f6f6f6",
-}  # fmt: skip
+}
 BLUE = "#0072b2"
 NAME, SMALL, PORT = 7.5, 6.0, 5.5
 LINE, SMALL_LINE = 8.8, 7.2
@@ -67,7 +73,9 @@ class Drawn:
         return LOOP + SMALL_LINE * max(len(loop.captions) for loop in self.loops) if self.loops else 0.0
 
 
-def prepare(item: Item, inputs: Sequence[str], outputs: Sequence[str], loops: Sequence[Loop], most: int) -> Drawn:
+def prepare(
+    item: Item, inputs: Sequence[str], outputs: Sequence[str], loops: Sequence[Loop], most: int
+) -> Drawn:
     """Decide how large an item is.
 
     Args:
@@ -109,7 +117,9 @@ def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
     top, middle = y + box.top, x + box.width / 2
     dash = (2.0, 1.5) if item.form == "missing" else ()
     stroke = FAINT if item.form in ("coupling", "missing", "source", "group") else INK
-    outline = Shape(_outline(item, x, top, box), stroke, FILLS[item.form], 0.6 if stroke == FAINT else 0.9, dash)
+    outline = Shape(
+        _outline(item, x, top, box), stroke, FILLS[item.form], 0.6 if stroke == FAINT else 0.9, dash
+    )
     out: list[Shape | Label] = [outline]
     if item.form == "node":
         out += _node_picture(middle, top + box.body / 2, box.body / 2)
@@ -118,7 +128,11 @@ def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
         left = max((text.width(p, PORT) + 4 for p in drawn.inputs), default=0.0)
         right = max((text.width(p, PORT) + 4 for p in drawn.outputs), default=0.0)
         middle = x + left + (box.width - left - right) / 2
-        inner = LINE * len(drawn.lines) + SMALL_LINE * len(drawn.small) + (PICTURE[1] + 3 if _pictured(item) else 0.0)
+        inner = (
+            LINE * len(drawn.lines)
+            + SMALL_LINE * len(drawn.small)
+            + (PICTURE[1] + 3 if _pictured(item) else 0.0)
+        )
         at = top + (box.body - inner) / 2
     for name in drawn.lines:
         out.append(Label(name, middle, at + 6.8, NAME, bold=_bold(item), color=INK))
@@ -151,7 +165,7 @@ def height_at(drawn: Drawn, dx: float) -> float:
     return radius - math.sqrt(max(0.0, radius * radius - dx * dx))
 
 
-# ------------------------------------------------------------------------------------------------ text and shapes
+# -------------------------------------------------------------------------------------------- text and shapes
 
 
 def _bold(item: Item) -> bool:
@@ -173,7 +187,10 @@ def _small(item: Item) -> list[str]:
 
 def _axis(axis: Axis) -> str:
     unit = f" {axis.unit}" if axis.unit else ""
-    return f"{axis.name}: {number(axis.lower)} … {number(axis.upper)}{unit}{', periodic' if axis.periodic else ''}"
+    return (
+        f"{axis.name}: {number(axis.lower)} …"
+        f" {number(axis.upper)}{unit}{', periodic' if axis.periodic else ''}"
+    )
 
 
 def number(value: float) -> str:
@@ -186,16 +203,43 @@ def _outline(item: Item, x: float, top: float, box: Box) -> tuple[Move, ...]:
     if item.form == "node":
         return circle(x + w / 2, top + h / 2, h / 2)
     if item.form == "sensor":
-        return polygon((x, top), (x + w - 6, top), (x + w, top + h / 2), (x + w - 6, top + h), (x, top + h), (x + 6, top + h / 2))
+        return polygon(
+            (x, top),
+            (x + w - 6, top),
+            (x + w, top + h / 2),
+            (x + w - 6, top + h),
+            (x, top + h),
+            (x + 6, top + h / 2),
+        )
     if item.form == "motor":
-        return polygon((x + 6, top), (x + w - 6, top), (x + w, top + h / 2), (x + w - 6, top + h), (x + 6, top + h), (x, top + h / 2))
-    return rectangle(x, top, w, h, {"field": 2.5, "source": 8.0, "coupling": 4.0, "group": 5.0}.get(item.form, 2.5))
+        return polygon(
+            (x + 6, top),
+            (x + w - 6, top),
+            (x + w, top + h / 2),
+            (x + w - 6, top + h),
+            (x + 6, top + h),
+            (x, top + h / 2),
+        )
+    return rectangle(
+        x, top, w, h, {"field": 2.5, "source": 8.0, "coupling": 4.0, "group": 5.0}.get(item.form, 2.5)
+    )
 
 
 def _node_picture(x: float, y: float, r: float) -> list[Shape | Label]:
     """A step up: on or off."""
     s = min(r, NODE) * 0.5
-    return [Shape(line((x - s, y + s * 0.7), (x - s * 0.15, y + s * 0.7), (x + s * 0.15, y - s * 0.7), (x + s, y - s * 0.7)), BLUE, width=1.0)]
+    return [
+        Shape(
+            line(
+                (x - s, y + s * 0.7),
+                (x - s * 0.15, y + s * 0.7),
+                (x + s * 0.15, y - s * 0.7),
+                (x + s, y - s * 0.7),
+            ),
+            BLUE,
+            width=1.0,
+        )
+    ]
 
 
 def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
@@ -207,7 +251,12 @@ def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
         bump = _bump(x + 2, base, w - 4, h * 0.66)
         return [Shape(line((x, base), (x + w, base)), SOFT, width=0.6), Shape(bump, BLUE, width=1.1)]
     if dims == 2:
-        plane = polygon((x + w * 0.26, y + h * 0.3), (x + w * 0.98, y + h * 0.3), (x + w * 0.74, y + h * 0.95), (x + w * 0.02, y + h * 0.95))
+        plane = polygon(
+            (x + w * 0.26, y + h * 0.3),
+            (x + w * 0.98, y + h * 0.3),
+            (x + w * 0.74, y + h * 0.95),
+            (x + w * 0.02, y + h * 0.95),
+        )
         peak = _bump(x + w * 0.28, y + h * 0.72, w * 0.44, h * 0.68)
         return [Shape(plane, SOFT, "#ffffff", 0.7), Shape(peak, BLUE, "#d3e4f3", 1.0)]
     d, a = h * 0.3, h * 0.66
@@ -215,7 +264,12 @@ def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
     b = a * 1.5
     out: list[Shape | Label] = [
         Shape(polygon((x0 + d, y), (x0 + d + b, y), (x0 + b, y0), (x0, y0)), SOFT, "#ffffff", 0.7),
-        Shape(polygon((x0 + b, y0), (x0 + b + d, y), (x0 + b + d, y + a), (x0 + b, y0 + a)), SOFT, "#f2f2f2", 0.7),
+        Shape(
+            polygon((x0 + b, y0), (x0 + b + d, y), (x0 + b + d, y + a), (x0 + b, y0 + a)),
+            SOFT,
+            "#f2f2f2",
+            0.7,
+        ),
         Shape(rectangle(x0, y0, b, a), SOFT, "#ffffff", 0.7),
         Shape(circle(x0 + b * 0.5, y0 + a * 0.5, a * 0.24), BLUE, "#d3e4f3", 1.0),
     ]

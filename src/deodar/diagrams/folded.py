@@ -1,4 +1,6 @@
-"""A graph with groups folded: each group below a depth is one box, and connections between the same two boxes are one connection."""
+"""A graph with groups folded: each group below a depth is one box, and connections between the same two boxes
+are one connection.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +14,9 @@ from deodar.numerics.signs import Sign
 def fold(graph: Graph, depth: int) -> Graph:
     """The same architecture with fewer boxes.
 
-    Connections inside a folded group are left out. Several connections between the same two boxes become one, with their common sign or
-    with both signs; its text is their number. Places of the document are those of open groups, so the result is laid out anew.
+    Connections inside a folded group are left out. Several connections between the same two boxes become one,
+    with their common sign or with both signs; its text is their number. Places of the document are those of
+    open groups, so the result is laid out anew.
 
     Args:
         graph: the whole.
@@ -35,9 +38,15 @@ def fold(graph: Graph, depth: int) -> Graph:
         if groups == (None, None):
             wires.append(wire)
             continue
-        source, target = (ident if group is None else _id(group) for ident, group in zip((wire.source, wire.target), groups, strict=True))
+        source, target = (
+            ident if group is None else _id(group)
+            for ident, group in zip((wire.source, wire.target), groups, strict=True)
+        )
         if source != target:
-            ports = {"source_port": wire.source_port if groups[0] is None else "", "target_port": wire.target_port if groups[1] is None else ""}
+            ports = {
+                "source_port": wire.source_port if groups[0] is None else "",
+                "target_port": wire.target_port if groups[1] is None else "",
+            }
             found[source, target].append(dc.replace(wire, source=source, target=target, **ports))
     wires += [_joined(several) for several in found.values()]
     open_groups = {g: template for g, template in graph.groups.items() if len(g) <= depth}
@@ -58,5 +67,16 @@ def _joined(wires: list[Wire]) -> Wire:
     if len(wires) == 1:
         return first
     sign: Sign = first.sign if all(w.sign == first.sign for w in wires) else "±"
-    ports = [p if len(set(p)) == 1 else ("",) for p in ([w.source_port for w in wires], [w.target_port for w in wires])]
-    return Wire(first.source, first.target, ports[0][0], ports[1][0], sign, (f"{len(wires)} connections",), all(w.delayed for w in wires))
+    ports = [
+        p if len(set(p)) == 1 else ("",)
+        for p in ([w.source_port for w in wires], [w.target_port for w in wires])
+    ]
+    return Wire(
+        first.source,
+        first.target,
+        ports[0][0],
+        ports[1][0],
+        sign,
+        (f"{len(wires)} connections",),
+        all(w.delayed for w in wires),
+    )

@@ -9,18 +9,31 @@ from deodar.diagrams.graph import Graph, Group
 from deodar.diagrams.layout import FRAME, HEAD, LEFT, RIGHT, SPACING, Box, Layout, Run
 
 GIVEN = 0.7
-"""Points of a unit of the places that a document holds: the studio's boxes are larger than those drawn here."""
+"""Points of a unit of the places that a document holds: the studio's boxes are larger than those drawn here.
+"""
 
 
-def placed(graph: Graph, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]], names: Mapping[Group, float]) -> Layout:
-    """Take the places that are given. Connections then run straight from side to side, wherever boxes stand."""
+def placed(
+    graph: Graph,
+    boxes: Mapping[str, Box],
+    labels: Mapping[int, tuple[float, float]],
+    names: Mapping[Group, float],
+) -> Layout:
+    """Take the places that are given.
+
+    Connections then run straight from side to side, wherever boxes stand.
+    """
     left, top = (min(graph.places[i.id][k] for i in graph.items) for k in (0, 1))
     found = Layout()
     for item in graph.items:
         x, y = graph.places[item.id]
         found.boxes[item.id] = ((x - left) * GIVEN, (y - top) * GIVEN)
     for group in sorted(graph.groups, key=len, reverse=True):
-        corners = [(*found.boxes[i.id], boxes[i.id].width, boxes[i.id].height) for i in graph.items if i.group == group]
+        corners = [
+            (*found.boxes[i.id], boxes[i.id].width, boxes[i.id].height)
+            for i in graph.items
+            if i.group == group
+        ]
         corners += [f for g, f in found.frames.items() if g[:-1] == group]
         if corners:
             x, y = min(c[0] for c in corners) - FRAME, min(c[1] for c in corners) - HEAD - FRAME / 2
@@ -58,10 +71,18 @@ def _other(graph: Graph, w: int, ident: str) -> str:
 
 def _to_origin(found: Layout, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]]) -> Layout:
     """The same, moved so that nothing stands at places below 0."""
-    areas = [(x, y, boxes[i].width, boxes[i].height) for i, (x, y) in found.boxes.items()] + list(found.frames.values())
-    areas += [(x - labels[w][0] / 2, y - labels[w][1] / 2, *labels[w]) for w, (x, y) in found.captions.items()]
+    areas = [(x, y, boxes[i].width, boxes[i].height) for i, (x, y) in found.boxes.items()] + list(
+        found.frames.values()
+    )
+    areas += [
+        (x - labels[w][0] / 2, y - labels[w][1] / 2, *labels[w]) for w, (x, y) in found.captions.items()
+    ]
     x, y = min(a[0] for a in areas), min(a[1] for a in areas)
-    moved = Layout(backwards=found.backwards, width=max(a[0] + a[2] for a in areas) - x, height=max(a[1] + a[3] for a in areas) - y)
+    moved = Layout(
+        backwards=found.backwards,
+        width=max(a[0] + a[2] for a in areas) - x,
+        height=max(a[1] + a[3] for a in areas) - y,
+    )
     moved.boxes = {i: (bx - x, by - y) for i, (bx, by) in found.boxes.items()}
     moved.frames = {g: (fx - x, fy - y, w, h) for g, (fx, fy, w, h) in found.frames.items()}
     moved.captions = {w: (cx - x, cy - y) for w, (cx, cy) in found.captions.items()}

@@ -1,6 +1,7 @@
 """Layers: which way edges run, in which column each node stands, and in which order.
 
-The steps of Sugiyama, Tagawa & Toda (1981), IEEE Trans. Syst. Man Cybern. 11, 109-125: break cycles, rank, order by barycentres.
+The steps of Sugiyama, Tagawa & Toda (1981), IEEE Trans. Syst. Man Cybern. 11, 109-125: break cycles, rank,
+order by barycentres.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ def forward(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str,
     """A position for each node such that few edges run backwards.
 
     Reference:
-        Eades, Lin & Smyth (1993), Inf. Process. Lett. 47, 319-323: sources first, sinks last, else the node with the most edges out.
+        Eades, Lin & Smyth (1993), Inf. Process. Lett. 47, 319-323: sources first, sinks last, else the node
+        with the most edges out.
     """
     outs: dict[str, dict[str, int]] = {n: {} for n in nodes}
     ins: dict[str, dict[str, int]] = {n: {} for n in nodes}
@@ -47,7 +49,10 @@ def forward(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str,
 
 
 def ranks(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, int]:
-    """The column of each node: after all that it reads, and as near as possible to what reads it. Edges run forwards."""
+    """The column of each node: after all that it reads, and as near as possible to what reads it.
+
+    Edges run forwards.
+    """
     ins: dict[str, list[str]] = {n: [] for n in nodes}
     outs: dict[str, list[str]] = {n: [] for n in nodes}
     for a, b in edges:
@@ -69,7 +74,9 @@ def ranks(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, i
     return rank
 
 
-def order(columns: list[list[str]], after: Mapping[str, Sequence[str]], before: Mapping[str, Sequence[str]]) -> list[list[str]]:
+def order(
+    columns: list[list[str]], after: Mapping[str, Sequence[str]], before: Mapping[str, Sequence[str]]
+) -> list[list[str]]:
     """The nodes of each column in an order with few crossings; edges join neighbouring columns."""
     best, least = columns, crossings(columns, after)
     now = [list(column) for column in columns]
@@ -82,7 +89,9 @@ def order(columns: list[list[str]], after: Mapping[str, Sequence[str]], before: 
             near = {n: k for k, n in enumerate(now[c - 1 if down else c + 1])}
             links = before if down else after
             here = {n: float(k) for k, n in enumerate(now[c])}
-            wish = {n: (sum(near[m] for m in links[n]) / len(links[n]) if links[n] else here[n]) for n in now[c]}
+            wish = {
+                n: (sum(near[m] for m in links[n]) / len(links[n]) if links[n] else here[n]) for n in now[c]
+            }
             now[c] = sorted(now[c], key=lambda n, wish=wish, here=here: (wish[n], here[n]))
         count = crossings(now, after)
         if count < least:

@@ -1,6 +1,8 @@
-"""Layout: every group from inside out, as a block in the group around it; a lane in each column for every connection that passes.
+"""Layout: every group from inside out, as a block in the group around it; a lane in each column for every
+connection that passes.
 
-Connections run through lanes of their own and through the spaces between columns, so that none runs through a box.
+Connections run through lanes of their own and through the spaces between columns, so that none runs through a
+box.
 """
 
 from __future__ import annotations
@@ -73,7 +75,9 @@ class Layout:
     """
 
     boxes: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
-    frames: dict[Group, tuple[float, float, float, float]] = field(default_factory=dict[Group, tuple[float, float, float, float]])
+    frames: dict[Group, tuple[float, float, float, float]] = field(
+        default_factory=dict[Group, tuple[float, float, float, float]]
+    )
     runs: dict[int, list[Run]] = field(default_factory=dict[int, list[Run]])
     backwards: dict[int, bool] = field(default_factory=dict[int, bool])
     captions: dict[int, tuple[float, float]] = field(default_factory=dict[int, tuple[float, float]])
@@ -99,7 +103,12 @@ class _Edge:
     wire: int
 
 
-def arrange(graph: Graph, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]], names: Mapping[Group, float]) -> Layout:
+def arrange(
+    graph: Graph,
+    boxes: Mapping[str, Box],
+    labels: Mapping[int, tuple[float, float]],
+    names: Mapping[Group, float],
+) -> Layout:
     """Lay out a graph.
 
     Args:
@@ -112,7 +121,13 @@ def arrange(graph: Graph, boxes: Mapping[str, Box], labels: Mapping[int, tuple[f
 
 
 class _Arranger:
-    def __init__(self, graph: Graph, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]], names: Mapping[Group, float]) -> None:
+    def __init__(
+        self,
+        graph: Graph,
+        boxes: Mapping[str, Box],
+        labels: Mapping[int, tuple[float, float]],
+        names: Mapping[Group, float],
+    ) -> None:
         self.graph, self.boxes, self.labels, self.names = graph, boxes, labels, names
         self.group = {item.id: item.group for item in graph.items}
         self.children: dict[Group, list[str | Group]] = {g: [] for g in [(), *graph.groups]}
@@ -134,7 +149,7 @@ class _Arranger:
         found.backwards = self.backwards
         return found
 
-    # -------------------------------------------------------------------------------- from outside in: which way wires run
+    # ------------------------------------------------------------------- from outside in: which way wires run
 
     def _child(self, ident: str, level: Group) -> str | Group | None:
         """The child of a level that holds an item; None where the item is outside."""
@@ -155,7 +170,9 @@ class _Arranger:
             elif a is not None or b is not None:
                 inside, side = a if a is not None else b, self.sides[w, level]
                 assert inside is not None
-                edges.append(_Edge(_port(w), _key(inside), w) if side == LEFT else _Edge(_key(inside), _port(w), w))
+                edges.append(
+                    _Edge(_port(w), _key(inside), w) if side == LEFT else _Edge(_key(inside), _port(w), w)
+                )
                 if not isinstance(inside, str):
                     self.sides[w, inside] = side
         place = layers.forward(nodes, [(a, b) for a, b, _ in inner])
@@ -176,12 +193,22 @@ class _Arranger:
             if not isinstance(child, str):
                 self._orient(child)
 
-    # -------------------------------------------------------------------------------- from inside out: where everything stands
+    # --------------------------------------------------------------- from inside out: where everything stands
 
     def _block(self, level: Group) -> _Block:
         children = {_key(c): c for c in self.children[level]}
-        blocks = {k: _Block(self.boxes[c]) if isinstance(c, str) else self._block(c) for k, c in children.items()}
-        made = _Level(level, blocks, self.rank[level], self.edges[level], self.labels, self.home, self.names.get(level, 0.0))
+        blocks = {
+            k: _Block(self.boxes[c]) if isinstance(c, str) else self._block(c) for k, c in children.items()
+        }
+        made = _Level(
+            level,
+            blocks,
+            self.rank[level],
+            self.edges[level],
+            self.labels,
+            self.home,
+            self.names.get(level, 0.0),
+        )
         found = made.run()
         for key, block in blocks.items():
             x, y = made.corners[key]
@@ -209,7 +236,9 @@ class _Level:
             for name, column in ((e.left, 0), (e.right, self.last)):
                 if name not in blocks:
                     self.column[name] = column
-        self.size: dict[str, tuple[float, float]] = {n: (b.box.width, b.box.height) for n, b in blocks.items()}
+        self.size: dict[str, tuple[float, float]] = {
+            n: (b.box.width, b.box.height) for n, b in blocks.items()
+        }
         self.path: dict[int, list[str]] = {}
         self.carries: dict[str, int] = {}
         self.links: dict[str, list[str]] = defaultdict(list)
@@ -226,7 +255,9 @@ class _Level:
         return self._places(columns, y)
 
     def _lanes(self) -> list[list[str]]:
-        """The columns, with a lane for each wire in each column that it passes; its text stands in the middle one of those between boxes."""
+        """The columns, with a lane for each wire in each column that it passes; its text stands in the middle
+        one of those between boxes.
+        """
         columns: list[list[str]] = [[] for _ in range(self.last + 1)]
         for n in self.blocks:
             columns[self.column[n]].append(n)
@@ -280,7 +311,12 @@ class _Level:
         y: dict[str, float] = {}
         gaps: list[list[float]] = []
         for column in columns:
-            gaps.append([self.size[a][1] + APART[a in self.blocks, b in self.blocks] for a, b in itertools.pairwise(column)])
+            gaps.append(
+                [
+                    self.size[a][1] + APART[a in self.blocks, b in self.blocks]
+                    for a, b in itertools.pairwise(column)
+                ]
+            )
             total = sum(gaps[-1]) + (self.size[column[-1]][1] if column else 0.0)
             at = -total / 2
             for n, gap in zip(column, [*gaps[-1], 0.0], strict=False):
@@ -299,7 +335,9 @@ class _Level:
         return y
 
     def _pulls(self) -> dict[str, list[tuple[str, float, float]]]:
-        """For each node what it would be level with: (other, by how much its upper edge differs then, how strongly)."""
+        """For each node what it would be level with: (other, by how much its upper edge differs then, how
+        strongly).
+        """
         pulls: dict[str, list[tuple[str, float, float]]] = defaultdict(list)
         for w, path in self.path.items():
             for a, b in itertools.pairwise(path):
@@ -329,7 +367,9 @@ class _Level:
             x += wide
             if c != inner[-1]:
                 x += min(WIDEST_GAP, GAP + STEEPEST * climbs[c])
-        crossing = [any(n not in self.blocks and n in self.carries for n in columns[c]) for c in (0, self.last)]
+        crossing = [
+            any(n not in self.blocks and n in self.carries for n in columns[c]) for c in (0, self.last)
+        ]
         shift = 0.0
         if framed and crossing[0]:
             shift = min(WIDEST_GAP, GAP + STEEPEST * climbs[0]) - FRAME
@@ -346,18 +386,35 @@ class _Level:
         down = (HEAD + FRAME * 0.5 if framed else 0.0) - top
         bottom = max((y[n] + self.size[n][1] for column in columns for n in column), default=0.0)
         found = Layout(width=right, height=bottom + down + (FRAME if framed else 0.0))
-        place = {n: (lefts[c] + (widths[c] - self.size[n][0]) / 2, y[n] + down) for c, column in enumerate(columns) for n in column}
+        place = {
+            n: (lefts[c] + (widths[c] - self.size[n][0]) / 2, y[n] + down)
+            for c, column in enumerate(columns)
+            for n in column
+        }
         self.corners = {n: place[n] for n in self.blocks}
         for w, path in self.path.items():
             found.runs[w] = self._runs(w, path, place, lefts, widths)
         for lane in self.carries:
             if lane.startswith("lane ") and self.size[lane][0]:
-                found.captions[self.carries[lane]] = (place[lane][0] + self.size[lane][0] / 2, place[lane][1] + self.size[lane][1] / 2)
-        self.ports = {w: place[end][1] for w, path in self.path.items() for end in (path[0], path[-1]) if end not in self.blocks}
+                found.captions[self.carries[lane]] = (
+                    place[lane][0] + self.size[lane][0] / 2,
+                    place[lane][1] + self.size[lane][1] / 2,
+                )
+        self.ports = {
+            w: place[end][1]
+            for w, path in self.path.items()
+            for end in (path[0], path[-1])
+            if end not in self.blocks
+        }
         return found
 
     def _runs(
-        self, w: int, path: Sequence[str], place: Mapping[str, tuple[float, float]], lefts: Sequence[float], widths: Sequence[float]
+        self,
+        w: int,
+        path: Sequence[str],
+        place: Mapping[str, tuple[float, float]],
+        lefts: Sequence[float],
+        widths: Sequence[float],
     ) -> list[Run]:
         runs: list[Run] = []
         for k, n in enumerate(path):
@@ -368,7 +425,13 @@ class _Level:
             if n not in self.blocks:
                 runs.append(Run(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
             elif k == 0:
-                runs.append(Run(x + self.size[n][0], max(x + self.size[n][0], lefts[c] + widths[c]), y + self.offset[n + RIGHT, w]))
+                runs.append(
+                    Run(
+                        x + self.size[n][0],
+                        max(x + self.size[n][0], lefts[c] + widths[c]),
+                        y + self.offset[n + RIGHT, w],
+                    )
+                )
             else:
                 runs.append(Run(lefts[c], x, y + self.offset[n + LEFT, w]))
         return runs

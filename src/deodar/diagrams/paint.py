@@ -29,7 +29,11 @@ def paint(graph: Graph, legend: bool = True) -> Scene:
     drawn, found, sizes = lay_out(graph)
     ends = [w for w, wire in enumerate(graph.wires) if wire.source != wire.target]
     parts = [*_frames(graph, found), *(_wire(graph, w, found, drawn) for w in ends)]
-    parts += [_chip(caption(graph.wires[w]), found.captions[w], sizes[w], graph.wires[w].sign) for w in ends if w in found.captions]
+    parts += [
+        _chip(caption(graph.wires[w]), found.captions[w], sizes[w], graph.wires[w].sign)
+        for w in ends
+        if w in found.captions
+    ]
     parts += [_item(one, *found.boxes[ident]) for ident, one in drawn.items()]
     scene = Scene(found.width, found.height, graph.name, parts)
     if legend:
@@ -38,7 +42,9 @@ def paint(graph: Graph, legend: bool = True) -> Scene:
 
 
 def lay_out(graph: Graph) -> tuple[dict[str, Drawn], Layout, dict[int, tuple[float, float]]]:
-    """Every item with its size, where all stands, and the size of the text on each connection that has one."""
+    """Every item with its size, where all stands, and the size of the text on each connection that has
+    one.
+    """
     sides: dict[tuple[str, str], list[str]] = defaultdict(list)
     counts: dict[str, int] = defaultdict(int)
     loops: dict[str, list[Loop]] = {item.id: [Loop(sign) for sign in item.recurrence] for item in graph.items}
@@ -48,12 +54,20 @@ def lay_out(graph: Graph) -> tuple[dict[str, Drawn], Layout, dict[int, tuple[flo
         if wire.source == wire.target:
             loops[wire.source].append(Loop(wire.sign, lines, wire.delayed))
             continue
-        for ident, side, port in ((wire.source, "out", wire.source_port), (wire.target, "in", wire.target_port)):
+        for ident, side, port in (
+            (wire.source, "out", wire.source_port),
+            (wire.target, "in", wire.target_port),
+        ):
             counts[ident] += 1
             sides[ident, side] += [port] if port else []
         if lines:
             sizes[w] = texts.widest(lines, SMALL) + 5, SMALL_LINE * len(lines) + 2.5
-    drawn = {item.id: boxes.prepare(item, sides[item.id, "in"], sides[item.id, "out"], loops[item.id], counts[item.id]) for item in graph.items}
+    drawn = {
+        item.id: boxes.prepare(
+            item, sides[item.id, "in"], sides[item.id, "out"], loops[item.id], counts[item.id]
+        )
+        for item in graph.items
+    }
     names = {g: texts.width(_name(graph, g), NAME) + 14 for g in graph.groups}
     placed = graph.items and all(item.id in graph.places for item in graph.items)
     arrange = given.placed if placed else layout.arrange
@@ -68,7 +82,7 @@ def caption(wire: Wire) -> tuple[str, ...]:
     return tuple(lines)
 
 
-# ------------------------------------------------------------------------------------------------ parts
+# ------------------------------------------------------------------------------------------------------ parts
 
 
 def _frames(graph: Graph, found: Layout) -> list[Part]:
@@ -79,7 +93,13 @@ def _frames(graph: Graph, found: Layout) -> list[Part]:
         fill = "#f6f6f6" if len(group) % 2 else "#ececec"
         frame = Shape(rectangle(x, y, w, h, 5.0), "#9a9a9a", fill, 0.7, (3.0, 2.0) if template else ())
         name = _name(graph, group)
-        out.append(Part("group", " / ".join(group), [frame, Label(name, x + 6, y + 9.5, NAME, "start", color=SOFT, italic=True)]))
+        out.append(
+            Part(
+                "group",
+                " / ".join(group),
+                [frame, Label(name, x + 6, y + 9.5, NAME, "start", color=SOFT, italic=True)],
+            )
+        )
     return out
 
 
@@ -97,13 +117,29 @@ def _item(one: Drawn, x: float, y: float) -> Part:
     room = box.body / 2 * 0.85 if item.form == "node" else box.width / 2 - 3
     for loop in one.loops:
         middle = at + loop.width / 2
-        shift = max(-room + 5, min(room - 5, middle - x - box.width / 2)) if item.form == "node" else middle - x - box.width / 2
+        shift = (
+            max(-room + 5, min(room - 5, middle - x - box.width / 2))
+            if item.form == "node"
+            else middle - x - box.width / 2
+        )
         left, right = x + box.width / 2 + shift - 5, x + box.width / 2 + shift + 5
-        base = top + max(boxes.height_at(one, left - x - box.width / 2), boxes.height_at(one, right - x - box.width / 2))
+        base = top + max(
+            boxes.height_at(one, left - x - box.width / 2), boxes.height_at(one, right - x - box.width / 2)
+        )
         drawn = wires.loop(left, base, right, boxes.LOOP - 2 + base - top, loop.sign)
-        part.content += [dc.replace(s, dash=wires.DELAYED) if loop.delayed and k == 0 else s for k, s in enumerate(drawn)]
+        part.content += [
+            dc.replace(s, dash=wires.DELAYED) if loop.delayed and k == 0 else s for k, s in enumerate(drawn)
+        ]
         for k, caption_ in enumerate(reversed(loop.captions)):
-            part.content.append(Label(caption_, middle, top - boxes.LOOP - 0.5 - k * SMALL_LINE, SMALL, color=wires.COLORS[loop.sign]))
+            part.content.append(
+                Label(
+                    caption_,
+                    middle,
+                    top - boxes.LOOP - 0.5 - k * SMALL_LINE,
+                    SMALL,
+                    color=wires.COLORS[loop.sign],
+                )
+            )
         at += loop.width
     return part
 
@@ -132,9 +168,19 @@ def _wire(graph: Graph, w: int, found: Layout, drawn: dict[str, Drawn]) -> Part:
 
 def _chip(lines: tuple[str, ...], at: tuple[float, float], size: tuple[float, float], sign: Sign) -> Part:
     (x, y), (w, h) = at, size
-    content: list[Shape | Label] = [Shape(rectangle(x - w / 2, y - h / 2, w, h, 2.5), "#c8c8c8", "#ffffff", 0.5)]
+    content: list[Shape | Label] = [
+        Shape(rectangle(x - w / 2, y - h / 2, w, h, 2.5), "#c8c8c8", "#ffffff", 0.5)
+    ]
     for k, one in enumerate(lines):
-        content.append(Label(one, x, y - h / 2 + 1.2 + SMALL_LINE * k + 5.4, SMALL, color=wires.COLORS[sign] if sign != "+" else INK))
+        content.append(
+            Label(
+                one,
+                x,
+                y - h / 2 + 1.2 + SMALL_LINE * k + 5.4,
+                SMALL,
+                color=wires.COLORS[sign] if sign != "+" else INK,
+            )
+        )
     return Part("coupling", "", content)
 
 

@@ -33,17 +33,35 @@ def figure(scene: Scene, width: float | None = None) -> Figure:
     for one in scene:
         if isinstance(one, Label):
             text = Text(
-                one.x, one.y, plain(one.text), fontsize=one.size * scale, color=one.color, fontfamily=[FAMILY, "sans-serif"],
-                ha={"start": "left", "middle": "center", "end": "right"}[one.anchor], va="baseline",
-                weight="bold" if one.bold else "normal", style="italic" if one.italic else "normal", transform=place, parse_math=False,
-            )  # fmt: skip
+                one.x,
+                one.y,
+                plain(one.text),
+                fontsize=one.size * scale,
+                color=one.color,
+                fontfamily=[FAMILY, "sans-serif"],
+                ha={"start": "left", "middle": "center", "end": "right"}[one.anchor],
+                va="baseline",
+                weight="bold" if one.bold else "normal",
+                style="italic" if one.italic else "normal",
+                transform=place,
+                parse_math=False,
+            )
             made.add_artist(text)
             continue
-        points, marks = _points(one.path), [c for move in one.path for c in [codes[move[0]]] * max(1, (len(move) - 1) // 2)]
+        points, marks = (
+            _points(one.path),
+            [c for move in one.path for c in [codes[move[0]]] * max(1, (len(move) - 1) // 2)],
+        )
         patch = PathPatch(
-            Path(points, marks), facecolor=one.fill or "none", edgecolor=one.stroke or "none", linewidth=one.width * scale if one.stroke else 0.0,
-            linestyle=(0, [d / one.width for d in one.dash]) if one.dash else "solid", capstyle="butt", joinstyle="miter", transform=place,
-        )  # fmt: skip
+            Path(points, marks),
+            facecolor=one.fill or "none",
+            edgecolor=one.stroke or "none",
+            linewidth=one.width * scale if one.stroke else 0.0,
+            linestyle=(0, [d / one.width for d in one.dash]) if one.dash else "solid",
+            capstyle="butt",
+            joinstyle="miter",
+            transform=place,
+        )
         made.add_artist(patch)
     return made
 
@@ -55,7 +73,9 @@ def content(scene: Scene, format: str, width: float | None = None) -> bytes:
     about: Any = {"CreationDate": None} if format == "pdf" else {}
     out = io.BytesIO()
     with matplotlib.rc_context({"pdf.fonttype": 42}), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph .* missing")  # a name in a script that the font lacks
+        warnings.filterwarnings(
+            "ignore", message="Glyph .* missing"
+        )  # a name in a script that the font lacks
         figure(scene, width).savefig(out, format=format, metadata=about)
     return out.getvalue()
 

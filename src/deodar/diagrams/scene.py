@@ -37,7 +37,9 @@ class Label:
 
 @dataclass
 class Part:
-    """What belongs to one element or connection: drawn together, with a title that a browser shows under the pointer."""
+    """What belongs to one element or connection: drawn together, with a title that a browser shows under the
+    pointer.
+    """
 
     role: str
     title: str
@@ -75,9 +77,13 @@ def circle(x: float, y: float, r: float) -> tuple[Move, ...]:
     """A circle, as four curves."""
     k = 0.5523 * r
     return (
-        ("M", x + r, y), ("C", x + r, y + k, x + k, y + r, x, y + r), ("C", x - k, y + r, x - r, y + k, x - r, y),
-        ("C", x - r, y - k, x - k, y - r, x, y - r), ("C", x + k, y - r, x + r, y - k, x + r, y), ("Z",),
-    )  # fmt: skip
+        ("M", x + r, y),
+        ("C", x + r, y + k, x + k, y + r, x, y + r),
+        ("C", x - k, y + r, x - r, y + k, x - r, y),
+        ("C", x - r, y - k, x - k, y - r, x, y - r),
+        ("C", x + k, y - r, x + r, y - k, x + r, y),
+        ("Z",),
+    )
 
 
 def polygon(*points: Point) -> tuple[Move, ...]:

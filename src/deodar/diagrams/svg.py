@@ -11,16 +11,24 @@ FONTS = "'DejaVu Sans', Arial, Helvetica, sans-serif"
 
 
 def write(scene: Scene, width: float | None = None) -> str:
-    """The picture as text; names are escaped, and text stays text. `width` is in points, none: the scene's own."""
+    """The picture as text; names are escaped, and text stays text.
+
+    `width` is in points, none: the scene's own.
+    """
     w, h, scale = _n(scene.width), _n(scene.height), 1.0 if width is None else width / scene.width
     out = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(scene.width * scale)}pt" height="{_n(scene.height * scale)}pt" '
-        f'viewBox="0 0 {w} {h}" role="img" '
-        f'font-family="{escape(FONTS)}" style="background:#ffffff;max-width:100%;height:auto">',
+        (
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(scene.width * scale)}pt"'
+            f' height="{_n(scene.height * scale)}pt" viewBox="0 0 {w} {h}" role="img"'
+            f' font-family="{escape(FONTS)}" style="background:#ffffff;max-width:100%;height:auto">'
+        ),
         f"<title>{escape(plain(scene.title))}</title>",
     ]
     for part in scene.parts:
-        out.append(f'<g class="{escape(part.role)}">' + (f"<title>{escape(plain(part.title))}</title>" if part.title else ""))
+        out.append(
+            f'<g class="{escape(part.role)}">'
+            + (f"<title>{escape(plain(part.title))}</title>" if part.title else "")
+        )
         out += [_shape(one) if isinstance(one, Shape) else _label(one) for one in part.content]
         out.append("</g>")
     return "\n".join([*out, "</svg>", ""])
@@ -37,7 +45,10 @@ def _label(label: Label) -> str:
     style = (' font-weight="bold"' if label.bold else "") + (' font-style="italic"' if label.italic else "")
     anchor = "" if label.anchor == "start" else f' text-anchor="{label.anchor}"'
     text = escape(plain(label.text))
-    return f'<text x="{_n(label.x)}" y="{_n(label.y)}" font-size="{_n(label.size)}" fill="{label.color}"{anchor}{style}>{text}</text>'
+    return (
+        f'<text x="{_n(label.x)}" y="{_n(label.y)}" font-size="{_n(label.size)}"'
+        f' fill="{label.color}"{anchor}{style}>{text}</text>'
+    )
 
 
 def _n(value: float) -> str:

@@ -8,7 +8,10 @@ import unicodedata
 from collections.abc import Sequence
 
 FAMILY = "DejaVu Sans"
-"""The font that widths are measured in. It is wider than the fonts that replace it, so that text fits in these too."""
+"""The font that widths are measured in.
+
+It is wider than the fonts that replace it, so that text fits in these too.
+"""
 
 CUT = "…"
 
@@ -17,7 +20,9 @@ CUT = "…"
 def _font(bold: bool):
     from matplotlib import font_manager, ft2font
 
-    found = font_manager.findfont(font_manager.FontProperties(family=FAMILY, weight="bold" if bold else "normal"))
+    found = font_manager.findfont(
+        font_manager.FontProperties(family=FAMILY, weight="bold" if bold else "normal")
+    )
     font = ft2font.FT2Font(found)
     return font, font.get_charmap()
 
@@ -27,7 +32,9 @@ def _advance(char: str, bold: bool) -> float:
     """Width of one character, for a font of size 1."""
     font, known = _font(bold)
     if ord(char) not in known:
-        return 1.0 if unicodedata.east_asian_width(char) in "WF" else 0.0 if unicodedata.combining(char) else 0.8
+        return (
+            1.0 if unicodedata.east_asian_width(char) in "WF" else 0.0 if unicodedata.combining(char) else 0.8
+        )
     font.set_size(100, 72)
     return float(font.load_char(ord(char)).linearHoriAdvance) / 65536 / 100
 
@@ -52,7 +59,11 @@ def wrap(text: str, size: float, room: float, most: int, bold: bool = False) -> 
             lines.append(line.strip())
         line = word.lstrip()
         while width(line, size, bold) > room:
-            n = max(1, next((k for k in range(1, len(line) + 1) if width(line[:k], size, bold) > room), len(line)) - 1)
+            n = max(
+                1,
+                next((k for k in range(1, len(line) + 1) if width(line[:k], size, bold) > room), len(line))
+                - 1,
+            )
             lines.append(line[:n])
             line = line[n:]
     if line.strip() or not lines:
@@ -67,7 +78,11 @@ def wrap(text: str, size: float, room: float, most: int, bold: bool = False) -> 
 
 def plain(text: str) -> str:
     """The text on one line, without characters that no file can hold."""
-    return "".join(" " if c.isspace() else c for c in text if c.isspace() or unicodedata.category(c) not in ("Cc", "Cs", "Co", "Cn"))
+    return "".join(
+        " " if c.isspace() else c
+        for c in text
+        if c.isspace() or unicodedata.category(c) not in ("Cc", "Cs", "Co", "Cn")
+    )
 
 
 def widest(lines: Sequence[str], size: float, bold: bool = False) -> float:

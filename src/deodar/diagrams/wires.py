@@ -29,7 +29,10 @@ def path(runs: Sequence[Run], backwards: bool, sign: Sign) -> list[Shape]:
     tip = (x - way * _length(sign), y)
     level = tip[0] - way * STRAIGHT
     between = [(min(px, level) if way > 0 else max(px, level), py) for px, py in points[1:-1]]
-    return [Shape(_curve([points[0], *between, (level, y), tip]), COLORS[sign], width=WIDTH), *mark((x, y), (way, 0.0), sign)]
+    return [
+        Shape(_curve([points[0], *between, (level, y), tip]), COLORS[sign], width=WIDTH),
+        *mark((x, y), (way, 0.0), sign),
+    ]
 
 
 def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Shape]:
@@ -44,7 +47,9 @@ def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Sh
 
 
 def mark(tip: Point, way: Point, sign: Sign) -> list[Shape]:
-    """An arrow for excitation, a dot for inhibition, both where both occur; `way` is the direction in which it points."""
+    """An arrow for excitation, a dot for inhibition, both where both occur; `way` is the direction in which
+    it points.
+    """
     (x, y), (dx, dy), color = tip, way, COLORS[sign]
     if sign == "-":
         return [Shape(circle(x - dx * DOT, y - dy * DOT, DOT), color, color, 0.3)]
@@ -61,7 +66,11 @@ def _length(sign: Sign) -> float:
 
 def _arrow(x: float, y: float, dx: float, dy: float) -> tuple[Move, ...]:
     half = ARROW * math.tan(math.radians(24))
-    return polygon((x, y), (x - dx * ARROW - dy * half, y - dy * ARROW + dx * half), (x - dx * ARROW + dy * half, y - dy * ARROW - dx * half))
+    return polygon(
+        (x, y),
+        (x - dx * ARROW - dy * half, y - dy * ARROW + dx * half),
+        (x - dx * ARROW + dy * half, y - dy * ARROW - dx * half),
+    )
 
 
 def _curve(points: Sequence[Point]) -> tuple[Move, ...]:

@@ -24,7 +24,9 @@ class Stimulus(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = ()
-    windows: Annotated[Sequence[Window], Recompile(meaning="when it is on; without windows always")] = dc.field(default=(), kw_only=True)
+    windows: Annotated[Sequence[Window], Recompile(meaning="when it is on; without windows always")] = (
+        dc.field(default=(), kw_only=True)
+    )
 
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
@@ -38,41 +40,69 @@ class Stimulus(Element):
             if w.stop < w.start:
                 yield (
                     f"windows.{k} ends at {w.stop:g}, before it begins at {w.start:g}, so it is never on",
-                    f"Write start and stop: ({w.stop:g}, {w.start:g}), or ({w.start:g}, {w.start + w.stop:g}) if {w.stop:g} is its duration",
+                    (
+                        f"Write start and stop: ({w.stop:g}, {w.start:g}), or ({w.start:g},"
+                        f" {w.start + w.stop:g}) if {w.stop:g} is its duration"
+                    ),
                 )
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         for k, w in enumerate(self.windows):
             if w.stop == w.start:
-                yield f"windows.{k} begins and ends at {w.start:g}, so it is never on", "Give it a stop after its start, or leave it out"
+                yield (
+                    f"windows.{k} begins and ends at {w.start:g}, so it is never on",
+                    "Give it a stop after its start, or leave it out",
+                )
 
     def strength(self) -> Interval:
-        """Between which values the pattern lies; one whose amplitude is 0 waits to be set, and may have any."""
+        """Between which values the pattern lies; one whose amplitude is 0 waits to be set, and may have
+        any.
+        """
         return ANY
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         found = self.strength()
         return {"output": ANY if found == ZERO else hull(ZERO, found) if self.windows else found}
 
     def placed(self, width: str, ends: Sequence[str]) -> Iterator[tuple[str, str]]:
         """Warnings about a place beyond the axes, and a width that is too small or too large for them."""
         sizes: Any = getattr(self, width)
-        for axis, center, size, end in zip(self.axes, per_axis(self.center, self.axes), per_axis(sizes, self.axes), ends, strict=True):  # type: ignore[attr-defined]
+        for axis, center, size, end in zip(
+            self.axes,
+            per_axis(self.center, self.axes),  # type: ignore[attr-defined]
+            per_axis(sizes, self.axes),
+            ends,
+            strict=True,
+        ):
             c, s = float(center), float(size)
             far = NOTHING * s if width == "sigma" else s / 2
-            if end != "periodic" and not axis.lower - far - axis.step / 2 <= c <= axis.upper + far + axis.step / 2:
+            if (
+                end != "periodic"
+                and not axis.lower - far - axis.step / 2 <= c <= axis.upper + far + axis.step / 2
+            ):
                 yield (
-                    f"its center {c:g} lies outside the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}), so nothing of it arrives",
+                    (
+                        f"its center {c:g} lies outside the axis {axis.name!r}"
+                        f" ({axis.lower:g}..{axis.upper:g}), so nothing of it arrives"
+                    ),
                     f"Take a center between {axis.lower:g} and {axis.upper:g}; it is in units of the axis",
                 )
             elif s < (0.5 if width == "sigma" else 1) * axis.step:
                 yield (
-                    f"its {width} {s:g} is smaller than the step {axis.step:g} of the axis {axis.name!r}: how strong it is depends on where it lies",
+                    (
+                        f"its {width} {s:g} is smaller than the step {axis.step:g} of the axis {axis.name!r}:"
+                        " how strong it is depends on where it lies"
+                    ),
                     f"Take a {width} of {axis.step:g} or more, or more samples",
                 )
             elif width == "sigma" and s > axis.range:
                 yield (
-                    f"its sigma {s:g} is larger than the axis {axis.name!r} ({axis.range:g}), so it is nearly the same everywhere",
+                    (
+                        f"its sigma {s:g} is larger than the axis {axis.name!r} ({axis.range:g}), so it is"
+                        " nearly the same everywhere"
+                    ),
                     f"Take a sigma far below {axis.range:g}, or a Boost",
                 )
 
@@ -82,5 +112,7 @@ class Stimulus(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": self.pattern(at) * gate(self.windows, time, at.dtype)}

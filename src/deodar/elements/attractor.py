@@ -35,8 +35,8 @@ class Attractor(Element):
 
     Parameters:
         axis: the dimension over which the input is defined.
-        tau: time scale: document time times the integral of the input, so that tau / integral f is the relaxation time;
-            no shorter than the step.
+        tau: time scale: document time times the integral of the input, so that tau / integral f is the
+            relaxation time; no shorter than the step.
         initial: phi at the start.
         gain: motor units per axis unit.
         offset: motor value at axis value 0.
@@ -47,9 +47,10 @@ class Attractor(Element):
         output: phi, one number.
 
     Reference:
-        Lomp et al. (2016), Front. Neurorobot. 10:14, eqs. 12-15; Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 9, with
-        the decay multiplied by the integral (as printed the attractor would not switch off with the peak). The periodic
-        form: Schöner, Dose & Engels (1995), Dynamics of behavior, Robot. Auton. Syst. 16, with the sine as force.
+        Lomp et al. (2016), Front. Neurorobot. 10:14, eqs. 12-15; Sandamirskaya (2014), Front. Neurosci.
+        7:276, eq. 9, with the decay multiplied by the integral (as printed the attractor would not switch off
+        with the peak). The periodic form: Schöner, Dose & Engels (1995), Dynamics of behavior, Robot. Auton.
+        Syst. 16, with the sine as force.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
@@ -58,7 +59,12 @@ class Attractor(Element):
     initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
     gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
     offset: Annotated[float, Live("motor", meaning="motor value at axis value 0")] = 0.0
-    fastest: Annotated[float, Live("motor/time", role="speed", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit")] = 0.0
+    fastest: Annotated[
+        float,
+        Live(
+            "motor/time", role="speed", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit"
+        ),
+    ] = 0.0
 
     stateful: ClassVar[bool] = True
 
@@ -75,10 +81,14 @@ class Attractor(Element):
     def init(self, at: Setting) -> Arrays:
         return {"phi": at.full((), self.initial)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": state["phi"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         phi, f, x = state["phi"], inputs["input"] * self.axis.step, at.points(self.axis)
         whole = jnp.sum(f)
         # a step longer than the relaxation time would overshoot: it ends at the attractor

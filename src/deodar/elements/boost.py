@@ -33,7 +33,8 @@ class Boost(Stimulus):
         output: over `axes`.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 7 (the boost of a field by a node).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 7 (the boost of a field by a
+        node).
     """
 
     amplitude: Annotated[float, Live("activation", meaning="value everywhere")] = 1.0

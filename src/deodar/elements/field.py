@@ -26,7 +26,9 @@ from deodar.registry import register
 MOST_AXES = 4
 QUADRATURES = ("cell", "point")
 MARGIN = 6.0
-"""Standard deviations of noise beyond which activation is taken never to get (once in 10^9 independent moments)."""
+"""Standard deviations of noise beyond which activation is taken never to get (once in 10^9 independent
+moments).
+"""
 
 
 @register
@@ -46,11 +48,13 @@ class Field(Element):
         sigmoid: g, output as a function of activation.
         kernel: k, the sum of the interaction kernels. On a node their amplitudes are its self-excitation.
         global_inhibition: c, on the integral of the output.
-        noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by the root of
-            the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) / tau.
+        noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by
+            the root of the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) /
+            tau.
         noise_length: correlation length of the noise, in axis units, one or one for each axis; 0: white.
-        quadrature: `cell`: the output at a sample is the mean of g over its cell, so that edges narrower than a sample behave as on a fine
-            grid; `point`: g at the sample. On a node both are g. A document that does not state it means `point`.
+        quadrature: `cell`: the output at a sample is the mean of g over its cell, so that edges narrower than
+            a sample behave as on a fine grid; `point`: g at the sample. On a node both are g. A document that
+            does not state it means `point`.
 
     Ports:
         input: s, the sum of all connections, over `axes`.
@@ -59,7 +63,8 @@ class Field(Element):
         interaction: the integrals, over `axes`.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 1, 3 and 17; Amari (1977), Biol. Cybern. 27.
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 1, 3 and 17; Amari (1977),
+        Biol. Cybern. 27.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
@@ -68,14 +73,22 @@ class Field(Element):
     resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()
-    global_inhibition: Annotated[float, Live("activation", meaning="inhibition by the integral of the output")] = 0.0
+    global_inhibition: Annotated[
+        float, Live("activation", meaning="inhibition by the integral of the output")
+    ] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
-    noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")] = 0.0
-    quadrature: Annotated[str, Recompile(choices=QUADRATURES, meaning="output as its mean over a cell, or at the sample")] = "point"
+    noise_length: Annotated[
+        PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")
+    ] = 0.0
+    quadrature: Annotated[
+        str, Recompile(choices=QUADRATURES, meaning="output as its mean over a cell, or at the sample")
+    ] = "point"
 
     stateful: ClassVar[bool] = True
     sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "ends"
-    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
+        "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}
+    }
 
     def recurrence(self) -> Mapping[str, Sign]:
         found: dict[str, Sign] = {}
@@ -108,18 +121,34 @@ class Field(Element):
         for axis, length in zip(self.axes, per_axis(self.noise_length, self.axes), strict=True):
             if 0 < float(length) < 0.5 * axis.step:
                 yield (
-                    f"its noise_length {float(length):g} is below the step {axis.step:g} of the axis {axis.name!r}: the noise is white all the same",
+                    (
+                        f"its noise_length {float(length):g} is below the step {axis.step:g} of the axis"
+                        f" {axis.name!r}: the noise is white all the same"
+                    ),
                     f"Take {axis.step:g} or more, or 0 for white noise",
                 )
             elif float(length) > axis.range:
                 yield (
-                    f"its noise_length {float(length):g} is longer than the axis {axis.name!r} ({axis.range:g}): the noise is the same everywhere",
+                    (
+                        f"its noise_length {float(length):g} is longer than the axis {axis.name!r}"
+                        f" ({axis.range:g}): the noise is the same everywhere"
+                    ),
                     f"Take a length far below {axis.range:g}",
                 )
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
-        spread = MARGIN * self.noise / math.sqrt(2 * self.tau * (1.0 if any(map(float, per_axis(self.noise_length, self.axes))) else cell(self.axes)))
+        spread = (
+            MARGIN
+            * self.noise
+            / math.sqrt(
+                2
+                * self.tau
+                * (1.0 if any(map(float, per_axis(self.noise_length, self.axes))) else cell(self.axes))
+            )
+        )
         own = self.sigmoid.bounds(u)
         parts = [kernel.bounds(tuple(self.axes)) for kernel in self.kernel]
         all_over = self.global_inhibition * math.prod(a.step * a.samples for a in self.axes)
@@ -145,13 +174,17 @@ class Field(Element):
     def settle(self, at: Setting, constants: Any) -> Any:
         return constants | {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         u = state["activation"]
         g = self._output(u)
         shown = {"output": g, "activation": u, "interaction": self._interaction(at, g, constants)}
         return shown | ({"output" + WAVES: interaction.to_waves(at.waves, g)} if at.shared else {})
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         u, h, s = state["activation"], self.resting_level, inputs["input" + REST if at.shared else "input"]
         rate = -u + h + s + self._interaction(at, self._output(u), constants, inputs)
         return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
@@ -160,13 +193,19 @@ class Field(Element):
         return {"activation": state["activation"] + dt / self.tau * amount}
 
     def _output(self, u: Any) -> Any:
-        return quadrature.cell_means(self.sigmoid, u, tuple(self.axes)) if self.quadrature == "cell" else self.sigmoid(u)
+        return (
+            quadrature.cell_means(self.sigmoid, u, tuple(self.axes))
+            if self.quadrature == "cell"
+            else self.sigmoid(u)
+        )
 
     def _interaction(self, at: Setting, g: Any, constants: Any, inputs: Arrays | None = None) -> Any:
         axes = tuple(self.axes)
         inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
         own, arriving = ((inputs or {}).get(port + WAVES) for port in ("output", "input"))
-        return interaction.apply(constants["kernel"], axes, g, at.choices, at.shared, own, arriving) - inhibition
+        return (
+            interaction.apply(constants["kernel"], axes, g, at.choices, at.shared, own, arriving) - inhibition
+        )
 
     def _noise(self, deviates: Any, constants: Any) -> Any:
         if deviates is None:

@@ -34,8 +34,8 @@ class Function(Element):
 
     Parameters:
         axes: axes of the state, the output and all inputs; none: numbers.
-        function: `module:name`, or the function itself. It is stored by name and found again when the model is compiled, in
-            a document from elsewhere only after it is trusted.
+        function: `module:name`, or the function itself. It is stored by name and found again when the model
+            is compiled, in a document from elsewhere only after it is trusted.
         ports_in: names of the input ports.
         initial: state at the start.
         values: named numbers handed to the function as keyword arguments.
@@ -49,7 +49,9 @@ class Function(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the state")] = ()
-    function: Annotated[str | Callable[..., Any], Recompile(meaning="module:name")] = "deodar.elements.function:leaky"
+    function: Annotated[str | Callable[..., Any], Recompile(meaning="module:name")] = (
+        "deodar.elements.function:leaky"
+    )
     ports_in: Annotated[Sequence[str], Recompile(meaning="names of the input ports")] = ("input",)
     initial: Annotated[float, Live(meaning="state at the start")] = 0.0
     values: Annotated[Mapping[str, float], Live(meaning="numbers handed to the function")] = ()  # type: ignore[assignment]
@@ -60,7 +62,10 @@ class Function(Element):
         names: Any = self.ports_in
         for name in names:
             if not name.isidentifier() or name == "output":
-                yield "ports_in", f"holds {name!r}; ports are called like variables of Python, and not 'output'"
+                yield (
+                    "ports_in",
+                    f"holds {name!r}; ports are called like variables of Python, and not 'output'",
+                )
         if len(set(names)) < len(names):
             yield "ports_in", f"holds a name twice: {', '.join(names)}"
         values: Any = self.values
@@ -77,10 +82,14 @@ class Function(Element):
     def init(self, at: Setting) -> Arrays:
         return {"state": at.full(tuple(self.axes), self.initial)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": state["state"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         values: Any = self.values
         function, here = self.load(), state["state"].shape
         try:
@@ -92,7 +101,10 @@ class Function(Element):
             raise ModelError(
                 f"the function {self.function} raised {type(error).__name__}: {first}",
                 where=self.name,
-                fix="It is called as function(state, inputs, time, **values), traced by JAX, and returns the new state",
+                fix=(
+                    "It is called as function(state, inputs, time, **values), traced by JAX, and returns the"
+                    " new state"
+                ),
             ) from error
         if new.shape != here or new.dtype.kind not in "fiu":
             raise ModelError(

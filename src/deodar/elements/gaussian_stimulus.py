@@ -39,7 +39,8 @@ class GaussianStimulus(Stimulus):
         amplitude: value at the centre; if normalized, the integral.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis; none: the axis decides.
+        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis;
+            none: the axis decides.
 
     Ports:
         output: over `axes`.
@@ -50,11 +51,20 @@ class GaussianStimulus(Stimulus):
 
     center: Annotated[PerAxis, Live("axis", meaning="place of the maximum")] = 0.0
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
-    amplitude: Annotated[float, Live("activation", meaning="value at the centre, or the integral if normalized")] = 1.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(default=False, kw_only=True)
+    amplitude: Annotated[
+        float, Live("activation", meaning="value at the centre, or the integral if normalized")
+    ] = 1.0
+    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(
+        default=False, kw_only=True
+    )
     boundary: Annotated[
         Sequence[str] | None,
-        Recompile(choices=("periodic", "zero"), meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides"),
+        Recompile(
+            choices=("periodic", "zero"),
+            meaning=(
+                "whether it wraps round the ends, one for all axes or one for each; none: the axis decides"
+            ),
+        ),
     ] = dc.field(default=None, kw_only=True)
 
     def polarity(self) -> Sign:
@@ -82,7 +92,9 @@ class GaussianStimulus(Stimulus):
                 length = axis.step * axis.samples
                 distance = distance - length * jnp.round(distance / length)
             factor = jnp.exp(-0.5 * (distance / sigma) ** 2)
-            if self.normalized:  # a Gaussian between two samples and far narrower than their distance stays zero
+            if (
+                self.normalized
+            ):  # a Gaussian between two samples and far narrower than their distance stays zero
                 whole = jnp.sum(factor) * axis.step
                 factor = factor / jnp.where(whole > 0, whole, 1.0)
             y = y[..., None] * factor

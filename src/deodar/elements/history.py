@@ -31,8 +31,10 @@ class History(Element):
     Parameters:
         axes: of the input.
         slots: the axis of the moments that are kept, the newest at its lower end; comes first in the output.
-        interval: time between two moments that are kept, in the document's time unit; > 0. Shorter than a step: every step.
-        empty: what slots show that no moment has reached yet: `zero`, or `nan` (not a number). What reads `nan` becomes undefined too.
+        interval: time between two moments that are kept, in the document's time unit; > 0. Shorter than a
+            step: every step.
+        empty: what slots show that no moment has reached yet: `zero`, or `nan` (not a number). What reads
+            `nan` becomes undefined too.
 
     Ports:
         input: over `axes`.
@@ -45,8 +47,15 @@ class History(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
     slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = needed("slot")
-    interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="time between two moments that are kept")] = 1.0
-    empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show that no moment has reached yet")] = "zero"
+    interval: Annotated[
+        float,
+        Live(
+            "time", role="duration", exact=True, lower=1e-6, meaning="time between two moments that are kept"
+        ),
+    ] = 1.0
+    empty: Annotated[
+        str, Recompile(choices=EMPTY, meaning="what slots show that no moment has reached yet")
+    ] = "zero"
 
     stateful: ClassVar[bool] = True
 
@@ -55,26 +64,35 @@ class History(Element):
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
-            yield f"the slots are called {self.slots.name!r} like an axis of the input", "Give the axis of the slots another name"
+            yield (
+                f"the slots are called {self.slots.name!r} like an axis of the input",
+                "Give the axis of the slots another name",
+            )
 
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         return {"output": hull(ZERO, inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         state = {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}
         return state | ({"count": at.full((), 0.0)} if self.empty == "nan" else {})
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         kept = jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)
         if self.empty == "nan":  # the state itself stays finite
             there = jnp.arange(self.slots.samples) < state["count"]
             kept = jnp.where(there.reshape(-1, *(1 for _ in self.axes)), kept, jnp.nan)
         return {"output": kept}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         # a ring whose newest place moves: one row is written in a step, however many there are
         kept, newest = state["kept"], state["newest"]
         with exact():

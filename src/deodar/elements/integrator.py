@@ -15,9 +15,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Integrator(Element):
-    r"""A variable whose rate of change is its input: a heading, a count, the position of something that moves.
+    r"""A variable whose rate of change is its input: a heading, a count, the position of something that
+    moves.
 
-    It has no attractor of its own: without input it keeps its value, and input that does not end lets it grow without bound.
+    It has no attractor of its own: without input it keeps its value, and input that does not end lets it grow
+    without bound.
 
     Equation:
         \frac{dx}{dt} = \mathrm{rate}\, \mathrm{input}(t),\quad x(0) = \mathrm{initial}
@@ -54,15 +56,22 @@ class Integrator(Element):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes)
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples", "Give values of that shape"
+            yield (
+                f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples",
+                "Give values of that shape",
+            )
 
     def init(self, at: Setting) -> Arrays:
         return {"x": at.full(tuple(self.axes), self.initial) if self.start is None else at.array(self.start)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": state["x"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"x": state["x"] + time.dt * self.rate * inputs["input"]}
 
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:

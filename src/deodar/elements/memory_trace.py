@@ -18,7 +18,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MemoryTrace(Element):
-    r"""A slow trace of where activation has been, which preshapes the field that made it. It decays only while something else is active.
+    r"""A slow trace of where activation has been, which preshapes the field that made it.
+
+    It decays only while something else is active.
 
     In the graded form f is the input between 0 and 1, at every place. The trace changes only while some
     input is above the threshold, unless `fades`.
@@ -32,17 +34,21 @@ class MemoryTrace(Element):
 
     Parameters:
         axes: the metric dimensions; none: one number.
-        tau_build: time constant of the build-up, in the document's time unit; > 0. In eq. 11: tau_l / lambda_build.
-        tau_decay: time constant of the decay, in the document's time unit; > 0. In eq. 11: tau_l / lambda_decay.
+        tau_build: time constant of the build-up, in the document's time unit; > 0. In eq. 11: tau_l /
+            lambda_build.
+        tau_decay: time constant of the decay, in the document's time unit; > 0. In eq. 11: tau_l /
+            lambda_decay.
         threshold: input above which a place is active.
-        graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by whether it is above the threshold.
+        graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by
+            whether it is above the threshold.
         fades: whether the trace also decays while nothing is active.
         gated: whether there is a port `gate`; without it the trace is always open.
         start: p at the start, one value for each sample; none: 0.
 
     Ports:
         input: over `axes`; usually the output of a field.
-        gate: one number, only where `gated`; it multiplies the speed of build-up and decay. Below 0 it counts as 0.
+        gate: one number, only where `gated`; it multiplies the speed of build-up and decay. Below 0 it counts
+            as 0.
         output: p, over `axes`.
         active: 1 where the input of the step before was above the threshold, over `axes`.
 
@@ -50,16 +56,21 @@ class MemoryTrace(Element):
         start: the samples of `axes`, in their order.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 11 (graded; it decays, as here by default, only while the field has a peak
-        somewhere if memories are to outlast pauses, on which the equation is silent). Lipinski, Simmering, Johnson & Spencer (2010), The role of
-        experience in location estimation, Psychon. Bull. Rev. 17 (traces that grow below peaks and decay between them); Erlhagen & Schöner
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 11 (graded; it decays, as here by default, only
+        while the field has a peak somewhere if memories are to outlast pauses, on which the equation is
+        silent). Lipinski, Simmering, Johnson & Spencer (2010), The role of experience in location estimation,
+        Psychon. Bull. Rev. 17 (traces that grow below peaks and decay between them); Erlhagen & Schöner
         (2002), Psychol. Rev. 109 (preshape).
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
-    tau_build: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the build-up")] = 100.0
-    tau_decay: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the decay")] = 1000.0
+    tau_build: Annotated[
+        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the build-up")
+    ] = 100.0
+    tau_decay: Annotated[
+        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the decay")
+    ] = 1000.0
     threshold: Annotated[float, Live(meaning="input above which a place is active")] = 0.5
 
     graded: Annotated[bool, Recompile(meaning="whether speeds are weighted by the input itself")] = False
@@ -79,23 +90,36 @@ class MemoryTrace(Element):
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes)
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples", "Give values of that shape"
+            yield (
+                f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples",
+                "Give values of that shape",
+            )
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
-        first = ZERO if not isinstance(self.start, FrozenArray) else (float(self.start.data.min()), float(self.start.data.max()))
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
+        first = (
+            ZERO
+            if not isinstance(self.start, FrozenArray)
+            else (float(self.start.data.min()), float(self.start.data.max()))
+        )
         return {"output": hull(first, inputs["input"]), "active": (0.0, 1.0)}
 
     def init(self, at: Setting) -> Arrays:
         trace = at.full(tuple(self.axes), 0.0) if self.start is None else at.array(self.start)
         return {"trace": trace, "active": at.full(tuple(self.axes), 0.0)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": state["trace"], "active": state["active"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         p, x = state["trace"], inputs["input"]
         active = x > self.threshold
         if self.graded:

@@ -15,7 +15,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Motor(Element):
-    r"""What a world's motor is told. Which world takes it is chosen when the model is run; without a world it moves nothing.
+    r"""What a world's motor is told.
+
+    Which world takes it is chosen when the model is run; without a world it moves nothing.
 
     The motor of this name takes y at the world's own period, and keeps the latest command in between.
 
@@ -44,5 +46,7 @@ class Motor(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": inputs["input"]}

@@ -40,8 +40,9 @@ class MovingGaussian(Stimulus):
         sigma: width in axis units, one or one for each axis; > 0.
         amplitude: value at the centre.
         velocity: axis units per unit of the document's time, one or one for each axis.
-        waypoints: p, moments and the places at them, in the document's time unit and axis units; straight lines between them, standing before
-            the first and after the last. Round a periodic axis go on counting: from 350 to 370. None: p = 0.
+        waypoints: p, moments and the places at them, in the document's time unit and axis units; straight
+            lines between them, standing before the first and after the last. Round a periodic axis go on
+            counting: from 350 to 370. None: p = 0.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
@@ -57,10 +58,13 @@ class MovingGaussian(Stimulus):
     center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without waypoints")] = 0.0
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
-    velocity: Annotated[PerAxis, Live("axis/time", role="speed", exact=True, meaning="how fast it moves")] = 0.0
-    waypoints: Annotated[ArrayLike | None, Rebuild("axis", exact=True, meaning="moments and the places at them; none: it follows no waypoints")] = (
-        None
+    velocity: Annotated[PerAxis, Live("axis/time", role="speed", exact=True, meaning="how fast it moves")] = (
+        0.0
     )
+    waypoints: Annotated[
+        ArrayLike | None,
+        Rebuild("axis", exact=True, meaning="moments and the places at them; none: it follows no waypoints"),
+    ] = None
 
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
@@ -69,7 +73,13 @@ class MovingGaussian(Stimulus):
         if isinstance(self.waypoints, FrozenArray):
             rows, columns = self.waypoints.data, 1 + len(self.axes)
             if rows.ndim != 2 or rows.shape[1] != columns or not rows.size:
-                yield "waypoints", f"has shape {list(rows.shape)}; it has rows of {columns} numbers: the time, then one place for each axis"
+                yield (
+                    "waypoints",
+                    (
+                        f"has shape {list(rows.shape)}; it has rows of {columns} numbers: the time, then one"
+                        " place for each axis"
+                    ),
+                )
             elif (np.diff(rows[:, 0]) <= 0).any():
                 yield "waypoints", "goes back in time; each row is later than the one before"
 
@@ -82,7 +92,9 @@ class MovingGaussian(Stimulus):
     def prepare(self, at: Setting) -> Any:
         return {} if self.waypoints is None else {"waypoints": at.exact(self.waypoints)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
         places = self._places(at, constants, time)
         for axis, place, sigma in zip(self.axes, places, per_axis(self.sigma, self.axes), strict=True):
@@ -93,11 +105,17 @@ class MovingGaussian(Stimulus):
         return {"output": y}
 
     def _places(self, at: Setting, constants: Any, time: Time) -> list[Any]:
-        """The centre along each axis. A periodic axis is left by whole turns before it is rounded, so that a long way costs no digits."""
+        """The centre along each axis.
+
+        A periodic axis is left by whole turns before it is rounded, so that a long way costs no digits.
+        """
         out: list[Any] = []
         with exact():
             for d, axis in enumerate(self.axes):
-                place = wide(per_axis(self.center, self.axes)[d]) + wide(per_axis(self.velocity, self.axes)[d]) * time.wide
+                place = (
+                    wide(per_axis(self.center, self.axes)[d])
+                    + wide(per_axis(self.velocity, self.axes)[d]) * time.wide
+                )
                 if "waypoints" in constants:
                     points = wide(constants["waypoints"])
                     place = place + jnp.interp(time.wide, points[:, 0], points[:, 1 + d])

@@ -30,8 +30,8 @@ class Noise(Element):
 
     Parameters:
         axes: where it is defined; none: one number.
-        amplitude: q, strength; without `length` divided by the root of the cell's volume, else the standard deviation at
-            a point of the process that the stochastic Euler step adds.
+        amplitude: q, strength; without `length` divided by the root of the cell's volume, else the standard
+            deviation at a point of the process that the stochastic Euler step adds.
         length: correlation length in axis units, one or one for each axis; 0: white.
 
     Ports:
@@ -44,7 +44,9 @@ class Noise(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
     amplitude: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength")] = 1.0
-    length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length")] = 0.0
+    length: Annotated[
+        PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length")
+    ] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
@@ -72,7 +74,9 @@ class Noise(Element):
         axes = tuple(self.axes)
         return {"noise": noises.correlation(axes, per_axis(self.length, axes), at.dtype)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         if noise is None:
             return {"output": at.full(tuple(self.axes), 0.0)}
         return {"output": self.amplitude / jnp.sqrt(time.dt) * self._over(noise, constants)}

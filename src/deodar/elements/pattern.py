@@ -43,7 +43,9 @@ class Pattern(Stimulus):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = needed("[x]")
-    values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
+    values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray(
+        [float(k % 7 == 3) for k in range(21)]
+    )
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
 
     def polarity(self) -> Sign:
@@ -53,12 +55,18 @@ class Pattern(Stimulus):
         yield from super().misfits(ins)
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         if given != shape(self.axes):
-            yield f"values has shape {list(given)}, its axes have {list(shape(self.axes))} samples", "Give values of that shape"
+            yield (
+                f"values has shape {list(given)}, its axes have {list(shape(self.axes))} samples",
+                "Give values of that shape",
+            )
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         if isinstance(self.values, FrozenArray) and not self.values.data.any():
-            yield "its values are all zero, so it gives nothing", "Give it the values that it should show, or remove it"
+            yield (
+                "its values are all zero, so it gives nothing",
+                "Give it the values that it should show, or remove it",
+            )
 
     def strength(self) -> Interval:
         values = self.values.data if isinstance(self.values, FrozenArray) else None

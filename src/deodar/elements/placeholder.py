@@ -15,7 +15,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Placeholder(Element):
-    """Keeps the place and the connections of an element of another tool that has no counterpart here. Its output is zero.
+    """Keeps the place and the connections of an element of another tool that has no counterpart here.
+
+    Its output is zero.
 
     Equation:
         y(x) = 0
@@ -45,5 +47,7 @@ class Placeholder(Element):
     def init(self, at: Setting) -> Arrays:
         return {"nothing": at.full(tuple(self.axes), 0.0)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": state["nothing"]}

@@ -23,7 +23,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class RateNode(Element):
-    r"""A neural node that keeps its rate of change as a state of its own, for phase plots; it takes the step that the rate shown says.
+    r"""A neural node that keeps its rate of change as a state of its own, for phase plots; it takes the step
+    that the rate shown says.
 
     r is the rate of change at the moment at which u is shown.
 
@@ -56,7 +57,9 @@ class RateNode(Element):
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
 
     stateful: ClassVar[bool] = True
-    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}}
+    levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
+        "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}
+    }
 
     def recurrence(self) -> Mapping[str, Sign]:
         return {"self-excitation": sign_of(self.self_excitation)} if self.self_excitation else {}
@@ -70,7 +73,9 @@ class RateNode(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else ()
 
-    def bounds(self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]) -> Mapping[str, Interval]:
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
         h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
         spread = 6.0 * self.noise * math.sqrt(self.tau / 2)
         own = times((self.self_excitation, self.self_excitation), self.sigmoid.bounds(u))
@@ -81,11 +86,15 @@ class RateNode(Element):
         u = at.full((), self.resting_level)
         return {"activation": u, "rate": self._rate(u, jnp.zeros_like(u))}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         u = state["activation"]
         return {"output": self.sigmoid(u), "activation": u, "rate": state["rate"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         u = state["activation"] + time.dt * state["rate"]
         if noise is not None:
             u = u + jnp.sqrt(time.dt) * self.noise * noise

@@ -30,8 +30,10 @@ class SampledHistory(Element):
     Parameters:
         axes: of the input.
         slots: the axis of the moments, one sample for each; comes first in the output.
-        times: the moments, in the document's time unit. A moment between two steps counts for the nearer one; the start of a run is not stored.
-        empty: what slots show before their moment: `zero`, or `nan` (not a number). What reads `nan` becomes undefined too.
+        times: the moments, in the document's time unit. A moment between two steps counts for the nearer one;
+            the start of a run is not stored.
+        empty: what slots show before their moment: `zero`, or `nan` (not a number). What reads `nan` becomes
+            undefined too.
 
     Ports:
         input: over `axes`.
@@ -47,7 +49,9 @@ class SampledHistory(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
     slots: Annotated[Axis, Recompile(meaning="the moments")] = needed("slot")
-    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray([1.0, 5.0, 10.0])
+    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray(
+        [1.0, 5.0, 10.0]
+    )
     empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show before their moment")] = "zero"
 
     stateful: ClassVar[bool] = True
@@ -57,10 +61,16 @@ class SampledHistory(Element):
 
     def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
-            yield f"the slots are called {self.slots.name!r} like an axis of the input", "Give the axis of the slots another name"
+            yield (
+                f"the slots are called {self.slots.name!r} like an axis of the input",
+                "Give the axis of the slots another name",
+            )
         given = self.times.shape if isinstance(self.times, FrozenArray) else ()
         if given != (self.slots.samples,):
-            yield f"times has shape {list(given)}, the axis of the slots has {self.slots.samples} samples", "Give one moment for each sample"
+            yield (
+                f"times has shape {list(given)}, the axis of the slots has {self.slots.samples} samples",
+                "Give one moment for each sample",
+            )
 
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
@@ -71,11 +81,19 @@ class SampledHistory(Element):
     def init(self, at: Setting) -> Arrays:
         return {"kept": at.full((self.slots, *self.axes), 0.0), "stored": at.full((self.slots,), 0.0)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         kept = state["kept"]
-        return {"output": jnp.where(self._each(state["stored"]) > 0, kept, jnp.nan) if self.empty == "nan" else kept}
+        return {
+            "output": jnp.where(self._each(state["stored"]) > 0, kept, jnp.nan)
+            if self.empty == "nan"
+            else kept
+        }
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         with exact():
             late, half = time.wide + time.wide_dt - wide(constants["times"]), 0.5 * time.wide_dt
             due = (late >= -half) & (late < half)

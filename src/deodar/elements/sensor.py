@@ -15,7 +15,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sensor(Element):
-    r"""What a world senses, over axes that the model states. Which world provides it is chosen when the model is run.
+    r"""What a world senses, over axes that the model states.
+
+    Which world provides it is chosen when the model is run.
 
     The world that the model runs in provides the sensor of this name.
 
@@ -43,5 +45,7 @@ class Sensor(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"output": inputs["sensed"]}

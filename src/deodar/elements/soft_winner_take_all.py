@@ -25,10 +25,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SoftWinnerTakeAll(Element):
-    r"""Excitatory units that compete through one inhibitory unit: how a field's selection is wired in networks of neurons.
+    r"""Excitatory units that compete through one inhibitory unit: how a field's selection is wired in
+    networks of neurons.
 
-    With fast inhibition (tau_inhibition much shorter than tau), slow input, and f_v linear at the sums that occur, u follows the equation of a
-    Field: of the same tau and kernels, sigmoid f, resting level -T, global inhibition beta_1 beta_2, and a Gain of alpha from it to itself.
+    With fast inhibition (tau_inhibition much shorter than tau), slow input, and f_v linear at the sums that
+    occur, u follows the equation of a Field: of the same tau and kernels, sigmoid f, resting level -T, global
+    inhibition beta_1 beta_2, and a Gain of alpha from it to itself.
 
     Equation:
         u(x) = s(x, t) + \alpha\, r(x)
@@ -38,9 +40,12 @@ class SoftWinnerTakeAll(Element):
             \right)
 
     Parameters:
-        axes: where the units stand; any axis for units that are only numbered (its grid step counts in the integrals).
-        tau: time constant of the excitatory units, in the document's time unit; > 0, and no shorter than the step.
-        tau_inhibition: time constant of the inhibitory unit, in the document's time unit; > 0, and no shorter than the step.
+        axes: where the units stand; any axis for units that are only numbered (its grid step counts in the
+            integrals).
+        tau: time constant of the excitatory units, in the document's time unit; > 0, and no shorter than the
+            step.
+        tau_inhibition: time constant of the inhibitory unit, in the document's time unit; > 0, and no shorter
+            than the step.
         self_excitation: alpha, of each unit by itself.
         kernel: k, excitation among neighbours, summed; none in the published form.
         inhibition: beta_1, of all units by the inhibitory one.
@@ -49,8 +54,8 @@ class SoftWinnerTakeAll(Element):
         threshold_inhibition: T_v, of the inhibitory unit.
         sigmoid: f, rate of the excitatory units as a function of their input.
         sigmoid_inhibition: f_v, rate of the inhibitory unit.
-        noise: q, strength of the noise of the excitatory units: white in time and space (divided by the root of the cell's volume). Euler step:
-            q sqrt(dt) / tau.
+        noise: q, strength of the noise of the excitatory units: white in time and space (divided by the root
+            of the cell's volume). Euler step: q sqrt(dt) / tau.
 
     Ports:
         input: s, the sum of all connections, over `axes`.
@@ -59,14 +64,19 @@ class SoftWinnerTakeAll(Element):
         interaction: u without its input and its threshold, over `axes`.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eqs. 4 and 5 (both time constants are one there); Rutishauser & Douglas (2009),
-        State-dependent computation using coupled recurrent networks, Neural Comput. 21, 478-509, eqs. 2.1.
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eqs. 4 and 5 (both time constants are one there);
+        Rutishauser & Douglas (2009), State-dependent computation using coupled recurrent networks, Neural
+        Comput. 21, 478-509, eqs. 2.1.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where the units stand")] = ()
-    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the excitatory units")] = 20.0
-    tau_inhibition: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the inhibitory unit")] = 5.0
+    tau: Annotated[
+        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the excitatory units")
+    ] = 20.0
+    tau_inhibition: Annotated[
+        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the inhibitory unit")
+    ] = 5.0
     self_excitation: Annotated[float, Live("activation", meaning="of each unit by itself")] = 1.2
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="excitation among neighbours, summed")] = ()
     inhibition: Annotated[float, Live("activation", meaning="of all units by the inhibitory one")] = 3.0
@@ -74,9 +84,14 @@ class SoftWinnerTakeAll(Element):
     threshold: Annotated[float, Live("activation", meaning="of the excitatory units")] = 0.0
     threshold_inhibition: Annotated[float, Live("activation", meaning="of the inhibitory unit")] = 0.0
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="rate of the excitatory units")] = SemiLinear()
-    sigmoid_inhibition: Annotated[SigmoidFunction, Recompile(meaning="rate of the inhibitory unit")] = SemiLinear()
+    sigmoid_inhibition: Annotated[SigmoidFunction, Recompile(meaning="rate of the inhibitory unit")] = (
+        SemiLinear()
+    )
 
-    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise of the excitatory units")] = 0.0
+    noise: Annotated[
+        float,
+        Live("activation", lower=0, neutral=0.0, meaning="strength of the noise of the excitatory units"),
+    ] = 0.0
 
     stateful: ClassVar[bool] = True
 
@@ -106,10 +121,18 @@ class SoftWinnerTakeAll(Element):
     def settle(self, at: Setting, constants: Any) -> Any:
         return {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
-        return {"output": state["rate"], "inhibitory": state["inhibition"], "interaction": self._interaction(state, constants)}
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
+        return {
+            "output": state["rate"],
+            "inhibitory": state["inhibition"],
+            "interaction": self._interaction(state, constants),
+        }
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         r, v, axes = state["rate"], state["inhibition"], tuple(self.axes)
         u = inputs["input"] + self._interaction(state, constants) - self.threshold
         driven = self.drive * cell(axes) * jnp.sum(r) - self.threshold_inhibition

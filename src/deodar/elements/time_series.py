@@ -40,10 +40,12 @@ class TimeSeries(Stimulus):
     Parameters:
         axes: where it is defined; none: a number for a node.
         times: the moments, rising, in the document's time unit.
-        values: for each moment one value for each sample of the axes (`TimeSeries.of(name, function, times, axes)` samples a function).
+        values: for each moment one value for each sample of the axes (`TimeSeries.of(name, function, times,
+            axes)` samples a function).
         amplitude: factor.
         interpolation: `linear` or `hold`.
-        period: P, time after which it begins again, in the document's time unit; moments later than that are never reached. 0: once.
+        period: P, time after which it begins again, in the document's time unit; moments later than that are
+            never reached. 0: once.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
@@ -58,15 +60,28 @@ class TimeSeries(Stimulus):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the values")] = needed("[x]")
-    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray([0.0, 100.0])
-    values: Annotated[ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")] = FrozenArray(
-        [[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]]
+    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray(
+        [0.0, 100.0]
     )
+    values: Annotated[
+        ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")
+    ] = FrozenArray([[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]])
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
-    interpolation: Annotated[str, Recompile(choices=WAYS, meaning="what stands between two moments")] = "linear"
-    period: Annotated[float, Live("time", role="duration", exact=True, lower=0, neutral=0.0, off=True, meaning="when it begins again; 0: never")] = (
-        0.0
+    interpolation: Annotated[str, Recompile(choices=WAYS, meaning="what stands between two moments")] = (
+        "linear"
     )
+    period: Annotated[
+        float,
+        Live(
+            "time",
+            role="duration",
+            exact=True,
+            lower=0,
+            neutral=0.0,
+            off=True,
+            meaning="when it begins again; 0: never",
+        ),
+    ] = 0.0
 
     def polarity(self) -> Sign:
         return product(sign_of(self.values), sign_of(self.amplitude))
@@ -83,7 +98,10 @@ class TimeSeries(Stimulus):
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         needed = (*(self.times.shape if isinstance(self.times, FrozenArray) else ()), *shape(self.axes))
         if given != needed:
-            yield f"values has shape {list(given)}, its times and axes make {list(needed)}", "Give values of that shape"
+            yield (
+                f"values has shape {list(given)}, its times and axes make {list(needed)}",
+                "Give values of that shape",
+            )
 
     def strength(self) -> Interval:
         values = self.values.data if isinstance(self.values, FrozenArray) else None
@@ -97,7 +115,9 @@ class TimeSeries(Stimulus):
     def prepare(self, at: Setting) -> Any:
         return {"times": at.exact(self.times), "values": at.array(self.values)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         values, last = constants["values"], len(constants["values"]) - 1
         hold = self.interpolation == "hold"
         with exact():
@@ -105,7 +125,9 @@ class TimeSeries(Stimulus):
             if not is_neutral(self.period):
                 # half a step aside, so that rounding moves no moment to the period's other end
                 now = jnp.mod(now + half, wide(self.period)) - half
-            before = jnp.clip(jnp.sum(times <= now + (half if hold else 0.0)) - 1, 0, last if hold else max(last - 1, 0))
+            before = jnp.clip(
+                jnp.sum(times <= now + (half if hold else 0.0)) - 1, 0, last if hold else max(last - 1, 0)
+            )
             after = jnp.minimum(before + 1, last)
             span = jnp.where(after > before, times[after] - times[before], 1.0)
             share = jnp.clip((now - times[before]) / span, 0.0, 1.0).astype(at.dtype)
@@ -114,8 +136,11 @@ class TimeSeries(Stimulus):
         return {"output": self.amplitude * gate(self.windows, time, at.dtype) * y}
 
     @classmethod
-    def of(cls, name: str, function: Callable[..., Any], times: Any, axes: Sequence[Axis], **others: Any) -> TimeSeries:
-        """The values of a function of time and the axes' values: `TimeSeries.of("s", lambda t, x: np.sin(t / 50 + x), range(1000), [x])`.
+    def of(
+        cls, name: str, function: Callable[..., Any], times: Any, axes: Sequence[Axis], **others: Any
+    ) -> TimeSeries:
+        """The values of a function of time and the axes' values: `TimeSeries.of("s", lambda t, x: np.sin(t /
+        50 + x), range(1000), [x])`.
 
         Args:
             name: name of the element.
@@ -126,4 +151,10 @@ class TimeSeries(Stimulus):
         """
         moments = np.asarray(times, float)
         grids = np.meshgrid(moments, *(a.points for a in axes), indexing="ij")
-        return cls(name, tuple(axes), moments, np.broadcast_to(np.asarray(function(*grids), float), grids[0].shape), **others)
+        return cls(
+            name,
+            tuple(axes),
+            moments,
+            np.broadcast_to(np.asarray(function(*grids), float), grids[0].shape),
+            **others,
+        )

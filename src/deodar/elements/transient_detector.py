@@ -19,7 +19,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class TransientDetector(Element):
-    r"""A pulse where the input changes, and silence where it stays: the difference between the input and a slow copy of it.
+    r"""A pulse where the input changes, and silence where it stays: the difference between the input and a
+    slow copy of it.
 
     A step of height A gives a pulse A exp(-t / tau); input that rises steadily gives its slope times tau.
 
@@ -30,7 +31,8 @@ class TransientDetector(Element):
 
     Parameters:
         axes: where it is defined; none: one number.
-        tau: time constant of the slow copy, in the document's time unit; > 0. After about three of it the new is old.
+        tau: time constant of the slow copy, in the document's time unit; > 0. After about three of it the new
+            is old.
         initial: z at the start; what the input has beyond it then counts as new.
 
     Ports:
@@ -39,13 +41,16 @@ class TransientDetector(Element):
         off: what has gone or shrunk, over `axes`.
 
     Reference:
-        Berger, Faubel, Norman, Hock & Schöner (2012), The counter-change model of motion perception: an account based on dynamic field
-        theory, ICANN 2012, LNCS 7552 (detectors of increments and of decrements, by which motion is seen).
+        Berger, Faubel, Norman, Hock & Schöner (2012), The counter-change model of motion perception: an
+        account based on dynamic field theory, ICANN 2012, LNCS 7552 (detectors of increments and of
+        decrements, by which motion is seen).
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the slow copy")] = 100.0
+    tau: Annotated[
+        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the slow copy")
+    ] = 100.0
     initial: Annotated[float, Live(meaning="slow copy at the start")] = 0.0
 
     stateful: ClassVar[bool] = True
@@ -60,10 +65,14 @@ class TransientDetector(Element):
     def init(self, at: Setting) -> Arrays:
         return {"slow": at.full(tuple(self.axes), self.initial)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         change = inputs["input"] - state["slow"]
         return {"output": jnp.maximum(0.0, change), "off": jnp.maximum(0.0, -change)}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         z = state["slow"]
         return {"slow": euler(z, -z + inputs["input"], self.tau, time.dt)}

@@ -13,7 +13,12 @@ from deodar.parameters import Part, PerAxis, Recompile
 from deodar.session.run import whole
 from deodar.worlds._base import World
 
-AT = Recompile("time", role="moment", lower=0.0, meaning="document time at which it is done; with `when` the time after that event")
+AT = Recompile(
+    "time",
+    role="moment",
+    lower=0.0,
+    meaning="document time at which it is done; with `when` the time after that event",
+)
 WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own")
 
 
@@ -67,7 +72,11 @@ class Place(Action):
     thing: Annotated[str, Recompile(meaning="its name")]
     center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
     size: Annotated[PerAxis, Recompile(meaning="along x and y")]
-    color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0, meaning="red, green and blue")] = (0.72, 0.53, 0.3)
+    color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0, meaning="red, green and blue")] = (
+        0.72,
+        0.53,
+        0.3,
+    )
     when: Annotated[str, WHEN] = ""
 
     world_method: ClassVar[str] = "place"
@@ -166,7 +175,9 @@ class Ramp(Action):
     path: Annotated[str, Recompile(meaning="the parameter")]
     end: Annotated[float, Recompile(meaning="its value at the end")]
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="how long it takes")]
-    start: Annotated[float | None, Recompile(meaning="its value at the beginning; none: the one it then has")] = None
+    start: Annotated[
+        float | None, Recompile(meaning="its value at the beginning; none: the one it then has")
+    ] = None
     when: Annotated[str, WHEN] = ""
 
     def paths(self) -> Iterator[str]:
@@ -183,7 +194,8 @@ class Ramp(Action):
 
 @dataclass(frozen=True)
 class Push(Action):
-    """A homogeneous input to a field or node for a while: the boost that brings a field over its detection instability, or a forgetting.
+    """A homogeneous input to a field or node for a while: the boost that brings a field over its detection
+    instability, or a forgetting.
 
     Attributes:
         at: document time at which it begins; with `when` the time after that event.
@@ -203,12 +215,16 @@ class Push(Action):
         if self.when:  # one that has its own time stands in the model, with a window
             session, path = stage.session, f"{stage.pushes[self]}.amplitude"
             session.set(path, self.amount)
-            stage.later(whole(self.lasting, session.dt, "how long a push lasts"), lambda: session.set(path, 0.0))
+            stage.later(
+                whole(self.lasting, session.dt, "how long a push lasts"), lambda: session.set(path, 0.0)
+            )
 
 
 @dataclass(frozen=True)
 class Record(Action):
-    """Start or stop recording, from the next look on. A trial in which recording is started is not recorded before.
+    """Start or stop recording, from the next look on.
+
+    A trial in which recording is started is not recorded before.
 
     Attributes:
         at: document time at which it is done; with `when` the time after that event.
@@ -248,12 +264,16 @@ class Snapshot(Action):
             yield "of", "names no ports, so there is nothing to keep"
 
     def apply(self, stage: Stage) -> None:
-        stage.snapshots[self.label] = stage.session.time, {path: stage.session.read(path).copy() for path in self.of}
+        stage.snapshots[self.label] = (
+            stage.session.time,
+            {path: stage.session.read(path).copy() for path in self.of},
+        )
 
 
 @dataclass(frozen=True)
 class Reset(Action):
-    """Put the states of all elements back to what they were at the start; time, noise, parameters and the world go on.
+    """Put the states of all elements back to what they were at the start; time, noise, parameters and the
+    world go on.
 
     Attributes:
         at: document time at which it is done; with `when` the time after that event.
@@ -314,12 +334,19 @@ def changed(action: Action, world: World | None) -> World:
     """
     name = type(action).__name__
     if world is None:
-        raise WorldError(f"the action {name} needs a world, and none is given", fix="Give one, such as world=dd.Arena('blocks')")
-    needs = {action.world_method: "calls World.{}", **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to put things back after a trial")}
+        raise WorldError(
+            f"the action {name} needs a world, and none is given",
+            fix="Give one, such as world=dd.Arena('blocks')",
+        )
+    needs = {
+        action.world_method: "calls World.{}",
+        **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to put things back after a trial"),
+    }
     for method, what in needs.items():
         if getattr(type(world), method) is getattr(World, method):
             kind = type(world).__name__
             raise WorldError(
-                f"the action {name} {what.format(method)}, which the world {kind} does not have", fix="Take a world that has it, such as dd.Arena"
+                f"the action {name} {what.format(method)}, which the world {kind} does not have",
+                fix="Take a world that has it, such as dd.Arena",
             )
     return world

@@ -31,13 +31,20 @@ from deodar.session.session import require_model, require_seed
 from deodar.worlds._base import World
 
 LOOKS = 24
-"""Looks that are taken in one call of the program. What a trial does after it has ended is thrown away: on average half of them."""
+"""Looks that are taken in one call of the program.
+
+What a trial does after it has ended is thrown away: on average half of them.
+"""
 
 SHRINKS = 0.5
-"""Share of running copies from which on the batch is halved, so that the same few programs serve every batch of its width."""
+"""Share of running copies from which on the batch is halved, so that the same few programs serve every batch
+of its width.
+"""
 
 WORTH = 1e8
-"""Samples of ports times steps that a smaller batch has to save: compiling it takes about half a second (3 ns a sample were measured)."""
+"""Samples of ports times steps that a smaller batch has to save: compiling it takes about half a second (3 ns
+a sample were measured).
+"""
 
 
 def run_batch(
@@ -58,11 +65,13 @@ def run_batch(
 ) -> list[Course]:
     """Run trials all at once; the course of each is that of `run_trial` but for rounding.
 
-    When half of the copies have ended, the others continue in a batch of half the width: always in a world, otherwise where this saves more time
-    than compiling takes. The widths follow from the trials alone, so the same call gives the same bits each time. Beside other trials the widths
-    may differ: activations then agree to 1e-4 in float32 and to 1e-10 in float64, until the model amplifies the difference.
-    A world is computed inside the step, so each trial has its own; sensors of the world are looked at through the model's own.
-    What events and measures make of a field (its maximum, say) is computed inside the step too; only what is watched is copied whole.
+    When half of the copies have ended, the others continue in a batch of half the width: always in a world,
+    otherwise where this saves more time than compiling takes. The widths follow from the trials alone, so the
+    same call gives the same bits each time. Beside other trials the widths may differ: activations then agree
+    to 1e-4 in float32 and to 1e-10 in float64, until the model amplifies the difference. A world is computed
+    inside the step, so each trial has its own; sensors of the world are looked at through the model's own.
+    What events and measures make of a field (its maximum, say) is computed inside the step too; only what is
+    watched is copied whole.
 
     Args:
         model: the model, as it now is.
@@ -71,8 +80,8 @@ def run_batch(
         watch: paths of ports whose values are kept; the path of a field alone means its activation.
         events: what may happen; those that `ends` says end a trial.
         seed: seed of all noise.
-        world: what the model's sensors read and its motors move, one of pure functions such as an arena; of starts and goals given for each
-            trial each takes its own.
+        world: what the model's sensors read and its motors move, one of pure functions such as an arena; of
+            starts and goals given for each trial each takes its own.
         every: document time between looks; none: dt.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
@@ -82,8 +91,9 @@ def run_batch(
         tolerant: return the courses although all trials diverge, and do not warn.
 
     Returns:
-        The course of each trial. One that diverges before it ends has the outcome `diverged` and an `error` with the reason; its values are NaN,
-        its events and measures None. The others are not affected. A `RunWarning` counts those that diverged.
+        The course of each trial. One that diverges before it ends has the outcome `diverged` and an `error`
+        with the reason; its values are NaN, its events and measures None. The others are not affected. A
+        `RunWarning` counts those that diverged.
 
     Raises:
         NotFinite: all trials diverge.
@@ -100,15 +110,23 @@ def run_batch(
     views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
     watched = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
-        raise WorldError(f"the world {type(world).__name__} cannot be computed for a batch of copies", fix="Run them one by one: dd.run_trial(...)")
+        raise WorldError(
+            f"the world {type(world).__name__} cannot be computed for a batch of copies",
+            fix="Run them one by one: dd.run_trial(...)",
+        )
     if world is not None and values:
-        raise WorldError("trials in a world have the same parameters in one batch", fix="Run those of each value on their own")
+        raise WorldError(
+            "trials in a world have the same parameters in one batch",
+            fix="Run those of each value on their own",
+        )
     read, at = with_readers(doc, views)
     places = {view: at.get(view) or _place(doc, view) for view in views}
     order = list(dict.fromkeys([*watched, *places.values()])) or [_anything(doc)]
     swept = {path: np.asarray(v, float) for path, v in (values or {}).items()}
     leaves = [driven(doc, path) for path in swept]
-    flock = _Flock(model, read, precision, float(step), require_seed(seed), numbers, world, leaves, [*swept.values()])
+    flock = _Flock(
+        model, read, precision, float(step), require_seed(seed), numbers, world, leaves, [*swept.values()]
+    )
     axes = {p: flock.batch.program.axes(flock.batch.program.port(*p)) for p in order}
     kept: list[list[Sequence[np.ndarray]]] = [[] for _ in numbers]
     looks = np.zeros(len(numbers), int)
@@ -133,7 +151,9 @@ def run_batch(
         begun = flock.batch.clock.tick
         ports = [flock.batch.program.port(*p) for p in order]
         first = min(gap, ahead)
-        flock.batch.record(ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen))
+        flock.batch.record(
+            ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen)
+        )
         running = [k for k, row in enumerate(flock.rows) if not tally.outcome[row]]
         if between is not None:
             between(len(running))
@@ -147,18 +167,38 @@ def run_batch(
         found = np.asarray(times[:n])
         error = flock.errors[row] if tally.outcome[row] == DIVERGED else None
         whole_ = {name: np.concatenate([part[i] for part in kept[row]]) for i, name in enumerate(watch)}
-        whole_ = whole_ if error is None else {name: np.full_like(values, np.nan) for name, values in whole_.items()}
-        out.append(Course(found, whole_, tally.events_of(row), tally.outcome[row], tally.measures_of(row), found, error=error))
+        whole_ = (
+            whole_
+            if error is None
+            else {name: np.full_like(values, np.nan) for name, values in whole_.items()}
+        )
+        out.append(
+            Course(
+                found,
+                whole_,
+                tally.events_of(row),
+                tally.outcome[row],
+                tally.measures_of(row),
+                found,
+                error=error,
+            )
+        )
     lost = [course.error for course in out if course.error is not None]
     if lost and not tolerant:
         if len(lost) == len(out):
             raise lost[0]
-        warnings.warn(f"{len(lost)} of {len(out)} trials diverged, the first: {lost[0].problems[0].what}", RunWarning, stacklevel=2)
+        warnings.warn(
+            f"{len(lost)} of {len(out)} trials diverged, the first: {lost[0].problems[0].what}",
+            RunWarning,
+            stacklevel=2,
+        )
     return out
 
 
 def _blank(values: np.ndarray, good: np.ndarray) -> np.ndarray:
-    """What looks saw, (copies, looks, ...), with 0 for the looks of a copy from number `good` on: conditions need not know values like NaN."""
+    """What looks saw, (copies, looks, ...), with 0 for the looks of a copy from number `good` on: conditions
+    need not know values like NaN.
+    """
     bad = np.arange(values.shape[1]) >= good[:, None]
     return np.where(bad.reshape(*bad.shape, *[1] * (values.ndim - 2)), 0, values) if bad.any() else values
 
@@ -182,7 +222,8 @@ class _Flock:
     Attributes:
         rows: for each copy the number of its trial among `trials`.
         batch: the copies, as they run.
-        errors: for the row of each copy that diverged the reason; it may have been one of a trial that had ended.
+        errors: for the row of each copy that diverged the reason; it may have been one of a trial that had
+            ended.
     """
 
     model: Model
@@ -212,7 +253,9 @@ class _Flock:
         return out
 
     def shrink(self, running: Sequence[int], left: int) -> None:
-        """Halve the batch as long as those that run find room, if that pays in the steps that are left; some that have ended stay, to fill it."""
+        """Halve the batch as long as those that run find room, if that pays in the steps that are left; some
+        that have ended stay, to fill it.
+        """
         size = len(self.rows)
         while len(running) <= SHRINKS * size:
             size = (size + 1) // 2
@@ -233,19 +276,33 @@ class _Flock:
         self.rows, self.batch = [self.rows[k] for k in keep], fewer
 
     def _begin(self, rows: Sequence[int]) -> Run:
-        """A run of some trials at its start: trials of one batch, or, where parameters differ, points of a sweep."""
+        """A run of some trials at its start: trials of one batch, or, where parameters differ, points of a
+        sweep.
+        """
         copies = Batch(len(rows), None) if self.leaves else Batch(None, len(rows))
-        program = executable(self.model, self.doc, self.precision, copies, self.leaves, body=embodied(self.doc, self.world))
+        program = executable(
+            self.model, self.doc, self.precision, copies, self.leaves, body=embodied(self.doc, self.world)
+        )
         trials = [self.trials[r] for r in rows]
         if self.leaves:
-            run = Run(program, self.doc, self.dt, self.seed, trials[:1], None, [values[rows] for values in self.swept])
+            run = Run(
+                program,
+                self.doc,
+                self.dt,
+                self.seed,
+                trials[:1],
+                None,
+                [values[rows] for values in self.swept],
+            )
         else:
             run = Run(program, self.doc, self.dt, self.seed, trials, self.world)
         run.tolerated = len(rows)
         return run
 
     def _start(self, program: Executable, values: Any) -> tuple[Any, Any]:
-        """State and noise keys at the start of points that are trials of their own: points of a sweep share the noise of one."""
+        """State and noise keys at the start of points that are trials of their own: points of a sweep share
+        the noise of one.
+        """
         own = {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
         many = jax.vmap(program.program.init, in_axes=(own, None, 0))
         given = values, np.uint32(self.seed), np.asarray(self.trials, np.uint32)

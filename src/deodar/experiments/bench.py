@@ -33,10 +33,14 @@ from deodar.session.exchange import embodied
 from deodar.worlds._base import World
 
 MOST_COPIES = 250
-"""Trials of one batch at most: enough to be quick (from 64 copies of a line on more hardly help), few enough to lose little by a kill."""
+"""Trials of one batch at most: enough to be quick (from 64 copies of a line on more hardly help), few enough
+to lose little by a kill.
+"""
 
 RECORD_BYTES = 256 * 2**20
-"""What the records of one batch may take before they are written (a guess that leaves room on a small machine)."""
+"""What the records of one batch may take before they are written (a guess that leaves room on a small
+machine).
+"""
 
 
 @dataclass
@@ -55,7 +59,9 @@ class Bench:
 
     @classmethod
     def open(cls, experiment: Design, trust: bool = False) -> Bench:
-        """Open model and world of an experiment, and check everything that can be checked before a trial runs."""
+        """Open model and world of an experiment, and check everything that can be checked before a trial
+        runs.
+        """
         given: Any = experiment.model
         model = given if isinstance(given, Model) else load(given, trust)
         wanted: Any = experiment.world
@@ -89,7 +95,9 @@ class Bench:
 
     @cached_property
     def batched(self) -> bool:
-        """Whether trials run beside each other in one program: nothing is done on the way, and what they see is computed in it."""
+        """Whether trials run beside each other in one program: nothing is done on the way, and what they see
+        is computed in it.
+        """
         e, doc = self.experiment, self.model.document
         known = () if self.world is None else self.world.sensors
         looked = [*(v.of for c in e.conditions for v in c.views), *(m.view.of for m in e.measures)]
@@ -106,7 +114,10 @@ class Bench:
         for factor in self.experiment.factors:
             for level in factor.sets:
                 for path, value in level.items():
-                    values.setdefault(path, [self.model.get(path)] if any(path not in other for other in factor.sets) else []).append(value)
+                    values.setdefault(
+                        path,
+                        [self.model.get(path)] if any(path not in other for other in factor.sets) else [],
+                    ).append(value)
         return [path for path, given in values.items() if swept(self.model.document, path, given)]
 
     def pieces(self) -> list[list[int]]:
@@ -134,14 +145,25 @@ class Bench:
         """Run some trials and give their rows; `records`: the folder for what is recorded."""
         out: list[Row] = []
         for k, course, model in self._courses(trials, records is not None):
-            levels = {f.name: f.labels[n] for f, n in zip(self.experiment.factors, self.cells[k], strict=True)}
+            levels = {
+                f.name: f.labels[n] for f, n in zip(self.experiment.factors, self.cells[k], strict=True)
+            }
             awaited = [c.name for c in self.experiment.conditions if c.ends and course.events[c.name] is None]
             row: Row = {KEY: f"{k:06}", "trial": k, "levels": levels, "outcome": course.outcome}
-            row |= {"awaited": ", ".join(awaited) if course.outcome == TIME else "", "duration": course.duration}
+            row |= {
+                "awaited": ", ".join(awaited) if course.outcome == TIME else "",
+                "duration": course.duration,
+            }
             row |= {} if course.error is None else {"duration": None, DIVERGED: course.error.problems[0].what}
             row |= {"events": dict(course.events), "measures": dict(course.measures)}
             if records is not None:
-                about = {"experiment": self.experiment.name, "trial": k, "seed": self.experiment.seed, "levels": levels, "outcome": course.outcome}
+                about = {
+                    "experiment": self.experiment.name,
+                    "trial": k,
+                    "seed": self.experiment.seed,
+                    "levels": levels,
+                    "outcome": course.outcome,
+                }
                 about |= {DIVERGED: row[DIVERGED]} if DIVERGED in row else {}
                 write_records(records, row[KEY], model.document, self.experiment.record, course, about)
             out.append(row)
@@ -150,7 +172,14 @@ class Bench:
     def _courses(self, trials: Sequence[int], keep: bool) -> list[tuple[int, Course, Model]]:
         e = self.experiment
         watch = e.record if keep else ()
-        given: dict[str, Any] = {"seed": e.seed, "every": e.every, "dt": e.dt, "precision": e.precision, "measures": e.measures, "watch": watch}
+        given: dict[str, Any] = {
+            "seed": e.seed,
+            "every": e.every,
+            "dt": e.dt,
+            "precision": e.precision,
+            "measures": e.measures,
+            "watch": watch,
+        }
         given |= {"events": e.conditions, "world": self.world, "tolerant": True}
         if not self.batched:
             out: list[tuple[int, Course, Model]] = []
@@ -160,7 +189,9 @@ class Bench:
             return out
         own = [self.changes(k) for k in trials]
         model = self._with({path: value for path, value in own[0].items() if path not in self.swept})
-        values = {path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept}
+        values = {
+            path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept
+        }
         staged, _ = with_pushes(model, e.actions)
         courses = run_batch(staged, e.limit, trials, values=values, **given)
         return [(k, course, model) for k, course in zip(trials, courses, strict=True)]

@@ -35,8 +35,13 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
             what()
             return True
         except DeodarError as error:
-            found = [p.where if not p.where or p.where.startswith(where) else f"{where}: {p.where}" for p in error.problems]
-            problems.extend(Problem(w or where, p.what, p.fix) for w, p in zip(found, error.problems, strict=True))
+            found = [
+                p.where if not p.where or p.where.startswith(where) else f"{where}: {p.where}"
+                for p in error.problems
+            ]
+            problems.extend(
+                Problem(w or where, p.what, p.fix) for w, p in zip(found, error.problems, strict=True)
+            )
             return False
 
     doc = model.document
@@ -57,26 +62,45 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
         if action.when and action.when not in names:
             attempt(f"actions.{k}.when", lambda action=action: _no_event(action.when, names))
         if isinstance(action, Record) and not experiment.record:
-            problems.append(Problem(f"actions.{k}", "starts or stops recording, but nothing is recorded", "Name ports under record"))
+            problems.append(
+                Problem(
+                    f"actions.{k}",
+                    "starts or stops recording, but nothing is recorded",
+                    "Name ports under record",
+                )
+            )
     for path in experiment.record:
         attempt("record", lambda path=path: find.shown(doc, path))
     if problems:
         raise ParameterError(problems)
 
 
-def _times(experiment: Design, step: float, t0: float, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
+def _times(
+    experiment: Design, step: float, t0: float, attempt: Callable[[str, Callable[[], object]], bool]
+) -> None:
     dt, limit = step if experiment.dt is None else experiment.dt, experiment.limit
 
     def within(at: float, what: str) -> None:
         if at - t0 > limit:
-            raise ParameterError(f"{what}: it is due at {at:g}, and a trial ends after {limit:g} at the latest", fix="Take a longer limit")
+            raise ParameterError(
+                f"{what}: it is due at {at:g}, and a trial ends after {limit:g} at the latest",
+                fix="Take a longer limit",
+            )
 
     attempt("limit", lambda: whole(limit, dt, "the limit"))
     if experiment.every is not None:
         attempt("every", lambda: _positive(whole(experiment.every or 0.0, dt, "every")))
     for k, action in enumerate(experiment.actions):
-        attempt(f"actions.{k}", lambda action=action: whole(action.at if action.when else action.at - t0, dt, "the time of an action"))
-        attempt(f"actions.{k}", lambda action=action: whole(getattr(action, "lasting", 0.0), dt, "how long it lasts"))
+        attempt(
+            f"actions.{k}",
+            lambda action=action: whole(
+                action.at if action.when else action.at - t0, dt, "the time of an action"
+            ),
+        )
+        attempt(
+            f"actions.{k}",
+            lambda action=action: whole(getattr(action, "lasting", 0.0), dt, "how long it lasts"),
+        )
         if not action.when:
             attempt(f"actions.{k}", lambda action=action: within(action.at, "is never done"))
     for c in experiment.conditions:
@@ -101,21 +125,28 @@ def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[
 
     def once(path: str, name: str) -> None:
         if taken.setdefault(path, name) != name:
-            raise ParameterError(f"sets {path}, which the factor {taken[path]} sets too", fix="Let one factor set it")
+            raise ParameterError(
+                f"sets {path}, which the factor {taken[path]} sets too", fix="Let one factor set it"
+            )
 
     for factor in experiment.factors:
         where = f"factors.{factor.name}"
         for path in dict.fromkeys(path for given in factor.sets for path in given):
             attempt(where, lambda path=path, factor=factor: once(path, factor.name))
             for given in factor.sets:
-                if path in given and not attempt(where, lambda path=path, value=given[path]: level(path, value)):
+                if path in given and not attempt(
+                    where, lambda path=path, value=given[path]: level(path, value)
+                ):
                     break
 
 
 def _view(view: View, model: Model, world: World | None) -> None:
     if world is not None and view.of in world.sensors:
         if view.near or view.reduce == PLACE:
-            raise ParameterError(f"{view.of} is a sensor of the world, whose samples have no places", fix="Name the port of a Sensor that reads it")
+            raise ParameterError(
+                f"{view.of} is a sensor of the world, whose samples have no places",
+                fix="Name the port of a Sensor that reads it",
+            )
         return
     entry, port = view.place(model.document)
     axes = next(n for n in resolve(model.document)[0] if n.id == entry.id).axes(port)
@@ -123,9 +154,18 @@ def _view(view: View, model: Model, world: World | None) -> None:
     if view.reduce == PLACE and not axes:
         raise ParameterError(f"{view.of} is one number, which stands nowhere", fix="Take reduce='max'")
     sigmoid = getattr(entry.element, "sigmoid", None)
-    if view.reduce == PLACE and port == "output" and isinstance(sigmoid, SigmoidFunction) and float(sigmoid(np.array(-1.0))) > view.threshold:
-        # the smooth foot of a sigmoid would make the whole field one peak, whose centroid is drawn to the middle of the axis
-        what = f"{entry.path}.output is above {view.threshold:g} everywhere, so the whole field would count as one peak"
+    if (
+        view.reduce == PLACE
+        and port == "output"
+        and isinstance(sigmoid, SigmoidFunction)
+        and float(sigmoid(np.array(-1.0))) > view.threshold
+    ):
+        # the smooth foot of a sigmoid would make the whole field one peak, whose centroid is drawn to the
+        # middle of the axis
+        what = (
+            f"{entry.path}.output is above {view.threshold:g} everywhere, so the whole field would count as"
+            " one peak"
+        )
         raise ParameterError(what, fix=f"Measure {entry.path}.activation, or give threshold=0.5")
 
 

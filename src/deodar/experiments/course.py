@@ -20,13 +20,15 @@ class Course:
 
     Attributes:
         times: document time of each look, the first at the start.
-        values: for each thing that was watched its values, looks first; those at which recording was stopped are left out.
+        values: for each thing that was watched its values, looks first; those at which recording was stopped
+            are left out.
         events: document time of each event; None: it did not happen.
         outcome: the event that ended the trial, `time`, or `diverged`.
         measures: each measure; None: what it waits for did not happen.
         recorded: document time of each look that `values` holds.
         snapshots: what actions kept, by their labels: document time, and for each port its values.
-        error: of a trial that diverged, why: its values are NaN, its events and measures None; none: it did not.
+        error: of a trial that diverged, why: its values are NaN, its events and measures None; none: it did
+            not.
     """
 
     times: np.ndarray

@@ -1,4 +1,6 @@
-"""The design of an experiment as data: model, trials, conditions, actions, factors and measures; and its file."""
+"""The design of an experiment as data: model, trials, conditions, actions, factors and measures; and its
+file.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +26,28 @@ from deodar.parameters import Part, Recompile, show
 from deodar.worlds._base import World
 
 VERSION = 2
-EVENTS = (happens.Crosses, happens.Reached, happens.Appears, happens.Vanishes, happens.Within, happens.Leaves, happens.All, happens.AnyOf)
-ACTIONS = (done.Place, done.Move, done.Remove, done.Set, done.Ramp, done.Push, done.Record, done.Snapshot, done.Reset, done.End)
+EVENTS = (
+    happens.Crosses,
+    happens.Reached,
+    happens.Appears,
+    happens.Vanishes,
+    happens.Within,
+    happens.Leaves,
+    happens.All,
+    happens.AnyOf,
+)
+ACTIONS = (
+    done.Place,
+    done.Move,
+    done.Remove,
+    done.Set,
+    done.Ramp,
+    done.Push,
+    done.Record,
+    done.Snapshot,
+    done.Reset,
+    done.End,
+)
 KINDS: Mapping[str, Mapping[str, type[Part]]] = {
     "conditions": {cls.__name__: cls for cls in EVENTS},
     "actions": {cls.__name__: cls for cls in ACTIONS},
@@ -44,23 +66,35 @@ class Design(Part):
 
     name: Annotated[str, Recompile(meaning="what it is called")]
     model: Annotated[object, Recompile(meaning="the model, or the path of its document")]
-    limit: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="after which a trial ends at the latest")]
+    limit: Annotated[
+        float, Recompile("time", role="duration", lower=0.0, meaning="after which a trial ends at the latest")
+    ]
     trials: Annotated[int, Recompile(lower=1, meaning="of each combination of levels")] = 1
     conditions: Annotated[Sequence[Event], Recompile(meaning="what may happen")] = ()
     actions: Annotated[Sequence[Action], Recompile(meaning="what is done to each trial, and when")] = ()
     factors: Annotated[Sequence[Factor], Recompile(meaning="what trials differ in")] = ()
     measures: Annotated[Sequence[Measure], Recompile(meaning="what is measured of each trial")] = ()
-    design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(default="crossed", kw_only=True)
-    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise, and of what is drawn")] = dc.field(default=0, kw_only=True)
-    every: Annotated[float | None, Recompile("time", role="duration", meaning="between looks; none: each step")] = dc.field(
+    design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(
+        default="crossed", kw_only=True
+    )
+    seed: Annotated[
+        int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise, and of what is drawn")
+    ] = dc.field(default=0, kw_only=True)
+    every: Annotated[
+        float | None, Recompile("time", role="duration", meaning="between looks; none: each step")
+    ] = dc.field(default=None, kw_only=True)
+    record: Annotated[Sequence[str], Recompile(meaning="ports of which a record is kept")] = dc.field(
+        default=(), kw_only=True
+    )
+    world: Annotated[object, Recompile(meaning="what sensors read and motors move")] = dc.field(
         default=None, kw_only=True
     )
-    record: Annotated[Sequence[str], Recompile(meaning="ports of which a record is kept")] = dc.field(default=(), kw_only=True)
-    world: Annotated[object, Recompile(meaning="what sensors read and motors move")] = dc.field(default=None, kw_only=True)
-    dt: Annotated[float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")] = dc.field(
-        default=None, kw_only=True
+    dt: Annotated[
+        float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")
+    ] = dc.field(default=None, kw_only=True)
+    precision: Annotated[str, Recompile(choices=("float32", "float64"), meaning="of all numbers")] = dc.field(
+        default="float32", kw_only=True
     )
-    precision: Annotated[str, Recompile(choices=("float32", "float64"), meaning="of all numbers")] = dc.field(default="float32", kw_only=True)
 
     def __post_init__(self) -> None:
         if self.world is None:  # a parameter that may be anything may also be nothing
@@ -75,17 +109,23 @@ class Design(Part):
         names = [p.name for p in (*self.conditions, *self.factors, *self.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:
-                what = "is the name of two columns" if names.count(name) > 1 else "is a column of every table" if name else "is no name"
+                what = (
+                    "is the name of two columns"
+                    if names.count(name) > 1
+                    else "is a column of every table"
+                    if name
+                    else "is no name"
+                )
                 yield "conditions, factors and measures", f"{name!r} {what}; give each a name of its own"
 
-    # -------------------------------------------------------------------------------- what it will do
+    # ---------------------------------------------------------------------------------------- what it will do
 
     @property
     def cells(self) -> list[tuple[int, ...]]:
         """For each trial the level (its number) of each factor."""
         return assign(self.factors, self.design, self.trials, self.seed)
 
-    # -------------------------------------------------------------------------------- files
+    # -------------------------------------------------------------------------------------------------- files
 
     def to_data(self) -> dict[str, Any]:
         """Plain data, as a file holds it; a model or a world that is no file is left out."""
@@ -97,7 +137,11 @@ class Design(Part):
             parts = cast("Sequence[Any]", getattr(self, key))
             plain = [to_data(part, key in ("conditions", "actions")) for part in parts]
             if plain:
-                out[key] = plain if key == "actions" else {part.name: data for part, data in zip(parts, plain, strict=True)}
+                out[key] = (
+                    plain
+                    if key == "actions"
+                    else {part.name: data for part, data in zip(parts, plain, strict=True)}
+                )
         return out
 
     @classmethod
@@ -124,18 +168,31 @@ class Design(Part):
             if rows is None:
                 continue
             if not isinstance(rows, list if key == "actions" else dict):
-                problems.append(Problem(key, f"needs {'a list' if key == 'actions' else 'an object of named parts'}, not {show(rows)}"))
+                problems.append(
+                    Problem(
+                        key,
+                        f"needs {'a list' if key == 'actions' else 'an object of named parts'}, not"
+                        f" {show(rows)}",
+                    )
+                )
                 continue
             pairs = list(enumerate(rows)) if isinstance(rows, list) else list(rows.items())
             kind = "" if len(kinds) > 1 else next(iter(kinds))
-            given[key] = [from_data(v, f"{key}.{k}", kinds, {} if key == "actions" else {"name": k}, problems, kind) for k, v in pairs]
+            given[key] = [
+                from_data(v, f"{key}.{k}", kinds, {} if key == "actions" else {"name": k}, problems, kind)
+                for k, v in pairs
+            ]
         if problems:
             raise DocumentError(problems)
         for key in ("model", "world"):
             given[key] = _beside(given.get(key, ""), folder, key == "world") if key in given else ""
         if not given["model"]:
-            problems.append(Problem("model", "is missing", 'Name the file of the model: "model": "model.json"'))
-        found: Any = from_data(given, "", {"Experiment": cls}, {}, problems, "Experiment") if not problems else None
+            problems.append(
+                Problem("model", "is missing", 'Name the file of the model: "model": "model.json"')
+            )
+        found: Any = (
+            from_data(given, "", {"Experiment": cls}, {}, problems, "Experiment") if not problems else None
+        )
         if problems:
             raise DocumentError([dc.replace(p, where=p.where.strip(".")) for p in problems])
         return found
@@ -150,7 +207,9 @@ class Design(Part):
             data = {"experiment": VERSION, "name": self.name, "model": beside.name} | data
         if isinstance(self.world, World):
             raise ParameterError(
-                "a world that was made by a script cannot be written", where="world", fix="Name it as on the command line: world='arena:blocks'"
+                "a world that was made by a script cannot be written",
+                where="world",
+                fix="Name it as on the command line: world='arena:blocks'",
             )
         output.write(path, (json.dumps(data, indent=2, ensure_ascii=False) + "\n").encode())
 
@@ -168,11 +227,20 @@ class Design(Part):
         path = output.location(path)
         try:
             if not path.is_file():
-                near = did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")]) if path.parent.is_dir() else ""
+                near = (
+                    did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")])
+                    if path.parent.is_dir()
+                    else ""
+                )
                 raise DocumentError("there is no such file", fix=near)
             return cls.from_data(files.parse(path.read_bytes()), path.parent, read)
         except DeodarError as error:
-            raise DocumentError([Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]) from None
+            raise DocumentError(
+                [
+                    Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix)
+                    for p in error.problems
+                ]
+            ) from None
         except OSError as error:
             raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
@@ -191,7 +259,11 @@ class Design(Part):
             parts = schema(kinds, named=key != "actions")
             if len(kinds) == 1:
                 parts["oneOf"][0]["required"].remove("kind")
-            own[key] = {"type": "array", "items": parts} if key == "actions" else {"type": "object", "additionalProperties": parts}
+            own[key] = (
+                {"type": "array", "items": parts}
+                if key == "actions"
+                else {"type": "object", "additionalProperties": parts}
+            )
         return {
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": "deodar experiment",
@@ -207,7 +279,10 @@ EXAMPLE = "example:"
 
 
 def _migrated(data: Mapping[str, Any], folder: Path | None, read: Callable[[str], Model]) -> dict[str, Any]:
-    """Plain data in the present version. Of a model that cannot be opened the paths stay as they are: nothing runs before it can."""
+    """Plain data in the present version.
+
+    Of a model that cannot be opened the paths stay as they are: nothing runs before it can.
+    """
     model = _beside(data.get("model", ""), folder, False)
     if data["experiment"] != 1:
         return dict(data)
@@ -225,5 +300,6 @@ def _beside(text: Any, folder: Path | None, world: bool) -> Any:
         return text
     kind, sign, argument = text.partition(":") if world else ("", "", text)
     if world and not (argument and (folder / argument).exists()):
-        return text  # the name of something that comes with deodar, or a file that is found from the working folder
+        # the name of something that comes with deodar, or a file that is found from the working folder
+        return text
     return f"{kind}{sign}{folder / argument}"

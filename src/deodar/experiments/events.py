@@ -1,6 +1,7 @@
 """Events of a trial: each is judged when the trial is sampled, and may end it.
 
-Events see arrays with the copies and the looks as their first two axes, so that a thousand trials are judged at once.
+Events see arrays with the copies and the looks as their first two axes, so that a thousand trials are judged
+at once.
 """
 
 from __future__ import annotations
@@ -72,7 +73,8 @@ class Crosses(Event):
 
     Attributes:
         name: what rows call it.
-        of: path of the port, or name of a sensor of the world; the path of a field alone means its activation.
+        of: path of the port, or name of a sensor of the world; the path of a field alone means its
+            activation.
         level: the value.
         side: `above` or `below` it.
         reduce: what is compared of an array: max, min, mean or sum.
@@ -132,13 +134,21 @@ class Appears(Event):
     field: Annotated[str, Recompile(meaning="path of the field")]
     threshold: Annotated[float, Recompile("activation", meaning="of the activation")] = 0.0
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: anywhere")] = None
-    radius: Annotated[float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")] = 0.0
+    radius: Annotated[
+        float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")
+    ] = 0.0
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
     def views(self) -> tuple[View, ...]:
-        near = () if self.near is None else tuple(map(float, self.near)) if isinstance(self.near, Sequence) else (float(self.near),)
+        near = (
+            ()
+            if self.near is None
+            else tuple(map(float, self.near))
+            if isinstance(self.near, Sequence)
+            else (float(self.near),)
+        )
         return (View(self.field, "max", near, self.radius, "activation"),)
 
     def faults(self) -> Iterator[tuple[str, str]]:
@@ -151,7 +161,8 @@ class Appears(Event):
 
 @dataclass(frozen=True)
 class Vanishes(Appears):
-    """A peak that stood in a field is gone: nowhere, or nowhere near a place, is its activation above the threshold any more.
+    """A peak that stood in a field is gone: nowhere, or nowhere near a place, is its activation above the
+    threshold any more.
 
     Attributes:
         name: what rows call it.

@@ -22,10 +22,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Experiment(Design):
-    """An unattended experiment: many trials of a model, each until a condition ends it, with one row of a table for each.
+    """An unattended experiment: many trials of a model, each until a condition ends it, with one row of a
+    table for each.
 
-    Trials run beside each other in batches where nothing is done to them on the way and their world, if there is one, can be computed inside
-    the step; otherwise one by one. Trial k has the noise of trial k of the seed, whatever runs beside it.
+    Trials run beside each other in batches where nothing is done to them on the way and their world, if there
+    is one, can be computed inside the step; otherwise one by one. Trial k has the noise of trial k of the
+    seed, whatever runs beside it.
 
     Attributes:
         name: what it is called.
@@ -36,17 +38,20 @@ class Experiment(Design):
         actions: what is done to each trial, and when.
         factors: what trials differ in.
         measures: what is measured of each trial.
-        design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for each trial).
+        design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for
+            each trial).
         seed: of all noise, and of what is drawn.
         every: document time between looks (and records); none: each step.
-        record: paths of ports of which every trial keeps a record; the path of a field alone means its activation.
+        record: paths of ports of which every trial keeps a record; the path of a field alone means its
+            activation.
         world: what sensors read and motors move: a world, or KIND:ARGUMENT as on the command line.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
     """
 
     def bench(self, trust: bool = False) -> Bench:
-        """The experiment with its model and its world opened, and everything checked that can be checked before a trial runs.
+        """The experiment with its model and its world opened, and everything checked that can be checked
+        before a trial runs.
 
         Raises:
             ParameterError: it names what is not there, or holds what cannot be; all problems are listed.
@@ -71,17 +76,18 @@ class Experiment(Design):
         """Run all trials that are not there yet, and give the table of all.
 
         Args:
-            out: folder of the results. The run of an earlier call in this folder is resumed, with the same results as without the stop. None:
-                nothing is kept.
+            out: folder of the results. The run of an earlier call in this folder is resumed, with the same
+                results as without the stop. None: nothing is kept.
             workers: number of processes of one core each; none: this process.
             progress: called with a `Standing` after each piece.
             trust: whether functions that the document names may be imported and run.
 
         Returns:
-            A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: did not happen) and measures as variables.
-            A trial that diverges has the outcome `diverged`, and NaN for every number; the variable `diverged` gives its reason, the attribute
-            `diverged` counts such trials, and a `RunWarning` repeats it. The rows of the other trials are not affected. A `RunWarning` is also
-            given before trials that may take 10^9 steps in total.
+            A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: did
+            not happen) and measures as variables. A trial that diverges has the outcome `diverged`, and NaN
+            for every number; the variable `diverged` gives its reason, the attribute `diverged` counts such
+            trials, and a `RunWarning` repeats it. The rows of the other trials are not affected. A
+            `RunWarning` is also given before trials that may take 10^9 steps in total.
 
         Raises:
             OutputExists: the folder holds another experiment, or something else.
@@ -89,7 +95,10 @@ class Experiment(Design):
         """
         bench = self.bench(trust)
         if bench.trials * bench.steps >= LONG_STEPS:
-            total = f"{bench.trials * bench.steps:.3g} steps in total ({bench.trials} trials of at most {bench.steps:.3g} steps of dt = {bench.dt:g})"
+            total = (
+                f"{bench.trials * bench.steps:.3g} steps in total ({bench.trials} trials of at most"
+                f" {bench.steps:.3g} steps of dt = {bench.dt:g})"
+            )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
         data = carry(bench, out, workers, progress)
         if DIVERGED in data.attrs:

@@ -23,12 +23,17 @@ class Factor(Part):
 
     Attributes:
         name: what rows call it.
-        levels: a list of values of one parameter, or for each level its name and the values of parameters: {"near": {"left.center": 45}}.
-        path: the parameter, of an element or of the document, whose values the levels are; empty where levels name parameters themselves.
+        levels: a list of values of one parameter, or for each level its name and the values of parameters:
+            {"near": {"left.center": 45}}.
+        path: the parameter, of an element or of the document, whose values the levels are; empty where levels
+            name parameters themselves.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
-    levels: Annotated[object, Recompile(meaning="values of one parameter, or for each level its name and the values of parameters")]
+    levels: Annotated[
+        object,
+        Recompile(meaning="values of one parameter, or for each level its name and the values of parameters"),
+    ]
     path: Annotated[str, Recompile(meaning="the parameter whose values the levels are")] = ""
 
     def faults(self) -> Iterator[tuple[str, str]]:
@@ -39,9 +44,17 @@ class Factor(Part):
         if len(levels) == 0:
             yield "levels", "holds no levels, so there is nothing to run"
             return
-        items = list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
+        items = (
+            list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
+        )
         if not self.path and any(not isinstance(v, Mapping) or not v for v in items):
-            yield "levels", 'needs for each level the parameters it sets, {"left.amplitude": 6}, because no path is given'
+            yield (
+                "levels",
+                (
+                    'needs for each level the parameters it sets, {"left.amplitude": 6}, because no path is'
+                    " given"
+                ),
+            )
         elif not self.path and not isinstance(levels, Mapping):
             yield "levels", 'needs a name for each level: {"near": {"left.center": 45}}'
         labels = self.labels
@@ -60,7 +73,9 @@ class Factor(Part):
     def sets(self) -> list[dict[str, Any]]:
         """For each level the parameters it sets."""
         levels: Any = self.levels
-        values = list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
+        values = (
+            list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
+        )
         return [{self.path: v} if self.path else dict(v) for v in values]
 
 
@@ -69,8 +84,9 @@ def assign(factors: Sequence[Factor], design: str, trials: int, seed: int) -> li
 
     Args:
         factors: what trials differ in.
-        design: `crossed`: `trials` of each combination, one combination after another; `shuffled`: the same in an order drawn from the seed;
-            `random`: `trials` in total, each with levels drawn from the seed.
+        design: `crossed`: `trials` of each combination, one combination after another; `shuffled`: the same
+            in an order drawn from the seed; `random`: `trials` in total, each with levels drawn from the
+            seed.
         trials: how many.
         seed: of the order and the draws.
     """

@@ -1,4 +1,6 @@
-"""Jobs: the trials of an experiment in pieces that are carried out one by one, or in processes beside each other."""
+"""Jobs: the trials of an experiment in pieces that are carried out one by one, or in processes beside each
+other.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ from deodar.session.interrupt import stoppable
 class Job:
     """A piece of an experiment: one trial, or several that are run as one batch.
 
-    What it gives depends on nothing but its arguments, so that it may be run at any time, in any process, and again.
+    What it gives depends on nothing but its arguments, so that it may be run at any time, in any process, and
+    again.
 
     Attributes:
         keys: of the rows that it gives.
@@ -52,22 +55,32 @@ class Standing:
     left: float | None
 
 
-def carry_out(jobs: Sequence[Job], rows: Rows, progress: Callable[[Standing], None] | None = None, workers: int | None = None) -> None:
-    """Run the jobs whose rows are missing, and keep their rows. After a kill at any moment the same call resumes, with the same results.
+def carry_out(
+    jobs: Sequence[Job],
+    rows: Rows,
+    progress: Callable[[Standing], None] | None = None,
+    workers: int | None = None,
+) -> None:
+    """Run the jobs whose rows are missing, and keep their rows.
+
+    After a kill at any moment the same call resumes, with the same results.
 
     Args:
         jobs: all of the experiment.
         rows: where they are kept; jobs whose rows are all there are not run again.
         progress: called with a `Standing` after each job.
-        workers: number of processes of one core each; none: this process, one job after another. A script that is run itself, and calls this
-            with workers, does so below `if __name__ == "__main__":`.
+        workers: number of processes of one core each; none: this process, one job after another. A script
+            that is run itself, and calls this with workers, does so below `if __name__ == "__main__":`.
 
     Raises:
         KeyboardInterrupt: on Ctrl-C, when the jobs that run are done; the rows are kept.
         WorkerError: a worker process has died.
     """
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
-    total, before = sum(job.cost for job in jobs), sum(job.cost for job in jobs) - sum(job.cost for job in missing)
+    total, before = (
+        sum(job.cost for job in jobs),
+        sum(job.cost for job in jobs) - sum(job.cost for job in missing),
+    )
     began, done = time.monotonic(), 0.0
 
     def tell() -> None:
@@ -75,7 +88,11 @@ def carry_out(jobs: Sequence[Job], rows: Rows, progress: Callable[[Standing], No
         left = seconds / done * (total - before - done) if done else None
         kept = sum(key in rows.found for job in jobs for key in job.keys)
         if progress is not None:
-            progress(Standing(kept, sum(len(job.keys) for job in jobs), (before + done) / total if total else 1.0, left))
+            progress(
+                Standing(
+                    kept, sum(len(job.keys) for job in jobs), (before + done) / total if total else 1.0, left
+                )
+            )
 
     tell()
     for job, found in _in_workers(missing, workers) if workers else _here(missing):
@@ -97,7 +114,9 @@ def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequen
     with stoppable() as check, Pool(min(workers, max(1, len(jobs))), main=True) as pool:
         waiting = list(reversed(jobs))
         while waiting or pool.busy:
-            while waiting and pool.idle:  # one for each worker: after Ctrl-C no more than those are waited for
+            while (
+                waiting and pool.idle
+            ):  # one for each worker: after Ctrl-C no more than those are waited for
                 job = waiting.pop()
                 pool.give(job.keys, Job.run, job)
                 running[job.keys] = job

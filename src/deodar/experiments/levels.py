@@ -13,9 +13,11 @@ from deodar.parameters import real
 
 
 def swept(doc: Document, path: str, values: Iterable[object]) -> bool:
-    """Whether copies of one batch may have these values: numbers for live parameters, of which none switches something off.
+    """Whether copies of one batch may have these values: numbers for live parameters, of which none switches
+    something off.
 
-    Copies that differ in a parameter that rebuilds, such as a kernel's width, would each need matrices of their own.
+    Copies that differ in a parameter that rebuilds, such as a kernel's width, would each need matrices of
+    their own.
     """
     given = [real(v) for v in values]
     if any(v is None for v in given):

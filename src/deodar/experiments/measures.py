@@ -17,8 +17,9 @@ class Measure(Part):
     Attributes:
         name: what rows call it.
         of: path of a port, or name of a sensor of the world; the path of a field alone means its activation.
-        reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units, interpolated between samples
-            as `dd.peaks` does. A trial without a peak has no place (NaN in the table).
+        reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units,
+            interpolated between samples as `dd.peaks` does. A trial without a peak has no place (NaN in the
+            table).
         when: the event at whose time it is taken; empty: when the trial ends.
         near: only samples around this place, in axis units, one number or one for each axis; none: all.
         radius: how far around that place, along every axis.
@@ -30,13 +31,23 @@ class Measure(Part):
     reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of an array")] = "max"
     when: Annotated[str, Recompile(meaning="the event at whose time it is taken; empty: at the end")] = ""
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: all samples")] = None
-    radius: Annotated[float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")] = 0.0
-    threshold: Annotated[float, Recompile("activation", meaning="samples above it belong to the peak, for place")] = 0.0
+    radius: Annotated[
+        float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")
+    ] = 0.0
+    threshold: Annotated[
+        float, Recompile("activation", meaning="samples above it belong to the peak, for place")
+    ] = 0.0
 
     @property
     def view(self) -> View:
         """What has to be sampled."""
-        near = () if self.near is None else tuple(map(float, self.near)) if isinstance(self.near, Sequence) else (float(self.near),)
+        near = (
+            ()
+            if self.near is None
+            else tuple(map(float, self.near))
+            if isinstance(self.near, Sequence)
+            else (float(self.near),)
+        )
         return View(self.of, self.reduce, near, self.radius, threshold=self.threshold)
 
     def faults(self) -> Iterator[tuple[str, str]]:

@@ -11,12 +11,20 @@ from typing import Any, cast
 from deodar.model.document import Document
 from deodar.model.migrations import recorded
 
-PATHS: Mapping[str, tuple[str, ...]] = {"Crosses": ("of",), "Within": ("of", "goal"), "Leaves": ("of",), "Snapshot": ("of",), "Measure": ("of",)}
+PATHS: Mapping[str, tuple[str, ...]] = {
+    "Crosses": ("of",),
+    "Within": ("of", "goal"),
+    "Leaves": ("of",),
+    "Snapshot": ("of",),
+    "Measure": ("of",),
+}
 """Parameters that are paths of ports, by kind."""
 
 
 def migrate(data: Mapping[str, Any], doc: Document) -> dict[str, Any]:
-    """Rewrite an experiment of version 1; another one is returned as it is. What is not of the expected form is left to the reader, which reports it.
+    """Rewrite an experiment of version 1; another one is returned as it is.
+
+    What is not of the expected form is left to the reader, which reports it.
 
     Args:
         data: the plain data of the experiment.

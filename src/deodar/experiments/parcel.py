@@ -47,6 +47,8 @@ def work(handed: Parcel, trials: Sequence[int], records: Path | None) -> list[Ro
     return _opened(handed).rows(trials, records)
 
 
-@functools.lru_cache(maxsize=1)  # the next piece of the same experiment finds the compiled programs that a model keeps
+@functools.lru_cache(
+    maxsize=1
+)  # the next piece of the same experiment finds the compiled programs that a model keeps
 def _opened(handed: Parcel) -> Bench:
     return handed.open()

@@ -14,16 +14,29 @@ from deodar.parameters import Part, an, parameters, show
 
 
 def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -> dict[str, Any]:
-    """Plain data of a part: its kind, and every parameter that is not what it is by default, `without` those that stand elsewhere."""
+    """Plain data of a part: its kind, and every parameter that is not what it is by default, `without` those
+    that stand elsewhere.
+    """
     out: dict[str, Any] = {"kind": type(part).__name__} if kind else {}
     for p in parameters(type(part)):
         value = getattr(part, p.name)
-        if p.name not in without and value is not None and (p.name not in _defaults(type(part)) or value != p.default):
+        if (
+            p.name not in without
+            and value is not None
+            and (p.name not in _defaults(type(part)) or value != p.default)
+        ):
             out[p.name] = _plain(value, f"{type(part).__name__}.{p.name}")
     return out
 
 
-def from_data(data: Any, where: str, kinds: Mapping[str, type[Part]], given: Mapping[str, Any], problems: list[Problem], kind: str = "") -> Any:
+def from_data(
+    data: Any,
+    where: str,
+    kinds: Mapping[str, type[Part]],
+    given: Mapping[str, Any],
+    problems: list[Problem],
+    kind: str = "",
+) -> Any:
     """The part that plain data describe, or None with what is wrong added to `problems`.
 
     Args:
@@ -45,8 +58,15 @@ def from_data(data: Any, where: str, kinds: Mapping[str, type[Part]], given: Map
         return None
     known = [p.name for p in parameters(kinds[name]) if p.name not in given]
     strange = [key for key in values if key != "kind" and key not in known]
-    problems += [Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, known)) for key in strange]
-    missing = [p.name for p in parameters(kinds[name]) if p.name in known and p.name not in values and p.name not in _defaults(kinds[name])]
+    problems += [
+        Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, known))
+        for key in strange
+    ]
+    missing = [
+        p.name
+        for p in parameters(kinds[name])
+        if p.name in known and p.name not in values and p.name not in _defaults(kinds[name])
+    ]
     problems += [Problem(where, f"{an(name)} needs {key!r}") for key in missing]
     if strange or missing:
         return None
@@ -65,14 +85,25 @@ def schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
         for p in parameters(cls):
             if p.of is object:  # whatever the parameter takes that it is for
                 found["properties"][p.name] = {"description": p.meaning}
-        found["required"] = ["kind", *(p.name for p in parameters(cls) if p.name not in _defaults(cls) and (p.name != "name" or not named))]
+        found["required"] = [
+            "kind",
+            *(
+                p.name
+                for p in parameters(cls)
+                if p.name not in _defaults(cls) and (p.name != "name" or not named)
+            ),
+        ]
         out.append(found | {"additionalProperties": False})
     return {"oneOf": out}
 
 
 def _defaults(cls: type[Part]) -> set[str]:
     """Parameters that need not be given."""
-    return {f.name for f in dc.fields(cast(Any, cls)) if f.default is not dc.MISSING or f.default_factory is not dc.MISSING}
+    return {
+        f.name
+        for f in dc.fields(cast(Any, cls))
+        if f.default is not dc.MISSING or f.default_factory is not dc.MISSING
+    }
 
 
 def _plain(value: Any, where: str) -> Any:
@@ -84,4 +115,8 @@ def _plain(value: Any, where: str) -> Any:
         return {str(k): _plain(v, where) for k, v in cast("Mapping[Any, Any]", value).items()}
     if isinstance(value, (bool, int, float, str)):
         return value
-    raise ParameterError(f"{show(value)} cannot be written in a file", where=where, fix="Take a number, text, true or false, or a list of these")
+    raise ParameterError(
+        f"{show(value)} cannot be written in a file",
+        where=where,
+        fix="Take a number, text, true or false, or a list of these",
+    )

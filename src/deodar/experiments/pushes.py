@@ -1,4 +1,6 @@
-"""Pushes as boosts that stand in the model: those with a time of their own need no hand while the trial runs."""
+"""Pushes as boosts that stand in the model: those with a time of their own need no hand while the trial
+runs.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from deodar.model.model import Model
 
 
 def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Push, str]]:
-    """The model with a boost for each push, and the paths of those that wait for an event; the model itself where nothing is pushed."""
+    """The model with a boost for each push, and the paths of those that wait for an event; the model itself
+    where nothing is pushed.
+    """
     wanted = list(dict.fromkeys(a for a in actions if isinstance(a, Push)))
     if not wanted:
         return model, {}

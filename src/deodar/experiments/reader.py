@@ -1,4 +1,6 @@
-"""The reader: one number made of a field inside the compiled step, so that a look at many trials copies no fields."""
+"""The reader: one number made of a field inside the compiled step, so that a look at many trials copies no
+fields.
+"""
 
 from __future__ import annotations
 
@@ -29,19 +31,26 @@ _REDUCES = {"max": jnp.max, "min": jnp.min, "sum": jnp.sum}
 class Reader(Coupling):
     """y = max, min, mean or sum of the samples around a place, or the position of their highest peak.
 
-    A position is one number for each axis, then 1 where there is a peak and 0 where there is none: values that are not finite would end the run.
-    It is never part of a document that is written: `with_readers` adds it to the copy that a batch runs.
+    A position is one number for each axis, then 1 where there is a peak and 0 where there is none: values
+    that are not finite would end the run. It is never part of a document that is written: `with_readers` adds
+    it to the copy that a batch runs.
     """
 
-    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of the samples")] = "max"
-    near: Annotated[str, Recompile(meaning="the place and the radius around it, as JSON; empty: all samples")] = ""
+    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of the samples")] = (
+        "max"
+    )
+    near: Annotated[
+        str, Recompile(meaning="the place and the radius around it, as JSON; empty: all samples")
+    ] = ""
     threshold: Annotated[float, Recompile("input", meaning="samples above it belong to a peak")] = 0.0
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         count = len(ins["input"])
         return {"output": (Axis("of", 0.0, float(count), count + 1),) if self.reduce == PLACE else ()}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         axes, y = at.ins["input"], inputs["input"]
         inside = mask(axes, *json.loads(self.near)) if self.near else None
         if self.reduce == PLACE:

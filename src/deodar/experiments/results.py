@@ -1,4 +1,6 @@
-"""The results of an experiment: a folder with a row for each trial, which can be resumed, and the table made of the rows."""
+"""The results of an experiment: a folder with a row for each trial, which can be resumed, and the table made
+of the rows.
+"""
 
 from __future__ import annotations
 
@@ -31,10 +33,21 @@ from deodar.recording import files, provenance
 if TYPE_CHECKING:
     import xarray
 
-ROWS, TABLE, DATASET, EXPERIMENT, MODEL = "trials.jsonl", "trials.csv", "trials.nc", "experiment.json", "model.json"
+ROWS, TABLE, DATASET, EXPERIMENT, MODEL = (
+    "trials.jsonl",
+    "trials.csv",
+    "trials.nc",
+    "experiment.json",
+    "model.json",
+)
 
 
-def carry(bench: Bench, out: str | Path | None, workers: int | None = None, progress: Callable[[Standing], None] | None = None) -> xarray.Dataset:
+def carry(
+    bench: Bench,
+    out: str | Path | None,
+    workers: int | None = None,
+    progress: Callable[[Standing], None] | None = None,
+) -> xarray.Dataset:
     """Run the trials whose rows are not there yet, write the table, and give it.
 
     Args:
@@ -51,14 +64,22 @@ def carry(bench: Bench, out: str | Path | None, workers: int | None = None, prog
     return _carry(bench, folder, workers, progress)
 
 
-def _carry(bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None) -> xarray.Dataset:
+def _carry(
+    bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None
+) -> xarray.Dataset:
     about = _about(bench, workers, out)
     rows = Rows(out / ROWS, about, read=lambda made: migrate(made, bench.model.document))
     if not (out / MODEL).exists():
         documents.save(bench.model.document, out / MODEL)
     if not (out / EXPERIMENT).exists():
-        output.write(out / EXPERIMENT, (json.dumps(_plan(bench), indent=2, ensure_ascii=False) + "\n").encode())
-    records = out / RECORDS if bench.experiment.record or any(type(a).__name__ == "Snapshot" for a in bench.experiment.actions) else None
+        output.write(
+            out / EXPERIMENT, (json.dumps(_plan(bench), indent=2, ensure_ascii=False) + "\n").encode()
+        )
+    records = (
+        out / RECORDS
+        if bench.experiment.record or any(type(a).__name__ == "Snapshot" for a in bench.experiment.actions)
+        else None
+    )
     carry_out(list(_jobs(bench, workers, records)), rows, progress, workers)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
@@ -112,7 +133,7 @@ def _plan(bench: Bench) -> dict[str, Any]:
     return json.loads(json.dumps({**bench.experiment.to_data(), "model": MODEL}))
 
 
-# ------------------------------------------------------------------------------------------------ the table
+# -------------------------------------------------------------------------------------------------- the table
 
 
 def load_results(path: str | Path) -> xarray.Dataset:
@@ -126,15 +147,20 @@ def load_results(path: str | Path) -> xarray.Dataset:
         lines = [json.loads(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
         return dataset(lines[1:], lines[0][ABOUT])
     except (OSError, ValueError, LookupError, TypeError):
-        raise RecordError("is not the folder of an experiment", where=str(folder), fix="Name a folder that deodar experiment wrote") from None
+        raise RecordError(
+            "is not the folder of an experiment",
+            where=str(folder),
+            fix="Name a folder that deodar experiment wrote",
+        ) from None
 
 
 def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
     """Rows as a Dataset over `trial`.
 
-    Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time of each condition and the measures
-    are variables. What did not happen is NaN. Measures of several numbers have a dimension of their own. Where trials diverged, the variable
-    `diverged` gives the reason of each (empty: it did not), and the attribute of this name counts them.
+    Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time
+    of each condition and the measures are variables. What did not happen is NaN. Measures of several numbers
+    have a dimension of their own. Where trials diverged, the variable `diverged` gives the reason of each
+    (empty: it did not), and the attribute of this name counts them.
     """
     import xarray
 
@@ -144,7 +170,9 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
     coords: dict[str, Any] = {"trial": ("trial", np.asarray([r["trial"] for r in rows], np.int64))}
     for name in about.get("factors", {}):
         coords[name] = ("trial", _column([r["levels"][name] for r in rows]))
-    out: dict[str, Any] = {key: ("trial", np.asarray([r[key] for r in rows], dtype=str)) for key in ("outcome", "awaited")}
+    out: dict[str, Any] = {
+        key: ("trial", np.asarray([r[key] for r in rows], dtype=str)) for key in ("outcome", "awaited")
+    }
     reasons = [r.get(DIVERGED, "") for r in rows]
     attributes = {provenance.KEY: json.dumps(about, ensure_ascii=False), "title": about["name"]}
     if any(reasons):
@@ -154,7 +182,11 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
         attributes[DIVERGED] = f"{len(bad)} of {len(rows)} trials diverged; {where}"
     out["duration"] = ("trial", np.asarray([r["duration"] for r in rows], float), unit)
     for name in conditions:
-        out[name] = ("trial", _column([_or_nan(r["events"][name]) for r in rows]), {**unit, "long_name": f"time of {name}"})
+        out[name] = (
+            "trial",
+            _column([_or_nan(r["events"][name]) for r in rows]),
+            {**unit, "long_name": f"time of {name}"},
+        )
     for name in measures:
         found = [r["measures"][name] for r in rows]
         count = max((len(v) for v in found if isinstance(v, list)), default=0)
@@ -191,7 +223,11 @@ def _cell(value: Any) -> str:
 
 def _column(values: Sequence[Any]) -> np.ndarray:
     """Numbers where all are, else text."""
-    return np.asarray(values, float) if not any(isinstance(v, str) for v in values) else np.asarray([str(v) for v in values], dtype=str)
+    return (
+        np.asarray(values, float)
+        if not any(isinstance(v, str) for v in values)
+        else np.asarray([str(v) for v in values], dtype=str)
+    )
 
 
 def _or_nan(value: Any) -> Any:

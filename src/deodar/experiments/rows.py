@@ -1,4 +1,6 @@
-"""The rows of an experiment in a file: appended as trials end, and read again when the experiment is resumed or extended."""
+"""The rows of an experiment in a file: appended as trials end, and read again when the experiment is resumed
+or extended.
+"""
 
 from __future__ import annotations
 
@@ -22,14 +24,16 @@ ABOUT, KEY = "about", "key"
 class Rows:
     """A file of JSON lines: first what makes the experiment, then a row for each trial that has ended.
 
-    An existing file is resumed if it holds the same experiment, or the same experiment with fewer conditions: then a second line of what makes
-    the experiment is appended, and the rows of the new conditions follow it. A last line that was cut off when a process died is dropped.
+    An existing file is resumed if it holds the same experiment, or the same experiment with fewer conditions:
+    then a second line of what makes the experiment is appended, and the rows of the new conditions follow it.
+    A last line that was cut off when a process died is dropped.
 
     Args:
         path: the file; it is made where there is none.
         about: what makes the experiment, as plain data: rows of another one are never mixed with these.
-        by_condition: names of the entries of `about` that map names of conditions to their settings. A condition that the file has must have
-            the same settings in all of these entries; a condition that the file does not have is an extension. Every other entry must be equal.
+        by_condition: names of the entries of `about` that map names of conditions to their settings. A
+            condition that the file has must have the same settings in all of these entries; a condition that
+            the file does not have is an extension. Every other entry must be equal.
         read: makes of the `about` that the file holds the same of the present version.
 
     Attributes:
@@ -42,7 +46,11 @@ class Rows:
     """
 
     def __init__(
-        self, path: Path, about: Mapping[str, Any], by_condition: Sequence[str] = (), read: Callable[[dict[str, Any]], dict[str, Any]] = dict
+        self,
+        path: Path,
+        about: Mapping[str, Any],
+        by_condition: Sequence[str] = (),
+        read: Callable[[dict[str, Any]], dict[str, Any]] = dict,
     ) -> None:
         self.path = path
         self.found: dict[str, Row] = {}
@@ -57,7 +65,11 @@ class Rows:
         made = read([line[ABOUT] for line in lines if KEY not in line][-1])
         changed = different(told[ABOUT], made, by_condition)
         if changed:
-            raise OutputExists(f"holds runs of another experiment: {', '.join(changed)} differ", where=str(path), fix="Choose another name")
+            raise OutputExists(
+                f"holds runs of another experiment: {', '.join(changed)} differ",
+                where=str(path),
+                fix="Choose another name",
+            )
         if made != told[ABOUT]:
             self._write(json.dumps(told) + "\n", "a")
         self.found = {row[KEY]: row for row in lines if KEY in row}
@@ -80,12 +92,20 @@ class Rows:
                 found = json.loads(line)
             except ValueError:
                 found = None
-            if not isinstance(found, dict) or (number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)):
-                raise RecordError(f"line {number} is no row", where=str(self.path), fix="Take that line out, and the trial is run again")
+            if not isinstance(found, dict) or (
+                number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)
+            ):
+                raise RecordError(
+                    f"line {number} is no row",
+                    where=str(self.path),
+                    fix="Take that line out, and the trial is run again",
+                )
             lines.append(found)
         if whole < len(content):
             if not lines and b'{"' + ABOUT.encode() != content[: 3 + len(ABOUT) - 1]:
-                raise RecordError("holds no rows of an experiment", where=str(self.path), fix="Choose another name")
+                raise RecordError(
+                    "holds no rows of an experiment", where=str(self.path), fix="Choose another name"
+                )
             with self.path.open("r+b") as file:
                 file.truncate(whole)
         return lines
@@ -104,7 +124,8 @@ class Rows:
 
 
 def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:
-    """The entries in which a design differs from the one that rows were made with; of entries by condition those of conditions with rows.
+    """The entries in which a design differs from the one that rows were made with; of entries by condition
+    those of conditions with rows.
 
     Args:
         new: what makes the experiment now.
@@ -115,18 +136,27 @@ def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Seq
     known = {name for k in by_condition for name in made.get(k, {})}
     for k in by_condition:
         now, then = new.get(k, {}), made.get(k, {})
-        changed += [f"{k} of {name}" for name in known if (name in now, now.get(name)) != (name in then, then.get(name))]
+        changed += [
+            f"{k} of {name}"
+            for name in known
+            if (name in now, now.get(name)) != (name in then, then.get(name))
+        ]
     return sorted(changed)
 
 
 def claim(folder: Path, file: str, of: str) -> None:
-    """Make the folder in which rows are kept, or take the one that an earlier call began, which holds `file`; another one is left alone.
+    """Make the folder in which rows are kept, or take the one that an earlier call began, which holds `file`;
+    another one is left alone.
 
     Raises:
         OutputExists: the folder holds something else; `of` says of what it should be.
     """
     if folder.is_dir() and any(folder.iterdir()) and not (folder / file).is_file():
-        raise OutputExists(f"is not the folder of {of}, so nothing is written into it", where=str(folder), fix="Choose another name")
+        raise OutputExists(
+            f"is not the folder of {of}, so nothing is written into it",
+            where=str(folder),
+            fix="Choose another name",
+        )
     if not folder.is_dir():
         places.claim_folder(folder)
         folder.mkdir()

@@ -51,16 +51,19 @@ def run_trial(
 ) -> Course:
     """Run one trial and return its course.
 
-    The first look is at the start. At a time at which something is done, the look comes first: what is done shows one step (for a world, one
-    period) later. The same arguments give the same course, whatever ran before; things that actions moved in the world are put back.
+    The first look is at the start. At a time at which something is done, the look comes first: what is done
+    shows one step (for a world, one period) later. The same arguments give the same course, whatever ran
+    before; things that actions moved in the world are put back.
 
     Args:
         model: the model, as it now is.
         limit: document time after which the trial ends at the latest.
-        world: what its sensors read and its motors move; of starts and goals given for each trial it takes those of this one.
+        world: what its sensors read and its motors move; of starts and goals given for each trial it takes
+            those of this one.
         seed: seed of all noise.
         trial: which trial of the seed it is.
-        watch: paths of ports and names of sensors of the world whose values are kept; the path of a field alone means its activation.
+        watch: paths of ports and names of sensors of the world whose values are kept; the path of a field
+            alone means its activation.
         events: what may happen; those that `ends` says end the trial.
         actions: what is done, at which times, or after which events.
         every: document time between looks; none: dt.
@@ -68,7 +71,8 @@ def run_trial(
         precision: float32 or float64.
         between: called after each look; what it raises ends the trial.
         measures: what is measured.
-        tolerant: return a trial that diverges, with the outcome `diverged`, its `error`, and NaN as its values.
+        tolerant: return a trial that diverges, with the outcome `diverged`, its `error`, and NaN as its
+            values.
 
     Raises:
         NotFinite: the trial diverges, unless `tolerant`.
@@ -78,7 +82,10 @@ def run_trial(
     _require_events(actions, [e.name for e in events], require_model(model))
     staged, pushes = with_pushes(require_model(model), actions)
     session = Session(staged, dt, seed, precision, world, trial)
-    steps, gap = whole(limit, session.dt, "the limit"), 1 if every is None else whole(every, session.dt, "every")
+    steps, gap = (
+        whole(limit, session.dt, "the limit"),
+        1 if every is None else whole(every, session.dt, "every"),
+    )
     if gap == 0:
         raise TimeError("every is 0; it is at least one step")
     stage = Stage(session, pushes, any(isinstance(a, Reset) for a in actions))
@@ -121,9 +128,23 @@ def run_trial(
             raise
         lost, tally.outcome[0] = error, DIVERGED
         kept = [{name: np.full_like(a, np.nan) for name, a in values.items()} for values in kept]
-    stacked = {name: np.stack([v[name] for v in kept]) if kept else np.zeros((0, *(values[name].shape if name in values else ()))) for name in watch}
+    stacked = {
+        name: np.stack([v[name] for v in kept])
+        if kept
+        else np.zeros((0, *(values[name].shape if name in values else ())))
+        for name in watch
+    }
     events_, measures_ = tally.events_of(0), tally.measures_of(0)
-    return Course(np.asarray(times), stacked, events_, tally.outcome[0], measures_, np.asarray(recorded), stage.snapshots, lost)
+    return Course(
+        np.asarray(times),
+        stacked,
+        events_,
+        tally.outcome[0],
+        measures_,
+        np.asarray(recorded),
+        stage.snapshots,
+        lost,
+    )
 
 
 def _require_events(actions: Sequence[Action], names: Sequence[str], model: Model) -> None:
@@ -131,14 +152,23 @@ def _require_events(actions: Sequence[Action], names: Sequence[str], model: Mode
     for action in actions:
         targets(action, model.document)
         if action.when and action.when not in names:
-            raise UnknownName(f"an action waits for the event {action.when!r}, which is not there", fix=did_you_mean(action.when, names))
+            raise UnknownName(
+                f"an action waits for the event {action.when!r}, which is not there",
+                fix=did_you_mean(action.when, names),
+            )
 
 
 def _schedule(stage: Stage, actions: Sequence[Action]) -> list[tuple[int, Action]]:
-    """Schedule the actions of stated times; those that wait for an event are returned, each with its steps after it."""
+    """Schedule the actions of stated times; those that wait for an event are returned, each with its steps
+    after it.
+    """
     waiting: list[tuple[int, Action]] = []
     for action in actions:
-        moment = whole(action.at if action.when else action.at - stage.session.time, stage.session.dt, "the time of an action")
+        moment = whole(
+            action.at if action.when else action.at - stage.session.time,
+            stage.session.dt,
+            "the time of an action",
+        )
         if action.when:
             waiting.append((moment, action))
         else:
@@ -146,7 +176,9 @@ def _schedule(stage: Stage, actions: Sequence[Action]) -> list[tuple[int, Action
     return waiting
 
 
-def _schedule_after(stage: Stage, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]) -> list[tuple[int, Action]]:
+def _schedule_after(
+    stage: Stage, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]
+) -> list[tuple[int, Action]]:
     """Schedule the actions whose event has happened, and return the others."""
     for moment, action in waiting:
         if happened[action.when] is not None:
@@ -155,7 +187,9 @@ def _schedule_after(stage: Stage, waiting: Sequence[tuple[int, Action]], happene
 
 
 class _Eye:
-    """Reads what is looked at: all ports by one program, then sensors of the world, which that has brought to the present."""
+    """Reads what is looked at: all ports by one program, then sensors of the world, which that has brought to
+    the present.
+    """
 
     def __init__(self, session: Session, watch: Sequence[str], views: Sequence[View]) -> None:
         self.session, self.watch, self.views = session, watch, tuple(dict.fromkeys(views))
@@ -169,7 +203,9 @@ class _Eye:
             entry, port = view.place(session.document)
             self.ports[view] = entry.id, port
         self.places = list(dict.fromkeys(self.ports.values()))
-        if session.world is not None and not self.places:  # reading a port of what is tied to the world brings the world to the present
+        if (
+            session.world is not None and not self.places
+        ):  # reading a port of what is tied to the world brings the world to the present
             tied = [e.id for e in session.document.entries if isinstance(e.element, (Motor, Sensor))]
             self.places = [(ident, "output") for ident in tied[:1]]
         self.look: Look = look(session.program, self.places)
@@ -182,15 +218,22 @@ class _Eye:
         arrays = session.look(self.look, self.places)
         self._require_finite(arrays)
         sensed = self._sensed()
-        values = {name: sensed[name] if name in sensed else np.array(arrays[self.ports[name]]) for name in self.watch}
+        values = {
+            name: sensed[name] if name in sensed else np.array(arrays[self.ports[name]])
+            for name in self.watch
+        }
         seen: dict[View, np.ndarray] = {}
         for view in self.views:
-            raw, axes = (sensed[view.of], None) if view.of in sensed else (arrays[self.ports[view]], self._axes(view))
+            raw, axes = (
+                (sensed[view.of], None) if view.of in sensed else (arrays[self.ports[view]], self._axes(view))
+            )
             seen[view] = view.seen(raw[None, None], axes, 2)
         return values, seen
 
     def _require_finite(self, arrays: Mapping[tuple[str, str], np.ndarray]) -> None:
-        """Refuse ports that are not finite although all states are, as a batch does: a coupling's output may be."""
+        """Refuse ports that are not finite although all states are, as a batch does: a coupling's output may
+        be.
+        """
         session = self.session
         for (ident, port), values in arrays.items():
             entry = session.document.by_id()[ident]
@@ -204,12 +247,20 @@ class _Eye:
         return program.axes(program.port(*self.ports[view]))
 
     def _sensed(self) -> dict[str, np.ndarray]:
-        world, moment, out = self.session.world, self.session.time * unit_seconds(self.session.document.time_unit) * 1e3, dict[str, np.ndarray]()
+        world, moment, out = (
+            self.session.world,
+            self.session.time * unit_seconds(self.session.document.time_unit) * 1e3,
+            dict[str, np.ndarray](),
+        )
         for name in self.sensors:
             assert world is not None
             signal = world.sensors[name]
             if signal.shape is None:
-                raise ParameterError("is sampled over axes that a model states", where=name, fix="Watch the port of a Sensor that reads it")
+                raise ParameterError(
+                    "is sampled over axes that a model states",
+                    where=name,
+                    fix="Watch the port of a Sensor that reads it",
+                )
             reading = world.sense(name, _axes(signal.shape), moment)
             out[name] = np.array(reading[0] if signal.each else reading)
         return out

@@ -21,7 +21,8 @@ class Stage:
 
     Attributes:
         session: the model in its world.
-        pushes: for each action that pushes when something has happened the path of the boost that stands in the model for it.
+        pushes: for each action that pushes when something has happened the path of the boost that stands in
+            the model for it.
         recording: whether what is recorded is kept now.
         snapshots: what was kept, by name.
         outcome: what an action ended the trial with; empty while it runs.

@@ -23,7 +23,8 @@ class Tally:
 
     Attributes:
         outcome: for each trial the event that ended it, or `time`; empty while it runs.
-        found: for each event (by its number) and trial the document time at which it happened; NaN: it did not.
+        found: for each event (by its number) and trial the document time at which it happened; NaN: it did
+            not.
         measured: for each measure and trial its value; None: it was not taken.
     """
 
@@ -39,7 +40,14 @@ class Tally:
         self._been = np.zeros((len(events), trials), bool)
         self._first: dict[View, np.ndarray] = {}
 
-    def take(self, rows: Sequence[int], times: np.ndarray, seen: Mapping[View, np.ndarray], last: bool, good: np.ndarray | None = None) -> np.ndarray:
+    def take(
+        self,
+        rows: Sequence[int],
+        times: np.ndarray,
+        seen: Mapping[View, np.ndarray],
+        last: bool,
+        good: np.ndarray | None = None,
+    ) -> np.ndarray:
         """Take down looks at some trials: `times` of the looks, and what they saw, (trials, looks, ...).
 
         Args:
@@ -47,10 +55,12 @@ class Tally:
             times: document time of each look.
             seen: for each view what the looks saw.
             last: whether the limit is reached at the last of these looks.
-            good: for each of these trials how many of the looks come before it diverges; none: all do. One that has not ended by then diverges.
+            good: for each of these trials how many of the looks come before it diverges; none: all do. One
+                that has not ended by then diverges.
 
         Returns:
-            For each of these trials how many of the looks belong to it: all while it runs, none when it had ended before.
+            For each of these trials how many of the looks belong to it: all while it runs, none when it had
+            ended before.
         """
         at, n = np.asarray(rows), len(times)
         if not self._first:
@@ -74,7 +84,9 @@ class Tally:
             new = reached.any(axis=1) & np.isnan(self.found[k, at])
             hits[k, new] = reached.argmax(axis=1)[new]
         ends = np.full(len(rows), n)
-        for k in reversed(range(len(self.events))):  # of several at one look the first in the list is the outcome
+        for k in reversed(
+            range(len(self.events))
+        ):  # of several at one look the first in the list is the outcome
             if self.events[k].ends:
                 self._end(rows, running & (hits[k] < n) & (hits[k] <= ends), self.events[k].name)
                 ends = np.minimum(ends, hits[k])
@@ -104,15 +116,26 @@ class Tally:
         """Document time of each event of a trial; None: it did not happen, or the trial diverged."""
         if self.outcome[row] == DIVERGED:
             return {e.name: None for e in self.events}
-        return {e.name: None if np.isnan(t) else float(t) for e, t in zip(self.events, self.found[:, row], strict=True)}
+        return {
+            e.name: None if np.isnan(t) else float(t)
+            for e, t in zip(self.events, self.found[:, row], strict=True)
+        }
 
     def measures_of(self, row: int) -> dict[str, float | list[float] | None]:
-        """Each measure of a trial; None: it was not taken, there was no peak whose position could be measured, or the trial diverged."""
+        """Each measure of a trial; None: it was not taken, there was no peak whose position could be
+        measured, or the trial diverged.
+        """
         if self.outcome[row] == DIVERGED:
             return {m.name: None for m in self.measures}
         found = [values[row] for values in self.measured]
-        absent = [v is None or (m.reduce == PLACE and bool(np.isnan(v).any())) for m, v in zip(self.measures, found, strict=True)]
-        return {m.name: None if no or v is None else v.astype(float).tolist() for m, v, no in zip(self.measures, found, absent, strict=True)}
+        absent = [
+            v is None or (m.reduce == PLACE and bool(np.isnan(v).any()))
+            for m, v in zip(self.measures, found, strict=True)
+        ]
+        return {
+            m.name: None if no or v is None else v.astype(float).tolist()
+            for m, v, no in zip(self.measures, found, absent, strict=True)
+        }
 
     def _end(self, rows: Sequence[int], which: np.ndarray, name: str) -> None:
         for i in np.flatnonzero(which).tolist():
@@ -120,14 +143,23 @@ class Tally:
 
 
 def require(events: Sequence[Event], measures: Sequence[Measure] = ()) -> None:
-    """Refuse events and measures that rows could not tell apart, and those made of events that are not there."""
+    """Refuse events and measures that rows could not tell apart, and those made of events that are not
+    there.
+    """
     names = [*(e.name for e in events), *(m.name for m in measures)]
     twice = next((n for n in names if names.count(n) > 1 or n in (TIME, DIVERGED)), None)
     if twice is not None:
-        what = "is the name of two events or measures" if names.count(twice) > 1 else "is the name of an outcome that every experiment has"
+        what = (
+            "is the name of two events or measures"
+            if names.count(twice) > 1
+            else "is the name of an outcome that every experiment has"
+        )
         raise ParameterError(what, where=twice, fix="Give each a name of its own")
     known = [e.name for e in events]
-    for name, others in [*((e.name, e.others) for e in events), *((m.name, (m.when,) if m.when else ()) for m in measures)]:
+    for name, others in [
+        *((e.name, e.others) for e in events),
+        *((m.name, (m.when,) if m.when else ()) for m in measures),
+    ]:
         for other in others:
             if other not in known:
                 raise UnknownName(f"there is no event {other!r}", where=name, fix=did_you_mean(other, known))
@@ -141,7 +173,11 @@ def _order(events: Sequence[Event]) -> list[int]:
     while left:
         ready = [e for e in left if all(other in done for other in e.others)]
         if not ready:
-            raise ParameterError("is made of itself, so it could never be judged", where=left[0].name, fix="Leave its own name out of those it names")
+            raise ParameterError(
+                "is made of itself, so it could never be judged",
+                where=left[0].name,
+                fix="Leave its own name out of those it names",
+            )
         done += [e.name for e in ready]
         left = [e for e in left if e not in ready]
     number = {e.name: k for k, e in enumerate(events)}

@@ -25,7 +25,8 @@ class View:
 
     Attributes:
         of: path of a port, or name of a sensor of the world.
-        reduce: max, min, mean or sum of all samples, or `place` of the highest peak; empty: the values as they are.
+        reduce: max, min, mean or sum of all samples, or `place` of the highest peak; empty: the values as
+            they are.
         near: only samples around this place, in axis units, one number for each axis; empty: all.
         radius: how far around it, along every axis.
         port: which port a path without one means; empty: of a field its activation, else the default output.
@@ -40,13 +41,17 @@ class View:
     threshold: float = 0.0
 
     def place(self, doc: Document) -> tuple[Entry, str]:
-        """The element and the port that it means in a document; an unknown one is an error that suggests the nearest."""
+        """The element and the port that it means in a document; an unknown one is an error that suggests the
+        nearest.
+        """
         if not self.port:
             return find.shown(doc, self.of)
         entry, port = find.port(doc, self.of, "")
         port = port or self.port
         if port not in find.readable(entry):
-            raise UnknownName(f"{entry.path} has no port {port!r}", fix=f"Ports: {', '.join(find.readable(entry))}")
+            raise UnknownName(
+                f"{entry.path} has no port {port!r}", fix=f"Ports: {', '.join(find.readable(entry))}"
+            )
         return entry, port
 
     def seen(self, values: np.ndarray, axes: Axes | None, lead: int) -> np.ndarray:
@@ -56,7 +61,9 @@ class View:
         inside = None if axes is None else mask(axes, self.near, self.radius)
         if self.reduce == PLACE:
             assert axes is not None
-            found = np.array([self._position(u, axes, inside) for u in values.reshape(-1, *values.shape[lead:])])
+            found = np.array(
+                [self._position(u, axes, inside) for u in values.reshape(-1, *values.shape[lead:])]
+            )
             return found.reshape(values.shape[:lead] if len(axes) == 1 else (*values.shape[:lead], len(axes)))
         flat = values.reshape(*values.shape[:lead], -1)
         if inside is not None:
@@ -64,7 +71,9 @@ class View:
         return REDUCES[self.reduce](flat, axis=-1)
 
     def given(self, values: np.ndarray) -> np.ndarray:
-        """What it makes of the output of its reader (`reader.py`): a position is NaN where there is no peak."""
+        """What it makes of the output of its reader (`reader.py`): a position is NaN where there is no
+        peak.
+        """
         if self.reduce != PLACE:
             return values
         found = np.where(values[..., -1:] > 0.5, values[..., :-1], np.nan)
@@ -77,7 +86,8 @@ class View:
 
 
 def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
-    """Which samples lie within a radius of a place along every axis, the shorter way round where it wraps; None: all do.
+    """Which samples lie within a radius of a place along every axis, the shorter way round where it wraps;
+    None: all do.
 
     Raises:
         AxesError: the place does not fit the axes, or no sample lies there.
@@ -85,7 +95,10 @@ def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
     if not near:
         return None
     if len(near) != len(axes):
-        raise AxesError(f"the place {list(near)} has {len(near)} numbers, and there are {len(axes)} axes", fix="Give one for each axis")
+        raise AxesError(
+            f"the place {list(near)} has {len(near)} numbers, and there are {len(axes)} axes",
+            fix="Give one for each axis",
+        )
     inside = np.ones((), bool)
     for axis, at in zip(axes, near, strict=True):
         away = axis.points - at
@@ -93,5 +106,8 @@ def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
             away = away - axis.range * np.round(away / axis.range)
         inside = inside[..., None] & (np.abs(away) <= radius + 1e-9 * axis.range)
     if not inside.any():
-        raise AxesError(f"no sample lies within {radius:g} of {list(near)}", fix=f"The axes are {', '.join(map(str, axes))}")
+        raise AxesError(
+            f"no sample lies within {radius:g} of {list(near)}",
+            fix=f"The axes are {', '.join(map(str, axes))}",
+        )
     return inside

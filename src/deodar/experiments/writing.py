@@ -18,16 +18,34 @@ from deodar.recording.record import dataset
 RECORDS = "records"
 
 
-def write_records(folder: Path, key: str, doc: Document, record: Sequence[str], course: Course, about: Mapping[str, Any]) -> None:
-    """Write what was recorded of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; what stands there of an earlier try is replaced."""
+def write_records(
+    folder: Path, key: str, doc: Document, record: Sequence[str], course: Course, about: Mapping[str, Any]
+) -> None:
+    """Write what was recorded of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; what stands there of
+    an earlier try is replaced.
+    """
     if record:
         _write(folder / f"{key}.nc", doc, record, course.recorded, course.values, about)
     for label, (time, values) in course.snapshots.items():
         kept = {path: array[None] for path, array in values.items()}
-        _write(folder / f"{key}-{label}.nc", doc, list(kept), np.asarray([time]), kept, {**about, "snapshot": label})
+        _write(
+            folder / f"{key}-{label}.nc",
+            doc,
+            list(kept),
+            np.asarray([time]),
+            kept,
+            {**about, "snapshot": label},
+        )
 
 
-def _write(path: Path, doc: Document, names: Sequence[str], times: np.ndarray, values: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
+def _write(
+    path: Path,
+    doc: Document,
+    names: Sequence[str],
+    times: np.ndarray,
+    values: Mapping[str, np.ndarray],
+    about: Mapping[str, Any],
+) -> None:
     nodes = {node.id: node for node in resolve(doc)[0]}
     variables: list[Any] = []
     for name in names:

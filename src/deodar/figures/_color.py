@@ -19,9 +19,9 @@ NEARLY_FLAT = 1e-9
 def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
     """The colour scale of some arrays.
 
-    Activation gets a diverging map: white at the threshold, blue below, red above, equal steps of activation being equal steps of
-    colour on both sides of it. The threshold is always part of it, or the noise of a silent field would look like peaks. Everything
-    else gets a sequential map.
+    Activation gets a diverging map: white at the threshold, blue below, red above, equal steps of activation
+    being equal steps of colour on both sides of it. The threshold is always part of it, or the noise of a
+    silent field would look like peaks. Everything else gets a sequential map.
     """
     every = [np.asarray(a, float) for a in arrays]
     low, high = min(float(np.nanmin(a)) for a in every), max(float(np.nanmax(a)) for a in every)
@@ -30,11 +30,16 @@ def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
     if threshold is not None:
         low, high = min(low, threshold), max(high, threshold)
         reach = max(threshold - low, high - threshold)
-        return ScalarMappable(Normalize(low, high), _part(_style.DIVERGING, (low - threshold) / reach, (high - threshold) / reach))
+        return ScalarMappable(
+            Normalize(low, high),
+            _part(_style.DIVERGING, (low - threshold) / reach, (high - threshold) / reach),
+        )
     return ScalarMappable(Normalize(low, high), _style.SEQUENTIAL)
 
 
-def bar(place: FigureBase, colors: ScalarMappable, axes: Any, label: str, threshold: float | None = None) -> None:
+def bar(
+    place: FigureBase, colors: ScalarMappable, axes: Any, label: str, threshold: float | None = None
+) -> None:
     """The colour bar beside axes, with a line at the threshold."""
     made = place.colorbar(colors, ax=axes, label=label, pad=0.02, aspect=18 if isinstance(axes, Axes) else 22)
     made.outline.set_linewidth(0.6)  # pyright: ignore[reportCallIssue]
@@ -48,4 +53,6 @@ def _part(name: str, low: float, high: float) -> Colormap:
     import matplotlib
 
     whole = matplotlib.colormaps[name]
-    return LinearSegmentedColormap.from_list(f"{name} part", whole(0.5 + 0.5 * np.linspace(low, high, 256)), 256)
+    return LinearSegmentedColormap.from_list(
+        f"{name} part", whole(0.5 + 0.5 * np.linspace(low, high, 256)), 256
+    )

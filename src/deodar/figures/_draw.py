@@ -13,7 +13,10 @@ from deodar.figures._view import View
 
 
 def alone(
-    size: Callable[[View], tuple[float, float]], fill: Callable[[FigureBase, View], None], variable: xarray.DataArray, view: Mapping[str, Any]
+    size: Callable[[View], tuple[float, float]],
+    fill: Callable[[FigureBase, View], None],
+    variable: xarray.DataArray,
+    view: Mapping[str, Any],
 ) -> Figure:
     """A figure of the size that a kind asks for, filled by it."""
     looked = View(variable, **view)

@@ -19,7 +19,9 @@ def claim(path: Path, force: bool = False) -> str:
     format = path.suffix.lower().removeprefix(".")
     if format not in FORMATS:
         what = f"the name ends in {path.suffix!r}" if path.suffix else "the name has no ending"
-        raise RecordError(f"{what}, which names no format of figures", where=str(path), fix="End it in .png, .svg or .pdf")
+        raise RecordError(
+            f"{what}, which names no format of figures", where=str(path), fix="End it in .png, .svg or .pdf"
+        )
     output.claim(path, force)
     return format
 

@@ -19,8 +19,16 @@ MOST_TRIALS = 50
 MOST_CURVES = 12
 
 
-def curves(ax: Axes, v: xarray.DataArray, x: np.ndarray, across: str, view: View, labels: dict[str, Any] | None = None) -> None:
-    """One curve over the dimension `across` for each remaining point of `v`; trials are thin lines with their mean.
+def curves(
+    ax: Axes,
+    v: xarray.DataArray,
+    x: np.ndarray,
+    across: str,
+    view: View,
+    labels: dict[str, Any] | None = None,
+) -> None:
+    """One curve over the dimension `across` for each remaining point of `v`; trials are thin lines with their
+    mean.
 
     `labels` names the points of dimensions that are neither trial nor `across` (places of a field).
     """
@@ -39,11 +47,21 @@ def curves(ax: Axes, v: xarray.DataArray, x: np.ndarray, across: str, view: View
     for k, point in enumerate(np.ndindex(*grid)):
         rows, label = flat[point].reshape(-1, len(x)), _label(v, others, point, labels)
         if many:
-            thin: dict[str, Any] = {"alpha": min(0.5, max(0.12, 4 / len(rows))), "linewidth": 0.5, "rasterized": len(x) > 5000}
+            thin: dict[str, Any] = {
+                "alpha": min(0.5, max(0.12, 4 / len(rows))),
+                "linewidth": 0.5,
+                "rasterized": len(x) > 5000,
+            }
             for row in rows[:MOST_TRIALS]:
                 ax.plot(x, row, color=colors[k], **(thin | marker))
             rows = rows.mean(0, keepdims=True, dtype=float)
-        ax.plot(x, rows[0], color=colors[k], label=label or (f"mean of {v.sizes[TRIAL]} trials" if many else None), **marker)
+        ax.plot(
+            x,
+            rows[0],
+            color=colors[k],
+            label=label or (f"mean of {v.sizes[TRIAL]} trials" if many else None),
+            **marker,
+        )
     level(ax, view)
     if many or any(grid_size > 1 for grid_size in grid):
         ax.legend(loc="best")
@@ -64,7 +82,9 @@ def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...]) -> li
     return [_style.COLORS[k % len(_style.COLORS)] for k in range(n)]
 
 
-def _label(v: xarray.DataArray, others: list[str], point: tuple[int, ...], labels: dict[str, Any] | None) -> str:
+def _label(
+    v: xarray.DataArray, others: list[str], point: tuple[int, ...], labels: dict[str, Any] | None
+) -> str:
     parts: list[str] = []
     for dim, k in zip(others, point, strict=True):
         if labels and dim in labels:

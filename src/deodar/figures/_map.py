@@ -16,7 +16,14 @@ def paint(ax: Axes, values: Any, view: View, across: str, up: str, colors: Scala
     """The values, an array (across, up), with the labels of both axes."""
     x, y = view.extent(across), view.extent(up)
     norm: Any = colors.norm
-    ax.imshow(values.T, extent=(*x, *y), origin="lower", cmap=colors.cmap, norm=norm, aspect="equal" if square(view, across, up) else "auto")
+    ax.imshow(
+        values.T,
+        extent=(*x, *y),
+        origin="lower",
+        cmap=colors.cmap,
+        norm=norm,
+        aspect="equal" if square(view, across, up) else "auto",
+    )
     ax.set_xlabel(view.axis_label(across))
     ax.set_ylabel(view.axis_label(up))
     for spine in ax.spines.values():

@@ -25,7 +25,9 @@ def kinds() -> dict[str, ModuleType]:
 
 
 def choose(view: View) -> str:
-    """The kind that suits a variable: exactly one says so, unless times, places or axes were asked for that settle it."""
+    """The kind that suits a variable: exactly one says so, unless times, places or axes were asked for that
+    settle it.
+    """
     if view.axes is not None:
         return "projection"
     if view.places is not None and view.space:
@@ -52,7 +54,9 @@ def draw(views: Sequence[View], name: str | None = None) -> Figure:
     if not views:
         raise RecordError("there is no variable to draw")
     if len(views) > MOST_PANELS:
-        raise RecordError(f"{len(views)} variables are too many for one figure", fix=f"Name at most {MOST_PANELS} of them")
+        raise RecordError(
+            f"{len(views)} variables are too many for one figure", fix=f"Name at most {MOST_PANELS} of them"
+        )
     chosen = [(kind(view, name), view) for view in views]
     with _style.style():
         sizes = [k.size(view) for k, view in chosen]

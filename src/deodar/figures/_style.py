@@ -65,7 +65,9 @@ RC: dict[str, Any] = {
 def style() -> Generator[None]:
     """The look, for as long as it is needed; the user's own settings are left alone."""
     with matplotlib.rc_context(cast(Any, RC)), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph .* missing")  # a name in a script that the font lacks: boxes, not a failure
+        warnings.filterwarnings(
+            "ignore", message="Glyph .* missing"
+        )  # a name in a script that the font lacks: boxes, not a failure
         yield
 
 

@@ -24,9 +24,11 @@ class View:
         variable: a variable of a record; its dimensions are sweep paths, trial, time and axes.
         at: times, in the record's unit; the nearest recorded ones are taken. None: what suits the kind.
         trial: number of the trial. None: all of them where lines are drawn, else the first.
-        where: for each sweep path the value to look at. None: all of them where lines are drawn, else the first.
+        where: for each sweep path the value to look at. None: all of them where lines are drawn, else the
+            first.
         axes: names of the axes to keep in a projection.
-        places: for time courses of fields: positions, one number for each axis. None: where the field is most active.
+        places: for time courses of fields: positions, one number for each axis. None: where the field is most
+            active.
         reduce: how a projection treats the other axes: maximum or integral.
     """
 
@@ -41,14 +43,19 @@ class View:
     def __post_init__(self) -> None:
         v = self.variable
         if not isinstance(v, xarray.DataArray):
-            raise RecordError(f"a variable of a record is drawn, not {type(v).__name__}", fix="For example dd.space_time(data['u.activation'])")
+            raise RecordError(
+                f"a variable of a record is drawn, not {type(v).__name__}",
+                fix="For example dd.space_time(data['u.activation'])",
+            )
         if v.dtype.kind not in "biuf":
             raise RecordError(f"holds {v.dtype}, which cannot be drawn", where=self.name)
         if not v.size:
             raise RecordError("holds nothing: the run was stopped before its first record", where=self.name)
         for path in self.where or {}:
             if path not in self.sweeps:
-                raise RecordError(f"was not swept over {path!r}", where=self.name, fix=did_you_mean(path, self.sweeps))
+                raise RecordError(
+                    f"was not swept over {path!r}", where=self.name, fix=did_you_mean(path, self.sweeps)
+                )
         if self.trial is not None:
             numbers = v[TRIAL].values.tolist() if TRIAL in v.dims else [0]
             if self.trial not in numbers:
@@ -56,16 +63,22 @@ class View:
                 raise RecordError(f"has no trial {self.trial}", where=self.name, fix=f"There is: {shown}")
         for axis in self.axes or ():
             if axis not in self.space:
-                raise RecordError(f"has no axis {axis!r}", where=self.name, fix=did_you_mean(axis, self.space))
+                raise RecordError(
+                    f"has no axis {axis!r}", where=self.name, fix=did_you_mean(axis, self.space)
+                )
         if self.reduce not in REDUCTIONS:
-            raise RecordError(f"there is no reduction {self.reduce!r}", fix=did_you_mean(self.reduce, REDUCTIONS))
+            raise RecordError(
+                f"there is no reduction {self.reduce!r}", fix=did_you_mean(self.reduce, REDUCTIONS)
+            )
         for t in self.at or ():
             if not self.times[0] - self.margin <= t <= self.times[-1] + self.margin:
                 raise RecordError(
-                    f"was not recorded at {t:g}", where=self.name, fix=f"Recorded are times from {self.times[0]:g} to {self.times[-1]:g}"
+                    f"was not recorded at {t:g}",
+                    where=self.name,
+                    fix=f"Recorded are times from {self.times[0]:g} to {self.times[-1]:g}",
                 )
 
-    # -------------------------------------------------------------------------------- what there is
+    # ------------------------------------------------------------------------------------------ what there is
 
     @property
     def name(self) -> str:
@@ -76,7 +89,9 @@ class View:
     def space(self) -> list[str]:
         """Dimensions that are axes of the field: those that carry bounds, and those without a coordinate."""
         v = self.variable
-        return [str(d) for d in v.dims if d not in (TIME, TRIAL) and (d not in v.coords or "lower" in v[d].attrs)]
+        return [
+            str(d) for d in v.dims if d not in (TIME, TRIAL) and (d not in v.coords or "lower" in v[d].attrs)
+        ]
 
     @property
     def sweeps(self) -> list[str]:
@@ -89,7 +104,9 @@ class View:
         v = self.variable
         if TIME not in v.dims:
             return np.asarray([float(v[TIME])]) if TIME in v.coords else np.zeros(1)
-        return np.asarray(v[TIME].values, float) if TIME in v.coords else np.arange(v.sizes[TIME], dtype=float)
+        return (
+            np.asarray(v[TIME].values, float) if TIME in v.coords else np.arange(v.sizes[TIME], dtype=float)
+        )
 
     @property
     def margin(self) -> float:
@@ -108,7 +125,7 @@ class View:
         """How many trials are looked at."""
         return self.variable.sizes.get(TRIAL, 1) if self.trial is None else 1
 
-    # -------------------------------------------------------------------------------- what is looked at
+    # -------------------------------------------------------------------------------------- what is looked at
 
     def chosen(self) -> xarray.DataArray:
         """The variable at the trial and sweep values that were asked for; other dimensions stay."""
@@ -118,7 +135,11 @@ class View:
         for path, value in (self.where or {}).items():
             known = v[path].values
             if not np.isclose(known, value, rtol=1e-6).any():
-                raise RecordError(f"was not run at {path} = {value:g}", where=self.name, fix=f"There is: {', '.join(f'{k:g}' for k in known[:12])}")
+                raise RecordError(
+                    f"was not run at {path} = {value:g}",
+                    where=self.name,
+                    fix=f"There is: {', '.join(f'{k:g}' for k in known[:12])}",
+                )
             v = v.sel({path: value}, method="nearest")
         return v
 
@@ -149,14 +170,20 @@ class View:
     def instant(self) -> int:
         """Index of the one time that is looked at: the last, where none is asked for."""
         if self.at is not None and len(self.at) != 1:
-            raise RecordError(f"{len(self.at)} times were given, and one is drawn", where=self.name, fix="Several times: --kind snapshots")
+            raise RecordError(
+                f"{len(self.at)} times were given, and one is drawn",
+                where=self.name,
+                fix="Several times: --kind snapshots",
+            )
         return self.steps([len(self.times) - 1])[0]
 
-    # -------------------------------------------------------------------------------- words
+    # -------------------------------------------------------------------------------------------------- words
 
     def label(self) -> str:
         """What the variable is, for an axis or a colour bar."""
-        return _with_unit(str(self.variable.attrs.get("long_name") or self.name), self.variable.attrs.get("units"))
+        return _with_unit(
+            str(self.variable.attrs.get("long_name") or self.name), self.variable.attrs.get("units")
+        )
 
     def axis_label(self, dim: str) -> str:
         """Name and unit of a dimension."""

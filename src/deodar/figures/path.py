@@ -46,7 +46,9 @@ def path_figure(variable: xarray.DataArray, arena: World | None = None, **view: 
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked: never, since nothing says that two samples are a place."""
+    """Whether this is how one would look at the variable unasked: never, since nothing says that two samples
+    are a place.
+    """
     return False
 
 
@@ -87,12 +89,20 @@ def animate_path(
 
     path, looked = Path(file), View(variable, **view)
     if path.suffix.lower() != ".gif":
-        raise RecordError(f"the name ends in {path.suffix!r}; a film of a path is a GIF", where=str(path), fix="End it in .gif")
+        raise RecordError(
+            f"the name ends in {path.suffix!r}; a film of a path is a GIF",
+            where=str(path),
+            fix="End it in .gif",
+        )
     here = _arena(arena)
     output.claim(path, force)
     lines, times = _lines(looked), looked.times[::stride]
     if not 2 <= len(times) <= MOST_FRAMES:
-        raise RecordError(f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}", where=looked.name, fix="Choose another stride=")
+        raise RecordError(
+            f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}",
+            where=looked.name,
+            fix="Choose another stride=",
+        )
     left, low, right, high = _borders(here)
     scale = width * FINER / (right - left)
     height = round((high - low) * scale / FINER)
@@ -113,16 +123,25 @@ def animate_path(
         for n, line in enumerate(lines):
             colour = _style.COLORS[n % len(_style.COLORS)]
             if k:
-                pen.line([at(x, y) for x, y in line[: k + 1, :2]], fill=colour, width=2 * FINER, joint="curve")
+                pen.line(
+                    [at(x, y) for x, y in line[: k + 1, :2]], fill=colour, width=2 * FINER, joint="curve"
+                )
             x, y = line[k, :2]
-            pen.ellipse([*at(x - radius, y + radius), *at(x + radius, y - radius)], outline=colour, width=2 * FINER)
+            pen.ellipse(
+                [*at(x - radius, y + radius), *at(x + radius, y - radius)], outline=colour, width=2 * FINER
+            )
             if line.shape[1] > 2:
                 ahead = x + radius * math.cos(line[k, 2]), y + radius * math.sin(line[k, 2])
                 pen.line([at(x, y), at(*ahead)], fill=colour, width=2 * FINER)
         frames.append(frame.resize((width, height), Image.Resampling.BOX))
     unit = str(variable["time"].attrs.get("units", "ms")) if "time" in variable.coords else "ms"
     step = 1e3 * unit_seconds(unit) * float(np.diff(times).mean()) / speed
-    output.write(path, lambda beside: frames[0].save(beside, format="GIF", save_all=True, append_images=frames[1:], duration=max(20, step), loop=0))
+    output.write(
+        path,
+        lambda beside: frames[0].save(
+            beside, format="GIF", save_all=True, append_images=frames[1:], duration=max(20, step), loop=0
+        ),
+    )
     return path
 
 
@@ -146,7 +165,12 @@ def _paint(ax: Axes, view: View, arena: World | None) -> None:
             radius = here.vehicle.radius / here.scale
             ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=0.8))
             if line.shape[1] > 2:
-                ax.plot([x, x + radius * math.cos(line[-1, 2])], [y, y + radius * math.sin(line[-1, 2])], color=colour, linewidth=0.8)
+                ax.plot(
+                    [x, x + radius * math.cos(line[-1, 2])],
+                    [y, y + radius * math.sin(line[-1, 2])],
+                    color=colour,
+                    linewidth=0.8,
+                )
     ax.set_aspect("equal")
     unit = f" ({arena.unit})" if isinstance(arena, Arena) else ""
     ax.set_xlabel(f"x{unit}")
@@ -174,7 +198,11 @@ def _lines(view: View) -> list[np.ndarray]:
     """Paths (times, 2 or 3), one for each trial and point of a sweep that is looked at."""
     v = view.chosen()
     if len(view.space) != 1 or v.sizes[view.space[0]] not in (2, 3) or "time" not in v.dims:
-        raise RecordError("is no path: that is x and y (and heading) over time", where=view.name, fix="Record what a sensor place or pose shows")
+        raise RecordError(
+            "is no path: that is x and y (and heading) over time",
+            where=view.name,
+            fix="Record what a sensor place or pose shows",
+        )
     rest = [d for d in v.dims if d not in ("time", view.space[0])]
     values = v.transpose(*rest, "time", view.space[0]).values
     return list(values.reshape(-1, *values.shape[-2:]))

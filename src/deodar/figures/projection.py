@@ -1,4 +1,6 @@
-"""A field of several dimensions, seen along some of them: the maximum or the integral onto one or two axes."""
+"""A field of several dimensions, seen along some of them: the maximum or the integral onto one or two
+axes.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,9 @@ def fill(place: FigureBase, view: View) -> None:
     colors = _color.scale(planes, threshold)
     for ax, onto, plane in zip(grid, pairs, planes, strict=False):
         _panel(ax, view, onto, plane, colors, threshold)
-    shown = ", ".join(t for t in (view.time_label(view.times[k]) if len(view.times) > 1 else "", view.note()) if t)
+    shown = ", ".join(
+        t for t in (view.time_label(view.times[k]) if len(view.times) > 1 else "", view.note()) if t
+    )
     if len(pairs[0]) == 2:
         _color.bar(place, colors, grid if len(grid) > 1 else grid[0], _label(view, pairs), threshold)
     if shown and len(grid) == 1:
@@ -65,7 +69,9 @@ def fill(place: FigureBase, view: View) -> None:
         place.suptitle(shown, fontsize=_style.RC["axes.titlesize"])
 
 
-def _panel(ax: Axes, view: View, onto: tuple[str, ...], values: np.ndarray, colors: Any, threshold: float | None) -> None:
+def _panel(
+    ax: Axes, view: View, onto: tuple[str, ...], values: np.ndarray, colors: Any, threshold: float | None
+) -> None:
     if len(onto) == 2:
         _map.paint(ax, values, view, onto[0], onto[1], colors)
         return
@@ -79,11 +85,17 @@ def _panel(ax: Axes, view: View, onto: tuple[str, ...], values: np.ndarray, colo
 def _onto(view: View) -> list[tuple[str, ...]]:
     space = view.space
     if len(space) < 2:
-        raise RecordError(f"has {len(space)} axes; a projection needs two or more", where=view.name, fix="Type: --kind snapshot")
+        raise RecordError(
+            f"has {len(space)} axes; a projection needs two or more",
+            where=view.name,
+            fix="Type: --kind snapshot",
+        )
     if view.axes is None:
         return list(itertools.combinations(space, 2))
     if not 1 <= len(view.axes) <= 2 or len(set(view.axes)) < len(view.axes):
-        raise RecordError(f"a projection goes onto one axis or two, not {', '.join(view.axes) or 'none'}", where=view.name)
+        raise RecordError(
+            f"a projection goes onto one axis or two, not {', '.join(view.axes) or 'none'}", where=view.name
+        )
     return [tuple(view.axes)]
 
 
@@ -98,7 +110,11 @@ def _project(values: xarray.DataArray, onto: tuple[str, ...], view: View) -> np.
 def _label(view: View, pairs: list[tuple[str, ...]]) -> str:
     away = [d for d in view.space if d not in pairs[0]]
     over = f" over {', '.join(map(str, away))}" if len(pairs) == 1 and away else ""
-    return f"{view.reduce}{over} of {view.label()}" if len(pairs) == 1 and away else f"{view.reduce} of {view.label()}"
+    return (
+        f"{view.reduce}{over} of {view.label()}"
+        if len(pairs) == 1 and away
+        else f"{view.reduce} of {view.label()}"
+    )
 
 
 def _grid(n: int) -> tuple[int, int]:

@@ -20,7 +20,8 @@ ACROSS = False
 def snapshot(variable: xarray.DataArray, **view: Any) -> Figure:
     """A figure of one variable at one time, by default the last.
 
-    A value of a node is drawn over the swept parameter or the trials, a field of one dimension as a curve, of two as a map.
+    A value of a node is drawn over the swept parameter or the trials, a field of one dimension as a curve, of
+    two as a map.
 
     Args:
         variable: a variable of a record, of up to two dimensions.
@@ -49,7 +50,11 @@ def fill(place: FigureBase, view: View) -> None:
 def paint(ax: Axes, view: View) -> None:
     """Draw into axes."""
     if len(view.space) > 2:
-        raise RecordError(f"has {len(view.space)} axes; a snapshot has at most two", where=view.name, fix="Type: --kind projection")
+        raise RecordError(
+            f"has {len(view.space)} axes; a snapshot has at most two",
+            where=view.name,
+            fix="Type: --kind projection",
+        )
     k = view.instant()
     if len(view.space) == 2:
         _plane(ax, view, k)
@@ -74,12 +79,18 @@ def _plane(ax: Axes, view: View, k: int) -> None:
 
 
 def _values(ax: Axes, view: View, k: int) -> None:
-    """A value for each point of a sweep, each trial a dot, with their mean; without a sweep over the trials."""
+    """A value for each point of a sweep, each trial a dot, with their mean; without a sweep over the
+    trials.
+    """
     v = view.chosen()
     v = v.isel({TIME: k}) if TIME in v.dims else v
     swept = [d for d in view.sweeps if d in v.dims]
     if len(swept) > 1:
-        raise RecordError(f"was swept over {', '.join(swept)}; one of them is drawn", where=view.name, fix="Choose values with --where PATH=VALUE")
+        raise RecordError(
+            f"was swept over {', '.join(swept)}; one of them is drawn",
+            where=view.name,
+            fix="Choose values with --where PATH=VALUE",
+        )
     if not swept:
         across = v[TRIAL].values if TRIAL in v.dims else np.zeros(1)
         ax.plot(across, np.atleast_1d(v.values), "o", markersize=3, color=_style.COLORS[0])

@@ -22,7 +22,8 @@ ROW = 6
 
 
 def snapshots(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of a field of one or two dimensions at several times, by default four from the first record to the last.
+    """A figure of a field of one or two dimensions at several times, by default four from the first record to
+    the last.
 
     Args:
         variable: a variable of a record.
@@ -41,14 +42,18 @@ def size(view: View) -> tuple[float, float]:
     rows, columns = _grid(len(_steps(view)))
     shape = _map.shape(view, *view.space) if len(view.space) == 2 else 0.9
     wide = (_style.DOUBLE - 1.1) / max(columns, 3)
-    return _style.DOUBLE if columns > 2 else 1.1 + columns * wide, min(9.0, 0.7 + rows * (wide * shape + 0.25))
+    return _style.DOUBLE if columns > 2 else 1.1 + columns * wide, min(
+        9.0, 0.7 + rows * (wide * shape + 0.25)
+    )
 
 
 def fill(place: FigureBase, view: View) -> None:
     """Draw into a figure, or into a part of one."""
     if len(view.space) not in (1, 2):
         fix = "Type: --kind projection" if view.space else "Type: --kind time_course"
-        raise RecordError(f"has {len(view.space)} axes; a sequence of snapshots has one or two", where=view.name, fix=fix)
+        raise RecordError(
+            f"has {len(view.space)} axes; a sequence of snapshots has one or two", where=view.name, fix=fix
+        )
     steps = _steps(view)
     rows, columns = _grid(len(steps))
     grid = place.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
@@ -77,7 +82,11 @@ def _steps(view: View) -> list[int]:
     n = len(view.times)
     steps = view.steps(np.unique(np.linspace(0, n - 1, min(MOST, n)).round().astype(int)).tolist())
     if len(steps) > MOST_ASKED:
-        raise RecordError(f"{len(steps)} times are too many for one figure", where=view.name, fix=f"Give at most {MOST_ASKED}")
+        raise RecordError(
+            f"{len(steps)} times are too many for one figure",
+            where=view.name,
+            fix=f"Give at most {MOST_ASKED}",
+        )
     return steps
 
 

@@ -45,8 +45,16 @@ def fill(place: FigureBase, view: View) -> None:
 def paint(ax: Axes, view: View) -> None:
     """Draw into axes."""
     if len(view.space) != 1 or len(view.times) < 2:
-        what = f"has {len(view.space)} axes; space-time needs one" if len(view.space) != 1 else "was recorded at one time only"
-        raise RecordError(what, where=view.name, fix="Type: --kind snapshot" if len(view.space) < 3 else "Type: --kind projection")
+        what = (
+            f"has {len(view.space)} axes; space-time needs one"
+            if len(view.space) != 1
+            else "was recorded at one time only"
+        )
+        raise RecordError(
+            what,
+            where=view.name,
+            fix="Type: --kind snapshot" if len(view.space) < 3 else "Type: --kind projection",
+        )
     values, times, space = view.one().values, view.times, view.space[0]
     colors = _color.scale([values], view.threshold)
     half = 0.5 * float(np.diff(times).mean())

@@ -19,7 +19,8 @@ PLACE = "place"
 
 
 def time_course(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of one variable over time; several trials are thin lines with their mean, sweep points are colours.
+    """A figure of one variable over time; several trials are thin lines with their mean, sweep points are
+    colours.
 
     Args:
         variable: a variable of a record.
@@ -64,15 +65,25 @@ def _at_places(v: xarray.DataArray, view: View) -> tuple[xarray.DataArray, dict[
         found = [np.unravel_index(int(np.argmax(top.transpose(*space).values)), [v.sizes[d] for d in space])]
     else:
         found = [_nearest(view, np.atleast_1d(np.asarray(p, float))) for p in view.places]
-    chosen = xarray.concat([v.isel(dict(zip(space, map(int, k), strict=True)), drop=True) for k in found], dim=PLACE)
-    labels = [", ".join(f"{view.axis_label(d).split(' (')[0]} = {view.points(d)[i]:g}" for d, i in zip(space, k, strict=True)) for k in found]
+    chosen = xarray.concat(
+        [v.isel(dict(zip(space, map(int, k), strict=True)), drop=True) for k in found], dim=PLACE
+    )
+    labels = [
+        ", ".join(
+            f"{view.axis_label(d).split(' (')[0]} = {view.points(d)[i]:g}"
+            for d, i in zip(space, k, strict=True)
+        )
+        for k in found
+    ]
     return chosen, {PLACE: labels}
 
 
 def _nearest(view: View, place: np.ndarray) -> tuple[int, ...]:
     if len(place) != len(view.space):
         raise RecordError(
-            f"a place has {len(view.space)} numbers ({', '.join(view.space)}), not {len(place)}", where=view.name, fix="For example --place 30,5"
+            f"a place has {len(view.space)} numbers ({', '.join(view.space)}), not {len(place)}",
+            where=view.name,
+            fix="For example --place 30,5",
         )
     for d, p in zip(view.space, place, strict=True):
         low, high = view.extent(d)

@@ -1,7 +1,8 @@
-"""The examples that come with deodar, found by name: `example:selection` stands wherever a file of a model does.
+"""The examples that come with deodar, found by name: `example:selection` stands wherever a file of a model
+does.
 
-An example is a document in the folder `examples`, `NAME.json`, with its notes, or a script, `NAME.py`, with its docstring. `order.txt` there
-says which documents come first.
+An example is a document in the folder `examples`, `NAME.json`, with its notes, or a script, `NAME.py`, with
+its docstring. `order.txt` there says which documents come first.
 """
 
 from __future__ import annotations
@@ -56,11 +57,16 @@ def file(name: str) -> Path:
     if name in scripts():
         return folder() / f"{name}.py"
     known = [*names(), *scripts()]
-    raise UnknownName(f"there is no example {name!r}", fix=f"{did_you_mean(name, known)}. All examples: deodar examples".removeprefix(". "))
+    raise UnknownName(
+        f"there is no example {name!r}",
+        fix=f"{did_you_mean(name, known)}. All examples: deodar examples".removeprefix(". "),
+    )
 
 
 def parts(name: str) -> list[Path]:
-    """List the files that an example needs, its own first: the arrays of a document, the documents that a script reads."""
+    """List the files that an example needs, its own first: the arrays of a document, the documents that a
+    script reads.
+    """
     own = file(name)
     text = own.read_text(encoding="utf-8")
     if own.suffix == ".json":
@@ -81,7 +87,10 @@ def named(path: str | Path) -> Path:
         return Path(path)
     name = text.removeprefix(PREFIX)
     if name in scripts():
-        raise UnknownName(f"the example {name!r} is a script", fix=f"Type: deodar examples copy {name}, then python {name}.py")
+        raise UnknownName(
+            f"the example {name!r} is a script",
+            fix=f"Type: deodar examples copy {name}, then python {name}.py",
+        )
     return file(name)
 
 
@@ -91,16 +100,22 @@ def holds(path: Path) -> bool:
 
 
 def near(path: Path) -> str:
-    """Suggest what a missing file may have meant: an example, or a document in the same folder with a similar name."""
+    """Suggest what a missing file may have meant: an example, or a document in the same folder with a similar
+    name.
+    """
     if path.stem in names() and path.suffix in ("", ".json"):
         return f"Did you mean '{PREFIX}{path.stem}'?"
     there = [p.name for p in path.parent.glob("*.json")] if path.parent.is_dir() else []
-    found = difflib.get_close_matches(path.name, there, 1) or [f"{PREFIX}{n}" for n in difflib.get_close_matches(path.stem, names(), 1)]
+    found = difflib.get_close_matches(path.name, there, 1) or [
+        f"{PREFIX}{n}" for n in difflib.get_close_matches(path.stem, names(), 1)
+    ]
     return f"Did you mean {found[0]!r}?" if found else ""
 
 
 def about(name: str) -> dict[str, Any]:
-    """Return the title and the notes of an example; of a script its name and the first paragraph of its docstring."""
+    """Return the title and the notes of an example; of a script its name and the first paragraph of its
+    docstring.
+    """
     own = file(name)
     text = own.read_text(encoding="utf-8")
     if own.suffix == ".py":
@@ -117,7 +132,9 @@ def sentence(name: str) -> str:
 
 
 def first_sentence(notes: str, title: str) -> str:
-    """Return the first sentence of notes, which may begin with the title; a long one is cut where it pauses."""
+    """Return the first sentence of notes, which may begin with the title; a long one is cut where it
+    pauses.
+    """
     rest = " ".join(notes.split())
     if rest.lower().startswith(f"{title.lower()}."):
         rest = rest[len(title) + 1 :].strip()

@@ -46,21 +46,26 @@ def require(path: str | Path) -> Path:
     """Return the path of a file that is to be opened; `example:NAME` stands for an example.
 
     Raises:
-        DocumentError: there is no such file; an example or a document in its folder with a similar name is suggested.
+        DocumentError: there is no such file; an example or a document in its folder with a similar name is
+            suggested.
         UnknownName: there is no example of that name.
     """
     path = examples.named(path)
     try:
         missing = not path.exists()
     except (OSError, ValueError) as error:
-        raise DocumentError(f"cannot be read: {getattr(error, 'strerror', None) or error}", where=str(path)) from None
+        raise DocumentError(
+            f"cannot be read: {getattr(error, 'strerror', None) or error}", where=str(path)
+        ) from None
     if missing:
         raise DocumentError("there is no such file", where=str(path), fix=examples.near(path))
     return path
 
 
 def tool_of(path: str | Path) -> ModuleType | None:
-    """The importer that knows a file, by what it holds; None for our own documents and for what nobody knows."""
+    """The importer that knows a file, by what it holds; None for our own documents and for what nobody
+    knows.
+    """
     if not isinstance(path, (str, Path)):
         return None
     try:
@@ -96,19 +101,25 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
             raise DocumentError("is not a file")
         tool = tool_of(path)
         if tool is None:
-            raise DocumentError("is of no tool that can be imported", fix=f"There is: {', '.join(tools())}. Our own documents need no import")
+            raise DocumentError(
+                "is of no tool that can be imported",
+                fix=f"There is: {', '.join(tools())}. Our own documents need no import",
+            )
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; at most {MOST_BYTES // 2**20} are read")
         return tool.read(path.read_bytes(), path.name, bugs)
     except DeodarError as error:
-        raise DocumentError([Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]) from None
+        raise DocumentError(
+            [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
+        ) from None
     except OSError as error:
         raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:
-    """Read a document, or a file of another tool (cosivina); what could not be carried stands in the model's notes.
+    """Read a document, or a file of another tool (cosivina); what could not be carried stands in the model's
+    notes.
 
     Args:
         path: the file, or `example:NAME` for an example that comes with deodar.

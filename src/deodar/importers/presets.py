@@ -21,11 +21,14 @@ STRUCTURE = ("name", "axes")
 """What a preset does not change."""
 
 ENDS = "boundary"
-"""Nor what lies beyond the ends: whether the axes themselves wrap is read from a whole file, and a preset may be a part of one."""
+"""Nor what lies beyond the ends: whether the axes themselves wrap is read from a whole file, and a preset may
+be a part of one.
+"""
 
 
 def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> Report:
-    """Give the elements of a model the values that elements of the same label and class have in a file; connections stay.
+    """Give the elements of a model the values that elements of the same label and class have in a file;
+    connections stay.
 
     The change is one step of the model's history. A session takes it over by `model.document`.
 
@@ -35,7 +38,8 @@ def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> Report:
         bugs: whether known errors of the other tool are reproduced instead of corrected.
 
     Returns:
-        A report: every parameter that was changed is `carried`; `dropped` is what did not match, on either side.
+        A report: every parameter that was changed is `carried`; `dropped` is what did not match, on either
+        side.
 
     Raises:
         DocumentError: if the file cannot be read; the model then stays as it is.
@@ -53,7 +57,15 @@ def applied(doc: Document, preset: Document) -> tuple[Document, list[Line]]:
     for entry in doc.entries:
         other = by.pop(entry.names, None)
         if other is None:
-            lines.append(Line(entry.path, "element", type(entry.element).__name__, "dropped", "the file has no such element; it keeps its values"))
+            lines.append(
+                Line(
+                    entry.path,
+                    "element",
+                    type(entry.element).__name__,
+                    "dropped",
+                    "the file has no such element; it keeps its values",
+                )
+            )
             continue
         strange = _differs(entry, other)
         if strange:
@@ -61,7 +73,10 @@ def applied(doc: Document, preset: Document) -> tuple[Document, list[Line]]:
             continue
         doc, changed = _values(doc, entry, other)
         lines += changed
-    return doc, lines + [Line(e.path, "element", type(e.element).__name__, "dropped", "the model has no such element") for e in by.values()]
+    return doc, lines + [
+        Line(e.path, "element", type(e.element).__name__, "dropped", "the model has no such element")
+        for e in by.values()
+    ]
 
 
 def _differs(here: Entry, there: Entry) -> str:
@@ -95,7 +110,15 @@ def _values(doc: Document, here: Entry, there: Entry) -> tuple[Document, list[Li
         for path, value in _leaves(old, new, p.name):
             if path.rpartition(".")[2] == ENDS:
                 if _ends(here, get(here.element, path)) != _ends(there, value):
-                    lines.append(Line(here.path, "parameter", path, "dropped", "what lies beyond the ends stays as it is"))
+                    lines.append(
+                        Line(
+                            here.path,
+                            "parameter",
+                            path,
+                            "dropped",
+                            "what lies beyond the ends stays as it is",
+                        )
+                    )
                 continue
             try:
                 doc = edit.put(doc, here.id, path, value)
@@ -108,7 +131,12 @@ def _values(doc: Document, here: Entry, there: Entry) -> tuple[Document, list[Li
 
 def _leaves(old: Any, new: Any, path: str) -> list[tuple[str, Any]]:
     """The smallest values that differ: inside parts of the same kind, else the whole."""
-    if isinstance(old, tuple) and isinstance(new, tuple) and len(old) == len(new) and all(isinstance(v, Part) for v in (*old, *new)):  # pyright: ignore
+    if (
+        isinstance(old, tuple)
+        and isinstance(new, tuple)
+        and len(old) == len(new)
+        and all(isinstance(v, Part) for v in (*old, *new))
+    ):  # pyright: ignore
         pairs = [(a, b, f"{path}.{k}") for k, (a, b) in enumerate(zip(old, new, strict=True))]  # pyright: ignore
         if all(type(a) is type(b) for a, b, _ in pairs):
             return [leaf for a, b, inside in pairs for leaf in _leaves(a, b, inside)]

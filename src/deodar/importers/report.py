@@ -17,8 +17,8 @@ class Line:
 
     Attributes:
         where: label of the element in the file; "" for the file itself.
-        part: `element`, `parameter`, `connection`, `component` (of an element, where it is not read by the same name), `key` (of a JSON object,
-            where it occurs more than once) or `file`.
+        part: `element`, `parameter`, `connection`, `component` (of an element, where it is not read by the
+            same name), `key` (of a JSON object, where it occurs more than once) or `file`.
         what: the class, the name of the parameter or component, the source, or the key.
         verdict: `carried` (the model does what the file says), `approximated`, or `dropped`.
         why: how it was approximated or why it was dropped; for what was carried, into what.
@@ -67,12 +67,16 @@ class Report:
 
     def summary(self) -> str:
         """One sentence."""
-        parts = Counter(line.part for line in self.lines if line.part in ("element", "parameter", "connection"))
+        parts = Counter(
+            line.part for line in self.lines if line.part in ("element", "parameter", "connection")
+        )
         counted = ", ".join(f"{n} {part}{'s' if n != 1 else ''}" for part, n in parts.items()) or "nothing"
         return f"{counted}; " + ", ".join(f"{self.count(v)} {v}" for v in VERDICTS)
 
     def text(self) -> str:
-        """The report as a document's notes keep it: what was not carried, what each element became, and where its components are read."""
+        """The report as a document's notes keep it: what was not carried, what each element became, and where
+        its components are read.
+        """
         out = [f"Imported from {self.file} ({self.tool}): {self.summary()}."]
         if self.losses:
             out += ["", "Not carried as it stands:", *(f"- {line}" for line in self.losses)]
@@ -80,7 +84,14 @@ class Report:
             out += ["", f"Known errors of {self.tool} met:", *(f"- {bug}" for bug in self.bugs)]
         elements = [line for line in self.lines if line.part == "element"]
         if elements:
-            out += ["", "Elements:", *(f"- {line.where}: {line.what}, {line.verdict}{f' ({line.why})' if line.why else ''}" for line in elements)]
+            out += [
+                "",
+                "Elements:",
+                *(
+                    f"- {line.where}: {line.what}, {line.verdict}{f' ({line.why})' if line.why else ''}"
+                    for line in elements
+                ),
+            ]
         components = [line for line in self.lines if line.part == "component" and line.verdict == "carried"]
         if components:
             out += ["", "Components:", *(f"- {line.where}: {line.what}: {line.why}" for line in components)]
@@ -89,4 +100,10 @@ class Report:
     def data(self) -> dict[str, Any]:
         """Plain data, for JSON."""
         counts = {v: self.count(v) for v in VERDICTS}
-        return {"tool": self.tool, "file": self.file, "counts": counts, "bugs": list(self.bugs), "lines": [dc.asdict(line) for line in self.lines]}
+        return {
+            "tool": self.tool,
+            "file": self.file,
+            "counts": counts,
+            "bugs": list(self.bugs),
+            "lines": [dc.asdict(line) for line in self.lines],
+        }

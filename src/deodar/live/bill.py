@@ -19,4 +19,8 @@ class Bill:
 
 def said(error: BaseException) -> tuple[Problem, ...]:
     """What an error says, whoever raised it."""
-    return tuple(error.problems) if isinstance(error, DeodarError) else (Problem("", f"{type(error).__name__}: {error}"),)
+    return (
+        tuple(error.problems)
+        if isinstance(error, DeodarError)
+        else (Problem("", f"{type(error).__name__}: {error}"),)
+    )

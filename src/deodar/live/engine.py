@@ -1,8 +1,9 @@
 """A session driven by the wall clock, in a thread of its own.
 
-The thread alone touches the session. Others hand it functions (`call`), which it runs between two exchanges, at most `EXCHANGE` apart; they
-read what it published last (`shot`), which never changes afterwards. Whatever compiles does so in a second thread, while the
-session runs on; the new program is taken over between two exchanges, with the states of all elements that stay.
+The thread alone touches the session. Others hand it functions (`call`), which it runs between two exchanges,
+at most `EXCHANGE` apart; they read what it published last (`shot`), which never changes afterwards. Whatever
+compiles does so in a second thread, while the session runs on; the new program is taken over between two
+exchanges, with the states of all elements that stay.
 """
 
 from __future__ import annotations
@@ -101,7 +102,7 @@ class Engine:
         self.track = Track()
         self._thread.start()
 
-    # -------------------------------------------------------------------------------- from other threads
+    # ------------------------------------------------------------------------------------- from other threads
 
     def call(self, function: Callable[[], T]) -> Future[T]:
         """Let the engine's thread run a function between two exchanges."""
@@ -122,7 +123,7 @@ class Engine:
         self._thread.join()
         self._compiler.shutdown(cancel_futures=True)
 
-    # -------------------------------------------------------------------------------- in the engine's thread, through `call`
+    # ----------------------------------------------------------------- in the engine's thread, through `call`
 
     def load(self, session: Session | None) -> None:
         """Take another session. It is paused, unless `play` or `step` was called while there was none."""
@@ -165,7 +166,10 @@ class Engine:
         self._stale = True
 
     def adopt(self, model: Model, document: Document) -> str:
-        """Go on with another document: at once where nothing compiles, else as soon as it is compiled. Returns the cost."""
+        """Go on with another document: at once where nothing compiles, else as soon as it is compiled.
+
+        Returns the cost.
+        """
         session = self.session
         if session is None:
             return "recompile"
@@ -191,13 +195,18 @@ class Engine:
         self.pace.longest = require_longest(session, longest)
 
     def measure(self) -> None:
-        """Measure in the second thread what elements cost at this moment; the run goes on. The `bill` tells."""
+        """Measure in the second thread what elements cost at this moment; the run goes on.
+
+        The `bill` tells.
+        """
         session = self._require()
         if self.bill.measuring:
             return
         self.bill, at = Bill(True, self.bill.costs), session.moment()
         found = self._compiler.submit(lambda: costs(at))
-        found.add_done_callback(lambda future: self._closed or self.call(lambda: self._billed(session, future)))
+        found.add_done_callback(
+            lambda future: self._closed or self.call(lambda: self._billed(session, future))
+        )
 
     def see(self, world: World) -> None:
         """Let the sensors read another world."""
@@ -224,7 +233,7 @@ class Engine:
         self._make()
         self._stale = True
 
-    # -------------------------------------------------------------------------------- the loop
+    # ----------------------------------------------------------------------------------------------- the loop
 
     def _loop(self) -> None:
         while not self._closed:
@@ -299,7 +308,9 @@ class Engine:
                 trace.add(session.time, wish.value(arrays[wish.place], axes))
 
     def _take_first(self, session: Session) -> None:
-        """A time course that has just been asked for begins with what is there now, also while time stands still."""
+        """A time course that has just been asked for begins with what is there now, also while time stands
+        still.
+        """
         if any(trace.count == 0 for trace in self.traces.values()):
             self._take_samples(session)
             self._stale = True
@@ -317,7 +328,10 @@ class Engine:
         now = time.perf_counter()
         if not (self._stale and self._wanted) or now - self._shown < FRAME:
             return
-        self._stale, self._wanted = False, False  # before the shot is there: who has seen it may want the next one at once
+        self._stale, self._wanted = (
+            False,
+            False,
+        )  # before the shot is there: who has seen it may want the next one at once
         session, seen = self.session, self._look
         arrays: Mapping[Place, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
@@ -339,10 +353,12 @@ class Engine:
             error = future.exception()
             self.bill = Bill(costs=future.result()) if error is None else Bill(problems=said(error))
 
-    # -------------------------------------------------------------------------------- compiling beside the run
+    # ------------------------------------------------------------------------------- compiling beside the run
 
     def _make(self) -> None:
-        """Compile what is wanted and not there: the target's program, and looks at the places and at the time courses."""
+        """Compile what is wanted and not there: the target's program, and looks at the places and at the time
+        courses.
+        """
         session = self.session
         if session is None or self._making is not None:
             return
@@ -364,16 +380,24 @@ class Engine:
             return
         self.busy = "compiling" if model is not None else self.busy
         self._making = self._compiler.submit(make)
-        self._making.add_done_callback(lambda future: self._closed or self.call(lambda: self._made(session, document, wanted, future)))
+        self._making.add_done_callback(
+            lambda future: self._closed or self.call(lambda: self._made(session, document, wanted, future))
+        )
 
-    def _made(self, session: Session, document: Document, wanted: tuple[frozenset[Place], ...], future: Future[Any]) -> None:
+    def _made(
+        self, session: Session, document: Document, wanted: tuple[frozenset[Place], ...], future: Future[Any]
+    ) -> None:
         self._making, self.busy, self._stale = None, "", True
         if session is not self.session:
             return self._make()
         self._keep_step()
         try:
             program, (at_shown, at_sampled) = future.result()
-            self._looks = [*(known for known in self._looks if known not in (at_shown, at_sampled)), at_shown, at_sampled][-MOST_LOOKS:]
+            self._looks = [
+                *(known for known in self._looks if known not in (at_shown, at_sampled)),
+                at_shown,
+                at_sampled,
+            ][-MOST_LOOKS:]
             if document is not session.document and self._target is not None and self._target[1] is document:
                 session.edit(document)
                 self._target = None
@@ -394,5 +418,7 @@ class Engine:
 
 
 def _found(known: Sequence[Look], program: Any, places: Iterable[Place]) -> Look | None:
-    """A look at these places of a program, and at not much else, if there is one: elements of one structure are seen together anyway."""
+    """A look at these places of a program, and at not much else, if there is one: elements of one structure
+    are seen together anyway.
+    """
     return next((one for one in known if one.program is program and one.fits(places)), None)

@@ -16,7 +16,9 @@ CAPACITY = 16384
 
 @dc.dataclass(frozen=True)
 class Wish:
-    """Which number: a node's value, or of an array its value at a place (axis units), its maximum or its mean."""
+    """Which number: a node's value, or of an array its value at a place (axis units), its maximum or its
+    mean.
+    """
 
     place: Place
     reduce: str = "max"

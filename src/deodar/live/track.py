@@ -9,7 +9,9 @@ from deodar.worlds._base import World
 from deodar.worlds._scene import Scene
 
 FINE = 1 / 500
-"""A body's way is kept in pieces of this share of the arena's longer side; a guess: about a pixel of what is drawn."""
+"""A body's way is kept in pieces of this share of the arena's longer side; a guess: about a pixel of what is
+drawn.
+"""
 
 MOST = 4000
 """Places that are kept; where there are more, every second one goes."""
@@ -27,7 +29,9 @@ class Way:
 
 
 class Track:
-    """The scene of a session's world, and the way of its bodies since the run began. The engine alone lets it follow.
+    """The scene of a session's world, and the way of its bodies since the run began.
+
+    The engine alone lets it follow.
 
     Attributes:
         scene: what was seen last; None: there is nothing to see from above.
@@ -49,11 +53,18 @@ class Track:
         left, low, right, high = scene.border
         now: Places = tuple(v for body in scene.bodies for v in body.center)
         known = self._of is not None and self._of[0] is session and self._of[1] is session.world
-        if not known or session.time < self._time or (self.way.places and len(self.way.places[-1]) != len(now)):
+        if (
+            not known
+            or session.time < self._time
+            or (self.way.places and len(self.way.places[-1]) != len(now))
+        ):
             self.way = Way(fine=FINE * max(right - left, high - low))
         self._of, self._time = (session, session.world), session.time
         last = self.way.places[-1] if self.way.places else None
-        if last is None or any(math.hypot(now[k] - last[k], now[k + 1] - last[k + 1]) >= self.way.fine for k in range(0, len(now), 2)):
+        if last is None or any(
+            math.hypot(now[k] - last[k], now[k + 1] - last[k + 1]) >= self.way.fine
+            for k in range(0, len(now), 2)
+        ):
             if len(self.way.places) >= MOST:
                 self.way = Way(self.way.places[::2], 2 * self.way.fine)
             self.way.places.append(now)

@@ -13,7 +13,9 @@ from deodar.registry import imported
 
 
 def check(doc: Document) -> list[Problem]:
-    """All problems of the structure; where there is none, what the single checks find: warnings, and problems of the document's own step."""
+    """All problems of the structure; where there is none, what the single checks find: warnings, and problems
+    of the document's own step.
+    """
     found, nodes = _structure(doc)
     return found or judge(doc, nodes)
 
@@ -24,9 +26,15 @@ def problems(doc: Document) -> list[Problem]:
 
 
 def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
-    """What elements say about themselves, and what the files of `checks` find in the graph, in the order of the elements."""
+    """What elements say about themselves, and what the files of `checks` find in the graph, in the order of
+    the elements.
+    """
     wiring = Wiring(doc, nodes)
-    found = [Problem(n.path, what, fix, "warning") for n in wiring.declared for what, fix in n.element.warnings(n.ins)]
+    found = [
+        Problem(n.path, what, fix, "warning")
+        for n in wiring.declared
+        for what, fix in n.element.warnings(n.ins)
+    ]
     for family in imported("model.checks"):
         found += family.check(wiring)
     place = {e.path: k for k, e in enumerate(doc.entries)}

@@ -56,13 +56,19 @@ class Diagram:
         format = where.suffix.lower().removeprefix(".")
         if format not in FORMATS:
             raise RecordError(
-                f"the name ends in {where.suffix!r}, which names no format of pictures", where=str(where), fix="End it in .svg, .pdf or .png"
+                f"the name ends in {where.suffix!r}, which names no format of pictures",
+                where=str(where),
+                fix="End it in .svg, .pdf or .png",
             )
         if width is not None and not 0 < width < 1000:
-            raise RecordError(f"width is {show(width)} inches; it is above 0 and below 1000", where=str(where))
+            raise RecordError(
+                f"width is {show(width)} inches; it is above 0 and below 1000", where=str(where)
+            )
         output.claim(where, force)
         if format == "svg":
-            output.write(where, svg.write(self._scene, None if width is None else width * paper.INCH).encode())
+            output.write(
+                where, svg.write(self._scene, None if width is None else width * paper.INCH).encode()
+            )
         else:
             output.write(where, paper.content(self._scene, format, width))
 

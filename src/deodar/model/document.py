@@ -13,7 +13,21 @@ from deodar.model.paths import Index, Names, display
 VERSION = 3
 READS = ("", "previous", "current", "delayed")
 KEYS = (
-    *("deodar", "name", "time_unit", "dt", "t0", "axes", "parameters", "elements", "connections", "groups", "uses", "packages", "arrays"),
+    *(
+        "deodar",
+        "name",
+        "time_unit",
+        "dt",
+        "t0",
+        "axes",
+        "parameters",
+        "elements",
+        "connections",
+        "groups",
+        "uses",
+        "packages",
+        "arrays",
+    ),
     *("notes", "layout"),
 )
 """Keys of a document file, in their order."""
@@ -23,7 +37,8 @@ KEYS = (
 class Entry:
     """One element of a document.
 
-    `id` is its stored identity, `names` its path (groups, then its own name), `every` the number of ticks of its step.
+    `id` is its stored identity, `names` its path (groups, then its own name), `every` the number of ticks of
+    its step.
     """
 
     id: str
@@ -69,7 +84,9 @@ class Knob:
 
 @dc.dataclass(frozen=True)
 class Use:
-    """A group that stays linked to a template: (id in the template, id here) for each of its elements, and the template's name."""
+    """A group that stays linked to a template: (id in the template, id here) for each of its elements, and
+    the template's name.
+    """
 
     group: Names
     template: str
@@ -81,8 +98,9 @@ class Document:
     """An architecture as data. Only `deodar.model.edit` makes new ones.
 
     Attributes:
-        foreign: whether it came from a file or another process, and nobody has said that functions it names may be run. It is not written into
-            files, is no part of what makes two documents equal, and is passed on to every document that is made from this one.
+        foreign: whether it came from a file or another process, and nobody has said that functions it names
+            may be run. It is not written into files, is no part of what makes two documents equal, and is
+            passed on to every document that is made from this one.
     """
 
     name: str
@@ -121,11 +139,14 @@ class Document:
     def connected(self, new: Connection) -> Document:
         """This document with one more connection.
 
-        What is known of the entries is shared with it, and the set of ends is passed on to it: n connections take n steps, not n^2.
+        What is known of the entries is shared with it, and the set of ends is passed on to it: n connections
+        take n steps, not n^2.
         """
         ends = self.__dict__.pop("_ends", None)
         out = dc.replace(self, connections=(*self.connections, new))
-        out.__dict__.update({key: self.__dict__[key] for key in ("_by_id", "_by_names", "_index") if key in self.__dict__})
+        out.__dict__.update(
+            {key: self.__dict__[key] for key in ("_by_id", "_by_names", "_index") if key in self.__dict__}
+        )
         if ends is not None:  # this document makes the set anew if it is asked again
             ends.add(new.ends)
             out.__dict__["_ends"] = ends
@@ -134,7 +155,8 @@ class Document:
     def extended(self, new: Sequence[Entry], groups: tuple[Names, ...]) -> Document:
         """This document with more entries and these groups.
 
-        The mappings of its entries are copied and extended, which is many times quicker than to make them anew; the set of ends is passed on.
+        The mappings of its entries are copied and extended, which is many times quicker than to make them
+        anew; the set of ends is passed on.
         """
         ends = self.__dict__.pop("_ends", None)
         out = dc.replace(self, entries=(*self.entries, *new), groups=groups)

@@ -1,6 +1,7 @@
 """The operations that make a new document from a document. Nothing else does.
 
-Each is a pure function; ids survive rename, grouping and moves, a copy gets its own. `History` adds undo and redo.
+Each is a pure function; ids survive rename, grouping and moves, a copy gets its own. `History` adds undo and
+redo.
 """
 
 from __future__ import annotations
@@ -27,8 +28,13 @@ MOST_TICKS = 1_000_000
 """Longest step of a part, in ticks; a thousand seconds at 1 ms (a guess: longer is a slip of the pen)."""
 
 
-def add(doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None) -> tuple[Document, Entry]:
-    """A document with one more element. Without a name it is called after what it follows: `u>Gain`, `u>Gain2`."""
+def add(
+    doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None
+) -> tuple[Document, Entry]:
+    """A document with one more element.
+
+    Without a name it is called after what it follows: `u>Gain`, `u>Gain2`.
+    """
     if isinstance(element, Element) and not element.name:
         group, base = (group or after.group, f"{after.names[-1]}>") if after else (group, "")
         base += type(element).__name__
@@ -44,7 +50,10 @@ def add_all(doc: Document, elements: Iterable[tuple[Element, Names, int]]) -> tu
     taken, ids, groups = dict(doc.by_names()), dict(doc.by_id()), set(doc.groups)
     for element, group, every in elements:
         if not isinstance(element, Element):
-            raise ModelError(f"{element!r} is no element", fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))")
+            raise ModelError(
+                f"{element!r} is no element",
+                fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))",
+            )
         require_ticks(every, element.name)
         names = (*group, element.name)
         _vacant(doc, names, taken, groups)
@@ -64,7 +73,13 @@ def remove(doc: Document, ids: Iterable[str]) -> Document:
     knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.knobs)
     kept = tuple(c for c in doc.connections if not gone & {c.source, c.target})
     uses = tuple(dc.replace(u, elements=tuple(x for x in u.elements if x[1] not in gone)) for u in doc.uses)
-    return dc.replace(doc, entries=tuple(e for e in doc.entries if e.id not in gone), connections=kept, knobs=knobs, uses=uses)
+    return dc.replace(
+        doc,
+        entries=tuple(e for e in doc.entries if e.id not in gone),
+        connections=kept,
+        knobs=knobs,
+        uses=uses,
+    )
 
 
 def remove_group(doc: Document, group: Names) -> Document:
@@ -96,10 +111,17 @@ def move_group(doc: Document, group: Names, to: Names) -> Document:
     inside = [e for e in doc.entries if e.names[: len(group)] == group]
     renamed = {e.id: to + e.names[len(group) :] for e in inside}
     entries = tuple(
-        dc.replace(e, names=renamed[e.id], element=dc.replace(e.element, name=renamed[e.id][-1])) if e.id in renamed else e for e in doc.entries
+        (
+            dc.replace(e, names=renamed[e.id], element=dc.replace(e.element, name=renamed[e.id][-1]))
+            if e.id in renamed
+            else e
+        )
+        for e in doc.entries
     )
     groups = [to + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
-    return dc.replace(doc, entries=entries, groups=_with_groups((), [*groups, to]), uses=_uses_at(doc, group, to))
+    return dc.replace(
+        doc, entries=entries, groups=_with_groups((), [*groups, to]), uses=_uses_at(doc, group, to)
+    )
 
 
 def ungroup(doc: Document, group: Names) -> Document:
@@ -120,19 +142,35 @@ def group(doc: Document, names: Names) -> Document:
 
 
 def copy(doc: Document, ids: Iterable[str], place: Callable[[Names], Names]) -> Document:
-    """A document with copies of elements, each under `place(its path)`, and of the connections and links among them."""
+    """A document with copies of elements, each under `place(its path)`, and of the connections and links
+    among them.
+    """
     return insert(doc, doc, place, set(ids))
 
 
-def insert(doc: Document, template: Document, place: Callable[[Names], Names], ids: set[str] | None = None, linked: bool = False) -> Document:
-    """A document with the elements of a template, copied: new ids, the same connections, and its document parameters.
+def insert(
+    doc: Document,
+    template: Document,
+    place: Callable[[Names], Names],
+    ids: set[str] | None = None,
+    linked: bool = False,
+) -> Document:
+    """A document with the elements of a template, copied: new ids, the same connections, and its document
+    parameters.
 
-    Where `linked`, the document remembers which element came from which (`uses.refresh`). What the template itself uses stays linked too.
+    Where `linked`, the document remembers which element came from which (`uses.refresh`). What the template
+    itself uses stays linked too.
     """
     placed = [(e, place(e.names)) for e in template.entries if ids is None or e.id in ids]
-    doc, entries = add_all(doc, [(dc.replace(e.element, name=names[-1]), names[:-1], e.every) for e, names in placed])
+    doc, entries = add_all(
+        doc, [(dc.replace(e.element, name=names[-1]), names[:-1], e.every) for e, names in placed]
+    )
     new = {e.id: entry.id for (e, _), entry in zip(placed, entries, strict=True)}
-    inside = [dc.replace(c, source=new[c.source], target=new[c.target]) for c in template.connections if c.source in new and c.target in new]
+    inside = [
+        dc.replace(c, source=new[c.source], target=new[c.target])
+        for c in template.connections
+        if c.source in new and c.target in new
+    ]
     doc = dc.replace(doc, connections=(*doc.connections, *inside))
     for k in template.knobs:
         links = tuple((new[i], leaf) for i, leaf in k.links if i in new)
@@ -141,13 +179,27 @@ def insert(doc: Document, template: Document, place: Callable[[Names], Names], i
         for i, leaf in links:
             doc = link(doc, i, leaf, k.name)
     groups = [place((*g, ""))[:-1] for g in template.groups] if ids is None else []
-    uses = [Use(place((*u.group, ""))[:-1], u.template, tuple((t, new[i]) for t, i in u.elements)) for u in template.uses] if ids is None else []
+    uses = (
+        [
+            Use(place((*u.group, ""))[:-1], u.template, tuple((t, new[i]) for t, i in u.elements))
+            for u in template.uses
+        ]
+        if ids is None
+        else []
+    )
     uses += [Use(place(("",))[:-1], template.name, tuple(new.items()))] if linked else []
     foreign = doc.foreign or template.asks()
-    return dc.replace(doc, groups=_with_groups(doc.groups, [g for g in groups if g]), uses=(*doc.uses, *uses), foreign=foreign)
+    return dc.replace(
+        doc,
+        groups=_with_groups(doc.groups, [g for g in groups if g]),
+        uses=(*doc.uses, *uses),
+        foreign=foreign,
+    )
 
 
-def connect(doc: Document, source: Entry, source_port: str, target: Entry, target_port: str, reads: str = "") -> Document:
+def connect(
+    doc: Document, source: Entry, source_port: str, target: Entry, target_port: str, reads: str = ""
+) -> Document:
     """A document with one more connection. Empty ports mean the default ones: the output, the first input."""
     outs, ins = find.outputs(source), target.element.ports()
     if not ins:
@@ -155,11 +207,18 @@ def connect(doc: Document, source: Entry, source_port: str, target: Entry, targe
     source_port, target_port = source_port or outs[0], target_port or ins[0]
     if source_port not in outs:
         what = "is an input port" if source_port in source.element.ports() else "is not there"
-        raise UnknownName(f"the output port {source_port!r} of {source.path} {what}", fix=did_you_mean(source_port, outs))
+        raise UnknownName(
+            f"the output port {source_port!r} of {source.path} {what}", fix=did_you_mean(source_port, outs)
+        )
     if target_port not in ins:
-        raise UnknownName(f"{target.path} has no input port {target_port!r}", fix=did_you_mean(target_port, ins))
+        raise UnknownName(
+            f"{target.path} has no input port {target_port!r}", fix=did_you_mean(target_port, ins)
+        )
     if reads not in READS:
-        raise ParameterError(f"reads is {reads!r}; it is one of previous, current, delayed", where=f"{source.path} -> {target.path}")
+        raise ParameterError(
+            f"reads is {reads!r}; it is one of previous, current, delayed",
+            where=f"{source.path} -> {target.path}",
+        )
     new = Connection(source.id, source_port, target.id, target_port, reads)
     if new.ends in doc.ends():
         raise ModelError(
@@ -174,7 +233,9 @@ def disconnect(doc: Document, source: str, source_port: str, target: str, target
     ends = (source, source_port, target, target_port)
     if all(c.ends != ends for c in doc.connections):
         by = doc.by_id()
-        raise UnknownName(f"{by[source].path}.{source_port} is not connected to {by[target].path}.{target_port}")
+        raise UnknownName(
+            f"{by[source].path}.{source_port} is not connected to {by[target].path}.{target_port}"
+        )
     return dc.replace(doc, connections=tuple(c for c in doc.connections if c.ends != ends))
 
 
@@ -182,7 +243,9 @@ def put(doc: Document, ident: str, path: str, value: Any) -> Document:
     """A document with another value of one parameter of an element, linked ones excepted."""
     entry = find.entry(doc, ident)
     if path.split(".")[0] == "name":
-        raise ParameterError("a name is changed by renaming the element", where=entry.path, fix="model.rename(path, name)")
+        raise ParameterError(
+            "a name is changed by renaming the element", where=entry.path, fix="model.rename(path, name)"
+        )
     for (i, leaf), name in doc.links().items():
         if i == ident and (leaf == path or leaf.startswith(path + ".") or path.startswith(leaf + ".")):
             raise ParameterError(
@@ -193,9 +256,15 @@ def put(doc: Document, ident: str, path: str, value: Any) -> Document:
 
 
 def change(doc: Document, path: str, value: Any) -> Document:
-    """A document with another value of what a path names: a parameter of an element, or a document parameter."""
+    """A document with another value of what a path names: a parameter of an element, or a document
+    parameter.
+    """
     found = find.target(doc, path)
-    return knob(doc, found.knob, value) if found.entry is None else put(doc, found.entry.id, found.parameter, value)
+    return (
+        knob(doc, found.knob, value)
+        if found.entry is None
+        else put(doc, found.entry.id, found.parameter, value)
+    )
 
 
 def change_all(doc: Document, values: Mapping[str, Any]) -> Document:
@@ -214,13 +283,21 @@ def change_all(doc: Document, values: Mapping[str, Any]) -> Document:
 
 
 def assignments(path: Any, value: Any) -> Mapping[str, Any]:
-    """What `set` was called with, as values by their paths: `set(path, value)` or `set({path: value, ...})`."""
+    """What `set` was called with, as values by their paths: `set(path, value)` or `set({path: value,
+    ...})`.
+    """
     if isinstance(path, Mapping):
         if value is not ...:
-            raise ParameterError("set takes one value for several parameters only as part of them", fix='Write: set({"u.tau": 30, "v.tau": 30})')
+            raise ParameterError(
+                "set takes one value for several parameters only as part of them",
+                fix='Write: set({"u.tau": 30, "v.tau": 30})',
+            )
         given: Mapping[Any, Any] = path
     elif value is ...:
-        raise ParameterError(f"set needs a value for {show(path)}", fix=f"Write: set({json.dumps(path) if isinstance(path, str) else 'path'}, value)")
+        raise ParameterError(
+            f"set needs a value for {show(path)}",
+            fix=f"Write: set({json.dumps(path) if isinstance(path, str) else 'path'}, value)",
+        )
     else:
         given = {path: value}
     for key in given:
@@ -232,11 +309,15 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
 def every(doc: Document, ident: str, ticks: int) -> Document:
     """A document in which an element runs at another step."""
     require_ticks(ticks, find.entry(doc, ident).path)
-    return dc.replace(doc, entries=tuple(dc.replace(e, every=ticks) if e.id == ident else e for e in doc.entries))
+    return dc.replace(
+        doc, entries=tuple(dc.replace(e, every=ticks) if e.id == ident else e for e in doc.entries)
+    )
 
 
 def knob(doc: Document, name: str, value: float) -> Document:
-    """A document with a named parameter of its own, new or changed, and everything linked to it at that value."""
+    """A document with a named parameter of its own, new or changed, and everything linked to it at that
+    value.
+    """
     number = real(value)
     if number is None or not math.isfinite(number):
         raise ParameterError(f"needs a finite number, not {show(value)}", where=str(name))
@@ -244,9 +325,14 @@ def knob(doc: Document, name: str, value: float) -> Document:
         raise ModelError(f"a document parameter needs a name, not {name!r}")
     for e in doc.entries:
         path = e.path
-        if name == path or (name.startswith(f"{path}.") and name[len(path) + 1 :] in [p.name for p in parameters(type(e.element))]):
+        if name == path or (
+            name.startswith(f"{path}.")
+            and name[len(path) + 1 :] in [p.name for p in parameters(type(e.element))]
+        ):
             what = "an element" if name == path else f"a parameter of {path}"
-            raise ModelError(f"a document parameter cannot be called {name!r}: {what} is", fix="Give it another name")
+            raise ModelError(
+                f"a document parameter cannot be called {name!r}: {what} is", fix="Give it another name"
+            )
     links = next((k.links for k in doc.knobs if k.name == name), ())
     for ident, leaf in links:
         doc = _put(doc, ident, leaf, number)
@@ -266,10 +352,15 @@ def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
     found = next((k for k in doc.knobs if k.name == name), None)
     if found is None:
         names = [k.name for k in doc.knobs]
-        raise UnknownName(f"there is no document parameter {name!r}", fix=did_you_mean(name, names) or "Make it: model.parameter(name, value)")
+        raise UnknownName(
+            f"there is no document parameter {name!r}",
+            fix=did_you_mean(name, names) or "Make it: model.parameter(name, value)",
+        )
     find.number(doc, ident, leaf)
     if (ident, leaf) in doc.links():
-        raise ModelError(f"{entry.path}.{leaf} is already linked to {doc.links()[ident, leaf]!r}", fix="Unlink it first")
+        raise ModelError(
+            f"{entry.path}.{leaf} is already linked to {doc.links()[ident, leaf]!r}", fix="Unlink it first"
+        )
     doc = _put(doc, ident, leaf, found.value)
     new = dc.replace(found, links=(*found.links, (ident, leaf)))
     return dc.replace(doc, knobs=tuple(new if k.name == name else k for k in doc.knobs))
@@ -292,7 +383,10 @@ def describe(doc: Document, **values: Any) -> Document:
             raise ParameterError(f"{key} needs text, not {show(text)}")
     unit = values.get("time_unit", doc.time_unit)
     if not isinstance(unit, str) or not TIME_UNIT.match(unit):
-        raise ParameterError(f"time_unit is {show(unit)}", fix="Write us, ms, s, min, abstract, or for steps of your own: '1 = 64 ms'")
+        raise ParameterError(
+            f"time_unit is {show(unit)}",
+            fix="Write us, ms, s, min, abstract, or for steps of your own: '1 = 64 ms'",
+        )
     dt = values.get("dt", doc.dt)
     if dt is not None and not 0 < (real(dt) or 0) < math.inf:
         raise ParameterError(f"dt is {show(dt)}; it is a number above 0")
@@ -343,7 +437,9 @@ class History:
         self.document = document
 
     def amend(self, document: Document) -> None:
-        """Take a new document in the place of the present one: one change made in many small ones, or one that nobody would undo."""
+        """Take a new document in the place of the present one: one change made in many small ones, or one
+        that nobody would undo.
+        """
         self.document = document
         self._future.clear()
 
@@ -378,14 +474,24 @@ def _put(doc: Document, ident: str, path: str, value: Any) -> Document:
     except (ParameterError, UnknownName) as error:
         problem = error.problems[0]
         raise type(error)(problem.what, where=f"{entry.path}.{path}", fix=problem.fix) from None
-    return dc.replace(doc, entries=tuple(dc.replace(e, element=new) if e.id == ident else e for e in doc.entries))
+    return dc.replace(
+        doc, entries=tuple(dc.replace(e, element=new) if e.id == ident else e for e in doc.entries)
+    )
 
 
-def _vacant(doc: Document, names: Names, taken: Mapping[Names, Entry] | None = None, groups: Collection[Names] | None = None) -> None:
+def _vacant(
+    doc: Document,
+    names: Names,
+    taken: Mapping[Names, Entry] | None = None,
+    groups: Collection[Names] | None = None,
+) -> None:
     """Refuse a path that an element, a group or a document parameter has, or that leads into an element."""
     taken, groups = doc.by_names() if taken is None else taken, doc.groups if groups is None else groups
     if any(not isinstance(n, str) or not n or not is_text(n) for n in names):
-        raise ModelError(f"elements and groups need names, not {next(n for n in names if not isinstance(n, str) or not n or not is_text(n))!r}")
+        raise ModelError(
+            "elements and groups need names, not"
+            f" {next(n for n in names if not isinstance(n, str) or not n or not is_text(n))!r}"
+        )
     found = taken.get(names)
     if found is not None:
         raise ModelError(f"there is already an element {found.path!r}", fix="Give one of them another name")
@@ -393,27 +499,43 @@ def _vacant(doc: Document, names: Names, taken: Mapping[Names, Entry] | None = N
         raise ModelError(f"there is already a group {display(names)!r}", fix="Give one of them another name")
     for k in range(1, len(names)):
         if names[:k] in taken:
-            raise ModelError(f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group")
+            raise ModelError(
+                f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group"
+            )
     if doc.knobs and display(names) in [k.name for k in doc.knobs]:
-        raise ModelError(f"a document parameter is called {display(names)!r}", fix="Give one of them another name")
+        raise ModelError(
+            f"a document parameter is called {display(names)!r}", fix="Give one of them another name"
+        )
 
 
 def _unambiguous(doc: Document, names: Names, element: Element) -> None:
-    """Refuse a place at which a parameter of the element would have the path that a document parameter is called by."""
+    """Refuse a place at which a parameter of the element would have the path that a document parameter is
+    called by.
+    """
     path = display(names)
     for k in doc.knobs:
-        if k.name.startswith(f"{path}.") and k.name[len(path) + 1 :] in [p.name for p in parameters(type(element))]:
-            raise ModelError(f"a document parameter is called {k.name!r}, like a parameter of {path}", fix="Give one of them another name")
+        if k.name.startswith(f"{path}.") and k.name[len(path) + 1 :] in [
+            p.name for p in parameters(type(element))
+        ]:
+            raise ModelError(
+                f"a document parameter is called {k.name!r}, like a parameter of {path}",
+                fix="Give one of them another name",
+            )
 
 
 def require_ticks(every: Any, where: str) -> None:
     """Refuse what is no number of ticks that a part could run at."""
     if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= MOST_TICKS:
-        raise ParameterError(f"the step is {show(every)} ticks; it is a whole number, 1 to {MOST_TICKS}", where=where)
+        raise ParameterError(
+            f"the step is {show(every)} ticks; it is a whole number, 1 to {MOST_TICKS}", where=where
+        )
 
 
 def _uses_at(doc: Document, group: Names, to: Names) -> tuple[Use, ...]:
-    return tuple(dc.replace(u, group=to + u.group[len(group) :]) if u.group[: len(group)] == group else u for u in doc.uses)
+    return tuple(
+        dc.replace(u, group=to + u.group[len(group) :]) if u.group[: len(group)] == group else u
+        for u in doc.uses
+    )
 
 
 def _free(base: str, taken: Callable[[str], bool]) -> str:

@@ -1,7 +1,8 @@
 """The document as JSON, with its arrays in one hashed file beside it, or both in one file, `NAME.deodar`.
 
-Reading trusts nothing: sizes and nesting are bounded, numbers must be finite, arrays are plain numbers from a file of
-the document's own folder whose hash is written in the document, and user functions stay inert until they are trusted.
+Reading trusts nothing: sizes and nesting are bounded, numbers must be finite, arrays are plain numbers from a
+file of the document's own folder whose hash is written in the document, and user functions stay inert until
+they are trusted.
 """
 
 from __future__ import annotations
@@ -30,7 +31,9 @@ from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
 
 MOST_BYTES = 64 * 2**20
-"""Longest document file; larger things are arrays (a guess, hundreds of times the largest known architecture)."""
+"""Longest document file; larger things are arrays (a guess, hundreds of times the largest known
+architecture).
+"""
 
 ARRAY_SHARE = 0.5
 """Share of the free memory that the arrays of a document may take (a guess that leaves room to run it)."""
@@ -38,7 +41,7 @@ ARRAY_SHARE = 0.5
 DEEPEST = 64
 
 
-# ------------------------------------------------------------------------------------------------ out
+# -------------------------------------------------------------------------------------------------------- out
 
 
 def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
@@ -56,18 +59,35 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     elements: dict[str, Any] = {}
     for e in doc.entries:
         body = to_json(e.element, axis_key, array_key)
-        elements[e.path] = {"kind": body.pop("kind"), "id": e.id, **({"every": e.every} if e.every != 1 else {}), **body}
+        elements[e.path] = {
+            "kind": body.pop("kind"),
+            "id": e.id,
+            **({"every": e.every} if e.every != 1 else {}),
+            **body,
+        }
     connections = [
-        {"source": f"{by[c.source].path}.{c.source_port}", "target": f"{by[c.target].path}.{c.target_port}"} | ({"reads": c.reads} if c.reads else {})
+        {"source": f"{by[c.source].path}.{c.source_port}", "target": f"{by[c.target].path}.{c.target_port}"}
+        | ({"reads": c.reads} if c.reads else {})
         for c in doc.connections
     ]
-    knobs = {k.name: {"value": k.value, "links": [f"{by[i].path}.{leaf}" for i, leaf in k.links]} for k in doc.knobs}
+    knobs = {
+        k.name: {"value": k.value, "links": [f"{by[i].path}.{leaf}" for i, leaf in k.links]}
+        for k in doc.knobs
+    }
     data: dict[str, Any] = {"deodar": VERSION, "name": doc.name, "time_unit": doc.time_unit}
     data |= {} if doc.dt is None else {"dt": doc.dt}
     data |= {} if doc.t0 == 0 else {"t0": doc.t0}
     data["axes"] = {key: _axis_data(axis) for key, axis in axes.items()}
-    data |= {"parameters": knobs, "elements": elements, "connections": connections, "groups": [display(g) for g in doc.groups]}
-    uses = {display(u.group): {"template": u.template, "elements": {t: by[i].path for t, i in u.elements}} for u in doc.uses}
+    data |= {
+        "parameters": knobs,
+        "elements": elements,
+        "connections": connections,
+        "groups": [display(g) for g in doc.groups],
+    }
+    uses = {
+        display(u.group): {"template": u.template, "elements": {t: by[i].path for t, i in u.elements}}
+        for u in doc.uses
+    }
     data |= {"uses": uses} if uses else {}
     packages = {kind: registry.package(kind) for kind in sorted(set(kinds_in(elements)))}
     data |= {"packages": {kind: p for kind, p in packages.items() if p}} if any(packages.values()) else {}
@@ -95,12 +115,17 @@ def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
         for key, array in arrays.items():
             one = io.BytesIO()
             np.lib.format.write_array(one, array.data, allow_pickle=False)
-            z.writestr(zipfile.ZipInfo(f"{key}.npy", (1980, 1, 1, 0, 0, 0)), one.getvalue(), zipfile.ZIP_DEFLATED)
+            z.writestr(
+                zipfile.ZipInfo(f"{key}.npy", (1980, 1, 1, 0, 0, 0)), one.getvalue(), zipfile.ZIP_DEFLATED
+            )
     return buffer.getvalue()
 
 
 def save(doc: Document, path: str | Path, force: bool = False) -> None:
-    """Write the document, its array file first; refuses to replace a file unless `force`. A name that ends in .deodar holds both in one file."""
+    """Write the document, its array file first; refuses to replace a file unless `force`.
+
+    A name that ends in .deodar holds both in one file.
+    """
     path = output.claim(path, force)
     text, packed = dumps(doc, path.stem)
     if path.suffix.lower() == package.SUFFIX:
@@ -111,7 +136,10 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
     new = None
     if packed is not None:
         new = path.with_name(json.loads(text)["arrays"]["file"])
-        if not (new.is_file() and hashlib.sha256(new.read_bytes()).hexdigest() == json.loads(text)["arrays"]["sha256"]):
+        if not (
+            new.is_file()
+            and hashlib.sha256(new.read_bytes()).hexdigest() == json.loads(text)["arrays"]["sha256"]
+        ):
             output.write(output.claim(new, force), packed)
     output.write(path, text.encode())
     if old is not None and old != new:
@@ -141,11 +169,16 @@ def _key(table: dict[str, Any], wish: str, value: Any) -> str:
 
 
 def _axis_data(axis: Axis) -> dict[str, Any]:
-    out: dict[str, Any] = {"name": axis.name, "lower": axis.lower, "upper": axis.upper, "samples": axis.samples}
+    out: dict[str, Any] = {
+        "name": axis.name,
+        "lower": axis.lower,
+        "upper": axis.upper,
+        "samples": axis.samples,
+    }
     return out | ({"periodic": True} if axis.periodic else {}) | ({"unit": axis.unit} if axis.unit else {})
 
 
-# ------------------------------------------------------------------------------------------------ in
+# --------------------------------------------------------------------------------------------------------- in
 
 
 def load(path: str | Path) -> Document:
@@ -155,7 +188,11 @@ def load(path: str | Path) -> Document:
     path = Path(path)
     try:
         if not path.exists():
-            near = did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")]) if path.parent.is_dir() else ""
+            near = (
+                did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")])
+                if path.parent.is_dir()
+                else ""
+            )
             raise DocumentError("there is no such file", fix=near)
         if not path.is_file():
             raise DocumentError("is not a file")
@@ -167,7 +204,9 @@ def load(path: str | Path) -> Document:
         data = parse(path.read_bytes())
         return from_data(data, _arrays(data, lambda name: _beside(path.parent / name)))
     except DeodarError as error:
-        problems = [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
+        problems = [
+            Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems
+        ]
         raise DocumentError(problems) from None
     except OSError as error:
         raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
@@ -178,7 +217,8 @@ def loads(content: bytes, beside: Callable[[str], bytes | None]) -> Document:
 
     Args:
         content: what the file holds.
-        beside: gives the content of the array file that a document names; None where there is none. A package holds its own.
+        beside: gives the content of the array file that a document names; None where there is none. A package
+            holds its own.
 
     Raises:
         DocumentError: with every problem found.
@@ -200,7 +240,9 @@ def _load_package(file: Path | BinaryIO) -> Document:
 def _beside(path: Path) -> bytes | None:
     """The content of an array file beside a document; None where there is none."""
     if path.is_symlink():
-        raise DocumentError(f"the array file {path.name!r} lies outside the document's folder", where="arrays")
+        raise DocumentError(
+            f"the array file {path.name!r} lies outside the document's folder", where="arrays"
+        )
     if not path.is_file():
         return None
     require_room(path.stat().st_size, path.name)
@@ -225,9 +267,13 @@ def parse(text: bytes | str) -> Any:
         return value
 
     try:
-        data = json.loads(text, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect)
+        data = json.loads(
+            text, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect
+        )
     except json.JSONDecodeError as error:
-        raise DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
+        raise DocumentError(
+            f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}"
+        ) from None
     except UnicodeDecodeError:
         raise DocumentError("is not JSON: it is not text in UTF-8") from None
     except RecursionError:
@@ -235,7 +281,12 @@ def parse(text: bytes | str) -> Any:
     _depth(data)
     twice = repeated(data) if isinstance(data, (dict, list)) else []
     if twice:
-        raise DocumentError([Problem(r.where, f"the key {r.key!r} occurs {_times(len(r.values))}", "Keep one of them") for r in twice])
+        raise DocumentError(
+            [
+                Problem(r.where, f"the key {r.key!r} occurs {_times(len(r.values))}", "Keep one of them")
+                for r in twice
+            ]
+        )
     try:
         json.dumps(data, ensure_ascii=False).encode()
     except UnicodeEncodeError:
@@ -275,16 +326,25 @@ def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenA
     entry = cast("dict[str, Any]", data).get("arrays") if isinstance(data, dict) else None
     if entry is None:
         return {}
-    if not isinstance(entry, dict) or set(cast(Any, entry)) != {"file", "sha256"} or not all(isinstance(v, str) for v in cast(Any, entry).values()):
+    if (
+        not isinstance(entry, dict)
+        or set(cast(Any, entry)) != {"file", "sha256"}
+        or not all(isinstance(v, str) for v in cast(Any, entry).values())
+    ):
         raise DocumentError("needs a file and its sha256", where="arrays")
     name, digest = cast("dict[str, str]", entry)["file"], cast("dict[str, str]", entry)["sha256"]
     if Path(name).name != name or name in ("", ".", "..") or "\\" in name:
         raise DocumentError(f"the array file {name!r} lies outside the document's folder", where="arrays")
     content = read(name)
     if content is None:
-        raise DocumentError(f"the array file {show(name)} is missing; it belongs beside the document", where="arrays")
+        raise DocumentError(
+            f"the array file {show(name)} is missing; it belongs beside the document", where="arrays"
+        )
     if hashlib.sha256(content).hexdigest() != digest:
-        raise DocumentError(f"the array file {name!r} is not the one this document was saved with: its hash differs", where="arrays")
+        raise DocumentError(
+            f"the array file {name!r} is not the one this document was saved with: its hash differs",
+            where="arrays",
+        )
     return unpack(content, name)
 
 
@@ -298,13 +358,29 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
             for key in z.files:
                 array = z[key]
                 if array.dtype.kind not in "fiub" or not np.isfinite(array).all():
-                    raise DocumentError(f"the array {key!r} in {name!r} does not hold finite numbers only", where="arrays")
+                    raise DocumentError(
+                        f"the array {key!r} in {name!r} does not hold finite numbers only", where="arrays"
+                    )
                 out[key] = FrozenArray(array)
             return out
     except DocumentError:
         raise
     except Exception as error:
-        raise DocumentError(f"the array file {name!r} cannot be read as plain arrays ({type(error).__name__}: {error})", where="arrays") from None
+        raise DocumentError(
+            f"the array file {name!r} cannot be read as plain arrays ({type(error).__name__}: {error})",
+            where="arrays",
+        ) from None
 
 
-__all__ = ["dumps", "from_data", "load", "loads", "pack", "parse", "require_room", "save", "to_data", "unpack"]
+__all__ = [
+    "dumps",
+    "from_data",
+    "load",
+    "loads",
+    "pack",
+    "parse",
+    "require_room",
+    "save",
+    "to_data",
+    "unpack",
+]

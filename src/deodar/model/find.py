@@ -33,7 +33,9 @@ def element(doc: Document, path: str) -> Entry:
     by = doc.by_names()
     found = [names for names, rest in readings(path, doc.index()) if not rest]
     if not found:
-        raise UnknownName(f"there is no element {path!r}", fix=did_you_mean(path, [e.path for e in doc.entries]))
+        raise UnknownName(
+            f"there is no element {path!r}", fix=did_you_mean(path, [e.path for e in doc.entries])
+        )
     return by[found[0]]
 
 
@@ -51,14 +53,20 @@ def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]
         names, rest = found[0]
         entry = by[names]
         if rest in [p.name for p in parameters(type(entry.element))]:
-            raise UnknownName(f"{path!r} is a parameter, not a port", fix=f"Ports of {entry.path}: {', '.join(readable(entry))}")
+            raise UnknownName(
+                f"{path!r} is a parameter, not a port",
+                fix=f"Ports of {entry.path}: {', '.join(readable(entry))}",
+            )
         raise UnknownName(f"{entry.path} has no port {rest!r}", fix=did_you_mean(rest, readable(entry)))
     ports = [f"{e.path}.{p}" for e in doc.entries for p in readable(e)]
-    raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, [*ports, *(e.path for e in doc.entries)]))
+    raise UnknownName(
+        f"nothing is called {path!r}", fix=did_you_mean(path, [*ports, *(e.path for e in doc.entries)])
+    )
 
 
 def shown(doc: Document, path: str) -> tuple[Entry, str]:
-    """The element and the port whose values a path names, to record or to read: of a field without a port its activation, else the default output.
+    """The element and the port whose values a path names, to record or to read: of a field without a port its
+    activation, else the default output.
 
     In a connection a path without a port means the default output of every element: `port`.
     """
@@ -97,17 +105,25 @@ def target(doc: Document, path: str) -> Target:
         entry, rest = found[0]
         known = [p.name for p in parameters(type(entry.element)) if p.name != "name"]
         if rest in readable(entry):
-            raise UnknownName(f"{path!r} is a port, not a parameter", fix=f"Parameters of {entry.path}: {', '.join(known)}")
+            raise UnknownName(
+                f"{path!r} is a port, not a parameter", fix=f"Parameters of {entry.path}: {', '.join(known)}"
+            )
         raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, known))
-    everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [k.name for k in doc.knobs]
+    everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [
+        k.name for k in doc.knobs
+    ]
     raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, everything))
 
 
 def number(doc: Document, ident: str, leaf: str) -> float:
-    """The value of a parameter of an element that a document parameter can drive; any other parameter is an error."""
+    """The value of a parameter of an element that a document parameter can drive; any other parameter is an
+    error.
+    """
     found = entry(doc, ident)
     known = {path: value for path, value, p in leaves(found.element) if p.form != "array"}
     if leaf not in known:
-        what = f"{found.path}.{leaf} cannot be linked: it is not a number that can change while the model runs"
+        what = (
+            f"{found.path}.{leaf} cannot be linked: it is not a number that can change while the model runs"
+        )
         raise ParameterError(what, fix=did_you_mean(leaf, list(known)))
     return float(known[leaf])

@@ -31,9 +31,10 @@ class Builder(Owner, Protocol):
 class Handle:
     """An element of a model, or one of its ports: what `add` returns and `>>` connects.
 
-    A parameter is an attribute: `u.tau` reads its present value in the model, `u.tau = 30` changes it as `model.set("u.tau", 30)` does. Kernels and
-    sigmoids are read and changed inside: `u.kernel[0].sigma = 3`. A parameter that is linked to a document parameter reads as the value of that,
-    and refuses another value. A port is an item: `u["activation"]`.
+    A parameter is an attribute: `u.tau` reads its present value in the model, `u.tau = 30` changes it as
+    `model.set("u.tau", 30)` does. Kernels and sigmoids are read and changed inside: `u.kernel[0].sigma = 3`.
+    A parameter that is linked to a document parameter reads as the value of that, and refuses another value.
+    A port is an item: `u["activation"]`.
 
     Attributes:
         model: the model.
@@ -48,12 +49,14 @@ class Handle:
     def __init__(self, model: Builder, id: str, port: str = "") -> None:
         vars(self).update(model=model, id=id, port=port)
 
-    # -------------------------------------------------------------------------------- ports
+    # -------------------------------------------------------------------------------------------------- ports
 
     def __getitem__(self, port: str) -> Handle:
         entry = self.model.entry(self.id)
         if port not in find.readable(entry):
-            raise UnknownName(f"{entry.path} has no port {port!r}", fix=did_you_mean(port, find.readable(entry)))
+            raise UnknownName(
+                f"{entry.path} has no port {port!r}", fix=did_you_mean(port, find.readable(entry))
+            )
         return Handle(self.model, self.id, port)
 
     __iter__ = None
@@ -69,7 +72,7 @@ class Handle:
         """Ports, for completion inside the brackets."""
         return find.readable(self.model.entry(self.id))
 
-    # -------------------------------------------------------------------------------- the element and its parameters
+    # ------------------------------------------------------------------------- the element and its parameters
 
     @property
     def path(self) -> str:
@@ -90,7 +93,10 @@ class Handle:
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in _OWN:
-            raise ParameterError(f"{name} belongs to the handle and cannot be assigned", fix="An element is renamed by model.rename(handle, name)")
+            raise ParameterError(
+                f"{name} belongs to the handle and cannot be assigned",
+                fix="An element is renamed by model.rename(handle, name)",
+            )
         entry = self.model.entry(self.id)
         self._require(entry, name)
         self.model.commit(edit.put(self.model.document, self.id, name, value))
@@ -105,12 +111,16 @@ class Handle:
         last = entry.names[-1]
         if name in find.readable(entry):
             variable = last if last.isidentifier() else "handle"
-            raise UnknownAttribute(f"{entry.path}.{name} is a port, not a parameter", fix=f'Write: {variable}["{name}"]')
+            raise UnknownAttribute(
+                f"{entry.path}.{name} is a port, not a parameter", fix=f'Write: {variable}["{name}"]'
+            )
         raise UnknownAttribute(
-            f"{type(entry.element).__name__} has no parameter {name!r}", where=f"{entry.path}.{name}", fix=did_you_mean(name, known)
+            f"{type(entry.element).__name__} has no parameter {name!r}",
+            where=f"{entry.path}.{name}",
+            fix=did_you_mean(name, known),
         )
 
-    # -------------------------------------------------------------------------------- as an object
+    # ------------------------------------------------------------------------------------------- as an object
 
     def __dir__(self) -> list[str]:
         try:
@@ -120,7 +130,11 @@ class Handle:
         return sorted({*_OWN, *names})
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Handle) and (other.model, other.id, other.port) == (self.model, self.id, self.port)
+        return isinstance(other, Handle) and (other.model, other.id, other.port) == (
+            self.model,
+            self.id,
+            self.port,
+        )
 
     def __hash__(self) -> int:
         return hash((self.model, self.id, self.port))
@@ -135,5 +149,8 @@ class Handle:
         if self.port:
             return f"<{kind} {entry.path}.{quote(self.port)}>"
         axes = getattr(element, "axes", ())
-        over, others = f" {describe(axes)}" if axes else "", ", ".join(brief(element, links_of(self.model, self.id)))
+        over, others = (
+            f" {describe(axes)}" if axes else "",
+            ", ".join(brief(element, links_of(self.model, self.id))),
+        )
         return f"<{kind} {entry.path}{over}{': ' if others else ''}{others}>"

@@ -1,4 +1,7 @@
-"""Keys that occur more than once in one object of a JSON text. A plain dictionary keeps the last value and hides the others."""
+"""Keys that occur more than once in one object of a JSON text.
+
+A plain dictionary keeps the last value and hides the others.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,8 @@ Step = str | int
 
 
 class Ambiguous(dict[str, Any]):
-    """An object of a JSON text in which keys occur more than once: each key with its last value, as `json` gives it.
+    """An object of a JSON text in which keys occur more than once: each key with its last value, as `json`
+    gives it.
 
     `pairs` holds all keys and values in the order of the text.
     """
@@ -39,7 +43,10 @@ class Repeated:
 
 
 def collect(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of a JSON text, to be given to `json.loads` as `object_pairs_hook`. It marks the objects that `repeated` looks for."""
+    """An object of a JSON text, to be given to `json.loads` as `object_pairs_hook`.
+
+    It marks the objects that `repeated` looks for.
+    """
     out = dict(pairs)
     if len(out) == len(pairs):
         return out
@@ -59,8 +66,14 @@ def repeated(data: Any) -> list[Repeated]:
                 values: dict[str, list[Any]] = {}
                 for key, value in item.pairs:
                     values.setdefault(key, []).append(value)
-                found += [Repeated(path, key, tuple(several)) for key, several in values.items() if len(several) > 1]
-            inside = cast("dict[str, Any]", item).items() if isinstance(item, dict) else enumerate(cast("list[Any]", item))
+                found += [
+                    Repeated(path, key, tuple(several)) for key, several in values.items() if len(several) > 1
+                ]
+            inside = (
+                cast("dict[str, Any]", item).items()
+                if isinstance(item, dict)
+                else enumerate(cast("list[Any]", item))
+            )
             below += [((*path, step), value) for step, value in inside if isinstance(value, (dict, list))]
         level = below
     return found

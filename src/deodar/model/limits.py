@@ -23,4 +23,8 @@ def too_long(where: str, element: Element, dt: float, every: int, unit: str) -> 
         if dt * every > limit.longest * (1 + 1e-9):
             other = "smaller" if limit.role == "rate" else "larger"
             what = f"the step of {dt * every:g} {unit} is longer than {limit}"
-            yield Problem(where, what, f"Take dt <= {limit.longest / every:g}, better a tenth of it, or a {other} {limit.path}")
+            yield Problem(
+                where,
+                what,
+                f"Take dt <= {limit.longest / every:g}, better a tenth of it, or a {other} {limit.path}",
+            )

@@ -1,6 +1,7 @@
 """Documents of older versions, rewritten as the present version: plain data in, plain data out.
 
-Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every axis. Version 3 renames parameters.
+Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every
+axis. Version 3 renames parameters.
 """
 
 from __future__ import annotations
@@ -20,7 +21,12 @@ _TARGET: AxisData = {"name": "target", "lower": 0, "upper": 12, "samples": 13}
 DEFAULTS_OF_1: Mapping[str, Mapping[str, tuple[AxisData, ...]]] = {
     "AdaptiveWeights": {"axes": (_TARGET,)},
     "Attractor": {"axis": ({"name": "x", "lower": 0, "upper": 100, "samples": 101},)},
-    "DiagonalExpansion": {"axes": ({"name": "x", "lower": 0, "upper": 10, "samples": 11}, {"name": "y", "lower": 0, "upper": 10, "samples": 11})},
+    "DiagonalExpansion": {
+        "axes": (
+            {"name": "x", "lower": 0, "upper": 10, "samples": 11},
+            {"name": "y", "lower": 0, "upper": 10, "samples": 11},
+        )
+    },
     "DiagonalSum": {"axes": ({"name": "sum", "lower": 0, "upper": 28, "samples": 29},)},
     "Hebbian": {"axes": (_TARGET,)},
     "History": {"slots": ({"name": "slot", "lower": 0, "upper": 9, "samples": 10},)},
@@ -51,7 +57,9 @@ def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def recorded(doc: Document, path: str) -> str:
-    """Rewrite a path that was recorded with versions 1 and 2, where the path of a field alone meant its output, not its activation."""
+    """Rewrite a path that was recorded with versions 1 and 2, where the path of a field alone meant its
+    output, not its activation.
+    """
     try:
         entry, port = find.port(doc, path, "")
     except UnknownName:  # the sensor of a world, or a mistake that whoever reads the path reports
@@ -66,7 +74,11 @@ def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:
     axes, elements = dict(cast("dict[str, Any]", axes)), dict(cast("dict[str, Any]", elements))
     for path, body in elements.items():
         kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
-        missing = {name: old for name, old in DEFAULTS_OF_1.get(kind, {}).items() if name not in body} if isinstance(kind, str) else {}
+        missing = (
+            {name: old for name, old in DEFAULTS_OF_1.get(kind, {}).items() if name not in body}
+            if isinstance(kind, str)
+            else {}
+        )
         for name, old in missing.items():
             keys = [_key(axes, axis) for axis in old]
             elements[path] = elements[path] | {name: keys[0] if name in ("axis", "slots") else keys}

@@ -30,16 +30,28 @@ class Model:
         time_unit: unit of all times: us, ms, s, min, abstract, or steps such as "1 = 64 ms".
         dt: Euler step where a run states none.
         document: start from this document instead of an empty one.
-        trusted: whether user functions named in the document may be imported and run. None: if this process made the document, or read it with
-            trust; not if it came from a file, a pickle or a message.
+        trusted: whether user functions named in the document may be imported and run. None: if this process
+            made the document, or read it with trust; not if it came from a file, a pickle or a message.
     """
 
     def __init__(
-        self, name: str = "model", *, time_unit: str = "ms", dt: float | None = None, document: Document | None = None, trusted: bool | None = None
+        self,
+        name: str = "model",
+        *,
+        time_unit: str = "ms",
+        dt: float | None = None,
+        document: Document | None = None,
+        trusted: bool | None = None,
     ) -> None:
-        doc = document if document is not None else edit.describe(Document(name), name=name, time_unit=time_unit, dt=dt)
+        doc = (
+            document
+            if document is not None
+            else edit.describe(Document(name), name=name, time_unit=time_unit, dt=dt)
+        )
         self._trusted = not doc.foreign if trusted is None else trusted
-        self.history = edit.History(doc if doc.foreign != self._trusted else dc.replace(doc, foreign=not self._trusted))
+        self.history = edit.History(
+            doc if doc.foreign != self._trusted else dc.replace(doc, foreign=not self._trusted)
+        )
         self._doubted: int | None = None
         self.declared: dict[str, str] = {}
         self.programs: dict[Hashable, Any] = {}
@@ -52,7 +64,9 @@ class Model:
     def __copy__(self) -> Model:
         """An independent model with the same document, history and trust, without compiled programs."""
         other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__, history=copy.copy(self.history), declared=dict(self.declared), programs={})
+        other.__dict__.update(
+            self.__dict__, history=copy.copy(self.history), declared=dict(self.declared), programs={}
+        )
         return other
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Model:
@@ -63,19 +77,21 @@ class Model:
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle holds: no compiled programs, and no trust in functions that a document names.
 
-        Whoever reads the pickle decides whether to trust them: `Model(document=model.document, trusted=True)`.
+        Whoever reads the pickle decides whether to trust them: `Model(document=model.document,
+        trusted=True)`.
         """
         plain = not any(e.element.outside() for d in self.history.documents for e in d.entries)
         return {**self.__dict__, "programs": {}, "_trusted": self._trusted and plain}
 
-    # -------------------------------------------------------------------------------- building
+    # ----------------------------------------------------------------------------------------------- building
 
     @renamed.arguments("dd.Model.add")
     def add(self, element: Element, group: str = "", ticks: int = 1, after: Handle | None = None) -> Handle:
         """Add an element and return its handle.
 
-        `ticks` is the length of its own step: with `ticks=10` it takes a step of 10 dt at every tenth tick. Elements without a state (couplings,
-        stimuli) have no step: they follow their inputs at every tick; noise is drawn anew once in this number of ticks.
+        `ticks` is the length of its own step: with `ticks=10` it takes a step of 10 dt at every tenth tick.
+        Elements without a state (couplings, stimuli) have no step: they follow their inputs at every tick;
+        noise is drawn anew once in this number of ticks.
         """
         near = self.entry(after.id) if after is not None else None
         doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, near)
@@ -147,10 +163,11 @@ class Model:
         self.commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
     def insert(self, template: Model, group: str, link: bool = False) -> None:
-        """Copy another model into this one, as a group; with `link` it stays one of the template's uses, for `refresh`.
+        """Copy another model into this one, as a group; with `link` it stays one of the template's uses, for
+        `refresh`.
 
-        Document parameters come along; one whose name this model has already is shared, at the value it has here. Functions of a model
-        that nobody trusts are not trusted here either.
+        Document parameters come along; one whose name this model has already is shared, at the value it has
+        here. Functions of a model that nobody trusts are not trusted here either.
         """
         target = split(group)
         self.commit(edit.insert(self.document, template.document, lambda n: target + n, linked=link))
@@ -159,16 +176,19 @@ class Model:
     def refresh(self, template: Model) -> None:
         """Make all groups that are linked to a template of this name as the template now is.
 
-        Elements keep their ids, and so their states and noise; connections across the border of a group stay. What was changed inside is made
-        again as the template has it, except what document parameters drive. Those keep their values here; new ones come along.
+        Elements keep their ids, and so their states and noise; connections across the border of a group stay.
+        What was changed inside is made again as the template has it, except what document parameters drive.
+        Those keep their values here; new ones come along.
         """
         self.commit(uses.refresh(self.document, template.document))
         self._doubt(template)
 
     def set(self, path: str | Mapping[str, Any], value: Any = ...) -> None:
-        """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`), or several at once: all or, after an error, none.
+        """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`), or several at
+        once: all or, after an error, none.
 
-        For example `model.set("u.tau", 30)` or `model.set({"u.tau": 30, "v.tau": 10})`, which is one step of the history.
+        For example `model.set("u.tau", 30)` or `model.set({"u.tau": 30, "v.tau": 10})`, which is one step of
+        the history.
         """
         self.commit(edit.change_all(self.document, edit.assignments(path, value)))
 
@@ -218,7 +238,7 @@ class Model:
         """Make the change again that was taken back; False where there is none."""
         return self.history.redo()
 
-    # -------------------------------------------------------------------------------- looking
+    # ------------------------------------------------------------------------------------------------ looking
 
     @property
     def document(self) -> Document:
@@ -257,11 +277,15 @@ class Model:
         return iter([Handle(self, e.id) for e in self.document.entries])
 
     def check(self) -> list[Problem]:
-        """Problems and warnings, each with its path and the line that declared it; without a problem it runs."""
+        """Problems and warnings, each with its path and the line that declared it; without a problem it
+        runs.
+        """
         return self._placed(check(self.document))
 
     def require(self) -> None:
-        """Raise a `ModelError` with every problem that stops a run, if there is any; warnings do not count."""
+        """Raise a `ModelError` with every problem that stops a run, if there is any; warnings do not
+        count.
+        """
         found = self._placed(problems(self.document))
         if found:
             raise ModelError(found)
@@ -285,14 +309,22 @@ class Model:
             for e in self.document.entries
         )
         head = "<tr><th>element</th><th>kind</th><th>reads from</th></tr>"
-        table = f"<details><summary>{len(self.document.entries)} elements</summary><table>{head}{rows}</table></details>"
-        return f'<b>{html.escape(self.name)}</b><div style="overflow-x:auto">{Diagram(self.document).svg}</div>{table}'
+        table = (
+            f"<details><summary>{len(self.document.entries)}"
+            f" elements</summary><table>{head}{rows}</table></details>"
+        )
+        return (
+            f"<b>{html.escape(self.name)}</b><div"
+            f' style="overflow-x:auto">{Diagram(self.document).svg}</div>{table}'
+        )
 
-    # -------------------------------------------------------------------------------- inside
+    # ------------------------------------------------------------------------------------------------- inside
 
     def _placed(self, found: Sequence[Problem]) -> list[Problem]:
         where = {e.path: self.declared.get(e.id, "") for e in self.document.entries}
-        return [dc.replace(p, where=f"{p.where} ({where[p.where]})") if where.get(p.where) else p for p in found]
+        return [
+            dc.replace(p, where=f"{p.where} ({where[p.where]})") if where.get(p.where) else p for p in found
+        ]
 
     def _doubt(self, template: Model) -> None:
         if not template.trusted and any(e.element.outside() for e in template.document.entries):
@@ -307,15 +339,23 @@ class Model:
         if isinstance(what, str):
             return find.port(self.document, what, default)
         if not isinstance(what, Handle):
-            raise ModelError(f"{show(what)} cannot be connected", fix="Give a path, or what model.add returned")
+            raise ModelError(
+                f"{show(what)} cannot be connected", fix="Give a path, or what model.add returned"
+            )
         if what.model is not self:
-            raise ModelError(f"{what.path!r} belongs to another model", fix="Add it to this one, or insert the other model as a group")
+            raise ModelError(
+                f"{what.path!r} belongs to another model",
+                fix="Add it to this one, or insert the other model as a group",
+            )
         return self.entry(what.id), what.port
 
     def _group(self, path: str) -> Names:
         names = split(path)
         if names not in self.document.groups:
-            raise UnknownName(f"there is no group {path!r}", fix=edit.did_you_mean(path, [display(g) for g in self.document.groups]))
+            raise UnknownName(
+                f"there is no group {path!r}",
+                fix=edit.did_you_mean(path, [display(g) for g in self.document.groups]),
+            )
         return names
 
 
@@ -324,7 +364,10 @@ def path_of(what: Any) -> str:
     if isinstance(what, Handle):
         return f"{what.path}.{quote(what.port)}" if what.port else what.path
     if not isinstance(what, str):
-        raise ParameterError(f"{show(what)} is no path", fix="Write it as text: 'u.activation'; or take a handle: u['activation']")
+        raise ParameterError(
+            f"{show(what)} is no path",
+            fix="Write it as text: 'u.activation'; or take a handle: u['activation']",
+        )
     return what
 
 

@@ -16,7 +16,8 @@ Act = tuple[str, Role, Instant]
 def order(nodes: Sequence[Node]) -> tuple[list[Act], list[Problem]]:
     """All evaluations of a step in topological order, with `level` set on each node.
 
-    A read of `current` makes the advance of its source come before it. Nodes of equal level can be evaluated together.
+    A read of `current` makes the advance of its source come before it. Nodes of equal level can be evaluated
+    together.
     """
     walk = _Walk(nodes)
     for n in nodes:
@@ -53,7 +54,9 @@ class _Walk:
                 loop = [self.by[a[0]].path for a in self.path[self.path.index(act) :]]
                 names = " -> ".join([n.path, *reversed(list(dict.fromkeys(loop)))])
                 current = any(a[2] or a[1] == "advance" for a in self.path[self.path.index(act) :])
-                what = "a loop of connections that read 'current'" if current else "a loop without a state in it"
+                what = (
+                    "a loop of connections that read 'current'" if current else "a loop without a state in it"
+                )
                 problem = Problem(n.path, f"{what}: {names}", "Let one of them read 'previous', or 'delayed'")
                 if problem not in self.problems:
                     self.problems.append(problem)

@@ -1,4 +1,6 @@
-"""Writing files so that nothing is lost: beside, on the disk and then renamed, and never over what this run did not write."""
+"""Writing files so that nothing is lost: beside, on the disk and then renamed, and never over what this run
+did not write.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,11 @@ def claim(path: str | Path, force: bool = False) -> Path:
         if not path.is_file() or path.is_symlink():
             raise OutputExists("exists and is not a regular file", where=str(path), fix="Choose another name")
         if not force:
-            raise OutputExists("exists already", where=str(path), fix="Choose another name, or replace it with --force (force=True)")
+            raise OutputExists(
+                "exists already",
+                where=str(path),
+                fix="Choose another name, or replace it with --force (force=True)",
+            )
     parent = path.parent
     if not parent.is_dir():
         raise OutputError(f"there is no folder {str(parent)!r} to write into", where=str(path))
@@ -52,7 +58,9 @@ def claim(path: str | Path, force: bool = False) -> Path:
 
 
 def write(path: Path, content: bytes | Callable[[Path], None]) -> None:
-    """Write beside the final place, wait until it is on the disk, and rename: the file is there whole, or not at all."""
+    """Write beside the final place, wait until it is on the disk, and rename: the file is there whole, or not
+    at all.
+    """
     try:
         handle, name = tempfile.mkstemp(prefix=f".{path.name[:40]}.", suffix=path.suffix, dir=path.parent)
         os.close(handle)
@@ -97,7 +105,9 @@ def sync_folder(path: Path) -> None:
 
 
 def sync_tree(path: Path) -> None:
-    """Wait until a folder is on the disk with everything below it; several files at a time, which a disk does in about the time of one."""
+    """Wait until a folder is on the disk with everything below it; several files at a time, which a disk does
+    in about the time of one.
+    """
     found = list(os.walk(path, topdown=False))
     with ThreadPoolExecutor(THREADS) as pool:
         list(pool.map(sync, [Path(folder, name) for folder, _, names in found for name in names]))

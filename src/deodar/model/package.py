@@ -1,6 +1,8 @@
-"""A document and its arrays in one file, `NAME.deodar`: a zip file that holds `NAME.json` and the array file which that names.
+"""A document and its arrays in one file, `NAME.deodar`: a zip file that holds `NAME.json` and the array file
+which that names.
 
-Reading trusts nothing: a package holds these two and nothing else, under plain names, and no more bytes than its table of contents says.
+Reading trusts nothing: a package holds these two and nothing else, under plain names, and no more bytes than
+its table of contents says.
 """
 
 from __future__ import annotations
@@ -30,7 +32,11 @@ def pack(entries: Mapping[str, bytes]) -> bytes:
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as z:
         for name, content in entries.items():
-            z.writestr(zipfile.ZipInfo(name, DATE), content, zipfile.ZIP_DEFLATED if name.endswith(".json") else zipfile.ZIP_STORED)
+            z.writestr(
+                zipfile.ZipInfo(name, DATE),
+                content,
+                zipfile.ZIP_DEFLATED if name.endswith(".json") else zipfile.ZIP_STORED,
+            )
     return buffer.getvalue()
 
 
@@ -51,7 +57,8 @@ class Package:
     Args:
         file: the file, by its path or open.
         most: largest size of the document in bytes.
-        require_room: called with the size in bytes and the name of each entry; raises if it would not fit into memory.
+        require_room: called with the size in bytes and the name of each entry; raises if it would not fit
+            into memory.
 
     Attributes:
         document: name of the document in it.
@@ -70,17 +77,27 @@ class Package:
         if len(self._entries) < len(self._zip.infolist()):
             raise DocumentError("holds a file twice")
         for name, entry in self._entries.items():
-            if "/" in entry.orig_filename or "\\" in entry.orig_filename or ":" in name or name != Path(name).name:
+            if (
+                "/" in entry.orig_filename
+                or "\\" in entry.orig_filename
+                or ":" in name
+                or name != Path(name).name
+            ):
                 raise DocumentError(f"holds {name!r}, which lies outside the folder of the document")
             if entry.flag_bits & 1:
                 raise DocumentError(f"holds {name!r}, which is encrypted")
         found = [name for name in self._entries if name.endswith(".json")]
         if len(found) != 1:
-            raise DocumentError(f"holds {len(found)} documents" if found else "holds no document", fix="A package holds one: deodar pack FILE")
+            raise DocumentError(
+                f"holds {len(found)} documents" if found else "holds no document",
+                fix="A package holds one: deodar pack FILE",
+            )
         self.document = found[0]
         size = self._entries[self.document].file_size
         if size > most:
-            raise DocumentError(f"holds a document of {size / 2**20:.0f} MiB; a document has at most {most // 2**20}")
+            raise DocumentError(
+                f"holds a document of {size / 2**20:.0f} MiB; a document has at most {most // 2**20}"
+            )
 
     def __enter__(self) -> Package:
         return self
@@ -103,7 +120,14 @@ class Package:
         try:
             with self._zip.open(entry) as file:
                 content = file.read(entry.file_size + 1)
-        except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError) as error:
+        except (
+            zipfile.BadZipFile,
+            zlib.error,
+            EOFError,
+            NotImplementedError,
+            RuntimeError,
+            ValueError,
+        ) as error:
             raise DocumentError(f"is damaged: {name!r} cannot be read ({error})") from None
         if len(content) != entry.file_size:
             raise DocumentError(f"is damaged: {name!r} is not as long as the package says")

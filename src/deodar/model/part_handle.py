@@ -32,8 +32,8 @@ class Owner(Protocol):
 class PartHandle(Reference):
     """A kernel, a sigmoid or another part inside an element of a model.
 
-    `u.kernel[0].sigma` reads the present value, `u.kernel[0].sigma = 3` changes it in the model. Where a part is needed, it counts as the part
-    that the model has at that moment: `v.sigmoid = u.sigmoid`.
+    `u.kernel[0].sigma` reads the present value, `u.kernel[0].sigma = 3` changes it in the model. Where a part
+    is needed, it counts as the part that the model has at that moment: `v.sigmoid = u.sigmoid`.
     """
 
     def __init__(self, model: Owner, ident: str, leaf: str) -> None:
@@ -61,7 +61,11 @@ class PartHandle(Reference):
     def _require(self, part: Part, name: str) -> None:
         if name not in _names(part):
             where = f"{self._model.entry(self._id).path}.{self._leaf}.{name}"
-            raise UnknownAttribute(f"{type(part).__name__} has no parameter {name!r}", where=where, fix=did_you_mean(name, _names(part)))
+            raise UnknownAttribute(
+                f"{type(part).__name__} has no parameter {name!r}",
+                where=where,
+                fix=did_you_mean(name, _names(part)),
+            )
 
     def __call__(self, *args: Any) -> Any:
         return cast(Any, self.__value__())(*args)
@@ -77,7 +81,9 @@ class PartHandle(Reference):
 
 
 class PartsHandle(Reference):
-    """The kernels, windows or other parts inside an element of a model, in their order: items are handles of parts."""
+    """The kernels, windows or other parts inside an element of a model, in their order: items are handles of
+    parts.
+    """
 
     def __init__(self, model: Owner, ident: str, leaf: str) -> None:
         vars(self).update(_model=model, _id=ident, _leaf=leaf)
@@ -92,7 +98,9 @@ class PartsHandle(Reference):
         return PartHandle(self._model, self._id, f"{self._leaf}.{self._place(index)}")
 
     def __setitem__(self, index: int, value: Any) -> None:
-        self._model.commit(edit.put(self._model.document, self._id, f"{self._leaf}.{self._place(index)}", value))
+        self._model.commit(
+            edit.put(self._model.document, self._id, f"{self._leaf}.{self._place(index)}", value)
+        )
 
     def __delitem__(self, index: int) -> None:
         parts = list(self.__value__())
@@ -120,7 +128,10 @@ class PartsHandle(Reference):
         entry, parts = self._model.entry(self._id), self.__value__()
         written = f"{entry.names[-1] if entry.names[-1].isidentifier() else 'handle'}.{self._leaf}"
         if any(name in _names(part) for part in parts):
-            raise UnknownAttribute(f"{entry.path}.{self._leaf} is a list of parts; {name!r} is a parameter of one", fix=f"Write: {written}[0].{name}")
+            raise UnknownAttribute(
+                f"{entry.path}.{self._leaf} is a list of parts; {name!r} is a parameter of one",
+                fix=f"Write: {written}[0].{name}",
+            )
         what = f"{entry.path}.{self._leaf} is a list of parts in a model, without {name!r}"
         raise UnknownAttribute(what, fix=f"Assign another list. Write: {written} = [*{written}, part]")
 
@@ -130,7 +141,10 @@ class PartsHandle(Reference):
             raise ParameterError(f"the index of a part is a whole number, not {show(index)}")
         if not -n <= index < n:
             path = self._model.entry(self._id).path
-            raise IndexError(f"{path}.{self._leaf} has {n} part{'' if n == 1 else 's'}, counted from 0; there is no part {index}")
+            raise IndexError(
+                f"{path}.{self._leaf} has {n} part{'' if n == 1 else 's'}, counted from 0; there is no part"
+                f" {index}"
+            )
         return index % n
 
     def __eq__(self, other: object) -> bool:
@@ -155,7 +169,9 @@ def inside(model: Owner, ident: str, part: Part, leaf: str, name: str) -> Any:
 
 
 def brief(part: Part, links: Mapping[str, str], leaf: str = "") -> list[str]:
-    """`name=value` of every parameter that differs from its default or is linked to a document parameter; neither the name nor axes of an element."""
+    """`name=value` of every parameter that differs from its default or is linked to a document parameter;
+    neither the name nor axes of an element.
+    """
     out: list[str] = []
     for p in parameters(type(part)):
         value, path = getattr(part, p.name), f"{leaf}.{p.name}" if leaf else p.name

@@ -57,7 +57,11 @@ def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[st
         case "texts":
             return {"type": "array", "items": {"type": "string"}}
         case "axes":
-            return {"type": "array", "items": {"type": "string"}, "description": "keys of the document's axes"}
+            return {
+                "type": "array",
+                "items": {"type": "string"},
+                "description": "keys of the document's axes",
+            }
         case "axis":
             return {"type": "string", "description": "key of one of the document's axes"}
         case "part":
@@ -72,7 +76,9 @@ def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[st
             return {"type": "object", "additionalProperties": {"type": "string"}}
 
 
-def to_json(part: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]) -> dict[str, Any]:
+def to_json(
+    part: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]
+) -> dict[str, Any]:
     """Plain data of a part: its kind and every parameter, in the order of the fields."""
     out: dict[str, Any] = {"kind": type(part).__name__}
     for p in parameters(type(part)):
@@ -82,7 +88,9 @@ def to_json(part: Any, axis_key: Callable[[Any], str], array_key: Callable[[Froz
     return out
 
 
-def _plain(p: Parameter, value: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]) -> Any:
+def _plain(
+    p: Parameter, value: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]
+) -> Any:
     match p.form:
         case "axes":
             return [axis_key(a) for a in value]
@@ -116,11 +124,16 @@ def _from_json(
     try:
         cls = registry.kind(data["kind"])
     except UnknownName as error:
-        own = "If it is one of your own, import its module first (on the command line: deodar --import MODULE ...)"
+        own = (
+            "If it is one of your own, import its module first (on the command line: deodar --import MODULE"
+            " ...)"
+        )
         problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
         return None
     if not issubclass(cls, base):
-        problems.append(Problem(where, f"{an(cls.__name__)} cannot stand here, where {an(base.__name__)} belongs"))
+        problems.append(
+            Problem(where, f"{an(cls.__name__)} cannot stand here, where {an(base.__name__)} belongs")
+        )
         return None
     known = {p.name: p for p in parameters(cls)}
     values: dict[str, Any] = dict(given)
@@ -129,7 +142,9 @@ def _from_json(
         if name in ("kind", *given):
             continue
         if name not in known:
-            found.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known)))
+            found.append(
+                Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known))
+            )
             continue
         before = len(found)
         read = _value(known[name], value, f"{where}.{name}", axes, arrays, found)
@@ -138,7 +153,9 @@ def _from_json(
     stated = [q.where.rpartition(".")[2] for q in found]
     for p in known.values():
         if isinstance(p.default, Needed) and values.get(p.name) is None and p.name not in stated:
-            found.append(Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes)))
+            found.append(
+                Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes))
+            )
     if found:
         problems += [*found, *_faulty_values(known, values, where)]
         return None
@@ -151,15 +168,30 @@ def _from_json(
     return None
 
 
-def _value(p: Parameter, value: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], problems: list[Problem]) -> Any:
+def _value(
+    p: Parameter,
+    value: Any,
+    where: str,
+    axes: Mapping[str, Any],
+    arrays: Mapping[str, FrozenArray],
+    problems: list[Problem],
+) -> Any:
     """The value of one parameter; None where it cannot be read, with a problem."""
     match p.form:
         case _ if value is None:
             return None
         case "axes" | "axis":
             keys = value if p.form == "axes" else [value]
-            if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)):
-                problems.append(Problem(where, f"{show(value)} is not among the document's axes", f"There are: {', '.join(axes) or 'none'}"))
+            if not isinstance(keys, list) or any(
+                not isinstance(k, str) or k not in axes for k in typing.cast("list[Any]", keys)
+            ):
+                problems.append(
+                    Problem(
+                        where,
+                        f"{show(value)} is not among the document's axes",
+                        f"There are: {', '.join(axes) or 'none'}",
+                    )
+                )
                 return None
             found = [axes[k] for k in typing.cast("list[str]", keys)]
             return found if p.form == "axes" else found[0]
@@ -170,7 +202,10 @@ def _value(p: Parameter, value: Any, where: str, axes: Mapping[str, Any], arrays
                 problems.append(Problem(where, f"needs a list, not {show(value)}"))
                 return None
             items = typing.cast("list[Any]", value)
-            return [_from_json(v, f"{where}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
+            return [
+                _from_json(v, f"{where}.{i}", axes, arrays, typing.cast(Any, p.of), problems, {})
+                for i, v in enumerate(items)
+            ]
         case "array":
             key = typing.cast(Any, value).get("array") if isinstance(value, dict) else None
             if not isinstance(key, str) or key not in arrays:
@@ -181,7 +216,9 @@ def _value(p: Parameter, value: Any, where: str, axes: Mapping[str, Any], arrays
             return value
 
 
-def _faulty_values(known: Mapping[str, Parameter], values: Mapping[str, Any], where: str) -> Iterator[Problem]:
+def _faulty_values(
+    known: Mapping[str, Parameter], values: Mapping[str, Any], where: str
+) -> Iterator[Problem]:
     """What else is wrong, as far as it can be told without the parts that failed."""
     for name, value in values.items():
         if name in known and known[name].form in PLAIN:
@@ -192,13 +229,18 @@ def _faulty_values(known: Mapping[str, Parameter], values: Mapping[str, Any], wh
 
 
 def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
-    """The line of a document that gives a parameter its axes: a letter stands for any axis that the document has, a word for one of its own."""
+    """The line of a document that gives a parameter its axes: a letter stands for any axis that the document
+    has, a word for one of its own.
+    """
     free = [key for key in axes if key not in like.names]
     keys = [free.pop(0) if len(name) == 1 and name not in axes and free else name for name in like.names]
     undeclared = [key for key in keys if key not in axes]
     line = f'Write "{p.name}": {json.dumps(keys if p.form == "axes" else keys[0])}'
     if undeclared:
-        return f'{line}, and declare among the document\'s axes: "{undeclared[0]}": {{"lower": 0, "upper": 100, "samples": 101}}'
+        return (
+            f'{line}, and declare among the document\'s axes: "{undeclared[0]}": {{"lower": 0, "upper": 100,'
+            ' "samples": 101}'
+        )
     return f"{line}; the document's axes are: {', '.join(axes)}" if len(axes) > len(keys) else line
 
 
@@ -207,7 +249,14 @@ def _under(where: str, cls: type[Any], inner: str) -> str:
     return f"{where}{rest}" if rest.startswith(".") else where
 
 
-def part_from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray], base: type[Any], name: str) -> Any:
+def part_from_json(
+    data: Any,
+    where: str,
+    axes: Mapping[str, Any],
+    arrays: Mapping[str, FrozenArray],
+    base: type[Any],
+    name: str,
+) -> Any:
     """The named part that plain data describe; raises with every problem found, each with its path."""
     problems: list[Problem] = []
     part = _from_json(data, where, axes, arrays, base, problems, {"name": name})
@@ -216,21 +265,32 @@ def part_from_json(data: Any, where: str, axes: Mapping[str, Any], arrays: Mappi
     return part
 
 
-def value_from_json(part: Any, path: str, data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray]) -> Any:
-    """The value that plain data describe for one parameter of a part (`tau`, `kernel`, `kernel.0`, `kernel.0.sigma`), not yet checked against it."""
+def value_from_json(
+    part: Any, path: str, data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray]
+) -> Any:
+    """The value that plain data describe for one parameter of a part (`tau`, `kernel`, `kernel.0`,
+    `kernel.0.sigma`), not yet checked against it.
+    """
     p, whole = _declared(part, path)
     problems: list[Problem] = []
     value: Any = data
     if p.form in ("axes", "axis") and whole and data is not None:
         keys = cast("list[Any]", data if p.form == "axes" else [data])
         if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in keys):
-            raise ParameterError(f"{show(data)} is not among the document's axes", where=where, fix=f"There are: {', '.join(axes) or 'none'}")
+            raise ParameterError(
+                f"{show(data)} is not among the document's axes",
+                where=where,
+                fix=f"There are: {', '.join(axes) or 'none'}",
+            )
         value = [axes[k] for k in keys] if p.form == "axes" else axes[keys[0]]
     elif p.form == "parts" and whole:
         if not isinstance(data, list):
             raise ParameterError(f"needs a list, not {show(data)}", where=where)
         items = cast("list[Any]", data)
-        value = [_from_json(v, f"{where}.{i}", axes, arrays, cast(Any, p.of), problems, {}) for i, v in enumerate(items)]
+        value = [
+            _from_json(v, f"{where}.{i}", axes, arrays, cast(Any, p.of), problems, {})
+            for i, v in enumerate(items)
+        ]
     elif p.form in ("part", "parts") and data is not None:
         value = _from_json(data, where, axes, arrays, cast(Any, p.of), problems, {})
     elif p.form == "array" and isinstance(data, dict):

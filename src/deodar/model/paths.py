@@ -1,6 +1,7 @@
 """Names and paths: `group.element.port`, `group.element.parameter`.
 
-Names may be any text. In a path a name stands as it is where that is unambiguous; `quote` gives the form that always is.
+Names may be any text. In a path a name stands as it is where that is unambiguous; `quote` gives the form that
+always is.
 """
 
 from __future__ import annotations
@@ -43,7 +44,9 @@ def split(path: str) -> Names:
             except ValueError:
                 raise UnknownName(f"the path {path!r} opens a quotation mark and never closes it") from None
             if end < len(path) and path[end] != ".":
-                raise UnknownName(f"in the path {path!r} something stands between a quoted name and the next dot")
+                raise UnknownName(
+                    f"in the path {path!r} something stands between a quoted name and the next dot"
+                )
         else:
             end = path.find(".", at)
             end = len(path) if end < 0 else end

@@ -1,4 +1,6 @@
-"""From plain data to a document: everything is checked, every problem is listed at once, nothing is half-read."""
+"""From plain data to a document: everything is checked, every problem is listed at once, nothing is
+half-read.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,15 @@ from typing import Any, cast
 
 from deodar import registry
 from deodar.element import Element
-from deodar.errors import AxesError, DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.errors import (
+    AxesError,
+    DeodarError,
+    DocumentError,
+    ParameterError,
+    Problem,
+    UnknownName,
+    did_you_mean,
+)
 from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import KEYS, READS, VERSION, Document, Entry, Use
@@ -23,7 +33,9 @@ PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99} [0-9A-Za-z][0-9A-Za-z.!+_
 """A package and its version, as a document states them."""
 
 MOST_PROBLEMS = 100
-"""Connections with problems that are listed: each is compared with all names there are, which takes long where both are many."""
+"""Connections with problems that are listed: each is compared with all names there are, which takes long
+where both are many.
+"""
 
 
 def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
@@ -45,7 +57,8 @@ class _Reader:
             raise DocumentError("is not a deodar document: it has no key 'deodar'")
         if not isinstance(version, int) or isinstance(version, bool) or not 1 <= version <= VERSION:
             raise DocumentError(
-                f"is a document of version {show(version)}; this deodar reads versions 1 to {VERSION}", fix="Type: pip install --upgrade deodar"
+                f"is a document of version {show(version)}; this deodar reads versions 1 to {VERSION}",
+                fix="Type: pip install --upgrade deodar",
             )
         self.data = migrate(self.data)
         for key in self.data:
@@ -57,7 +70,9 @@ class _Reader:
         axes = self.axes()
         doc = self.elements(doc, axes)
         doc = self.groups(doc)
-        if not self.problems:  # connections and links of elements that could not be read would only repeat their problems
+        if (
+            not self.problems
+        ):  # connections and links of elements that could not be read would only repeat their problems
             doc = self.uses(self.knobs(self.connections(doc)))
         needed = self.packages()
         if self.problems:
@@ -71,7 +86,10 @@ class _Reader:
         try:
             return change(doc)
         except DeodarError as error:
-            self.problems += [Problem(where if p.where in ("", where) else f"{where}: {p.where}", p.what, p.fix) for p in error.problems]
+            self.problems += [
+                Problem(where if p.where in ("", where) else f"{where}: {p.where}", p.what, p.fix)
+                for p in error.problems
+            ]
             return doc
 
     def text(self, key: str, default: str) -> str:
@@ -102,12 +120,17 @@ class _Reader:
             if isinstance(text, str) and PACKAGE.fullmatch(text):
                 found[kind] = text
             else:
-                self.problem(f"packages.{kind}", f"needs a package and its version, such as 'deodar-change 0.1.0', not {show(text)}")
+                self.problem(
+                    f"packages.{kind}",
+                    f"needs a package and its version, such as 'deodar-change 0.1.0', not {show(text)}",
+                )
         return found
 
     @staticmethod
     def unfit_packages(needed: Mapping[str, str]) -> Iterator[Problem]:
-        """Packages that the document was saved with and that are missing, or of another version: the cause of other problems."""
+        """Packages that the document was saved with and that are missing, or of another version: the cause of
+        other problems.
+        """
         for kind, package in needed.items():
             where = f"packages.{kind}"
             try:
@@ -116,15 +139,23 @@ class _Reader:
                 if kind not in [p.name for p in registry.packaged()]:
                     name, _, version = package.partition(" ")
                     yield Problem(
-                        where, f"{kind} is of the package {package}, which is not installed", f"If you trust it, type: pip install {name}=={version}"
+                        where,
+                        f"{kind} is of the package {package}, which is not installed",
+                        f"If you trust it, type: pip install {name}=={version}",
                     )
             else:
                 here = registry.package(kind)
                 if here != package:
-                    yield Problem(where, f"the document was saved with {package}; {kind} is of {here or 'a module that is in no package'} now")
+                    yield Problem(
+                        where,
+                        f"the document was saved with {package}; {kind} is of"
+                        f" {here or 'a module that is in no package'} now",
+                    )
 
     def general(self, doc: Document) -> Document:
-        doc = self.attempt("time_unit", doc, lambda d: edit.describe(d, time_unit=self.data.get("time_unit", "ms")))
+        doc = self.attempt(
+            "time_unit", doc, lambda d: edit.describe(d, time_unit=self.data.get("time_unit", "ms"))
+        )
         doc = self.attempt("dt", doc, lambda d: edit.describe(d, dt=self.data.get("dt")))
         doc = self.attempt("t0", doc, lambda d: edit.describe(d, t0=self.data.get("t0", 0.0)))
         notes, layout = self.text("notes", ""), self.table("layout")
@@ -172,7 +203,11 @@ class _Reader:
                 continue
             if ident is None:
                 ident = stored_id(display(names), ids)
-            if not isinstance(ident, str) or len(ident) != 8 or any(c not in "0123456789abcdef" for c in ident):
+            if (
+                not isinstance(ident, str)
+                or len(ident) != 8
+                or any(c not in "0123456789abcdef" for c in ident)
+            ):
                 self.problem(f"{where}.id", f"is {show(ident)}; it is eight hexadecimal digits")
                 continue
             if ident in ids:
@@ -186,7 +221,11 @@ class _Reader:
             ids.add(ident)
             entries.append(Entry(ident, names, part, every))
         paths = {e.names for e in entries}
-        for e in {e.names: e for e in entries if [o.names for o in entries].count(e.names) > 1}.values() if len(paths) < len(entries) else ():
+        for e in (
+            {e.names: e for e in entries if [o.names for o in entries].count(e.names) > 1}.values()
+            if len(paths) < len(entries)
+            else ()
+        ):
             self.problem(f"elements.{e.path}", "stands there twice, written in two ways")
         for e in entries:
             if any(e.names[:k] in paths for k in range(1, len(e.names))) or any(not n for n in e.names):
@@ -205,9 +244,15 @@ class _Reader:
         for k, row in enumerate(self.rows("connections")):
             where = f"connections.{k}"
             if len(self.problems) >= MOST_PROBLEMS:
-                self.problem(where, f"this one and those after it were not read: there are {MOST_PROBLEMS} problems before it")
+                self.problem(
+                    where,
+                    f"this one and those after it were not read: there are {MOST_PROBLEMS} problems"
+                    " before it",
+                )
                 break
-            if not isinstance(row, dict) or not all(isinstance(cast(Any, row).get(key), str) for key in ("source", "target")):
+            if not isinstance(row, dict) or not all(
+                isinstance(cast(Any, row).get(key), str) for key in ("source", "target")
+            ):
                 self.problem(where, "needs a source and a target")
                 continue
             value = cast("dict[str, str]", row)
@@ -223,8 +268,15 @@ class _Reader:
             where = f"parameters.{name}"
             body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
             number, links = body.get("value"), body.get("links", [])
-            texts = isinstance(links, list) and all(isinstance(path, str) for path in cast("list[Any]", links))
-            if isinstance(number, bool) or not isinstance(number, (int, float)) or not texts or set(body) - {"value", "links"}:
+            texts = isinstance(links, list) and all(
+                isinstance(path, str) for path in cast("list[Any]", links)
+            )
+            if (
+                isinstance(number, bool)
+                or not isinstance(number, (int, float))
+                or not texts
+                or set(body) - {"value", "links"}
+            ):
                 self.problem(where, "needs a value (a number) and links (a list of paths), and nothing else")
                 continue
             doc = self.attempt(where, doc, lambda d, n=name, v=number: edit.knob(d, n, v))
@@ -237,9 +289,20 @@ class _Reader:
             where = f"uses.{path}"
             body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
             template, elements = body.get("template"), body.get("elements")
-            texts = isinstance(elements, dict) and all(isinstance(v, str) for v in cast("dict[str, Any]", elements).values())
-            if not isinstance(template, str) or not template or not texts or set(body) - {"template", "elements"}:
-                self.problem(where, "needs a template (its name) and elements (the template's ids and paths here), and nothing else")
+            texts = isinstance(elements, dict) and all(
+                isinstance(v, str) for v in cast("dict[str, Any]", elements).values()
+            )
+            if (
+                not isinstance(template, str)
+                or not template
+                or not texts
+                or set(body) - {"template", "elements"}
+            ):
+                self.problem(
+                    where,
+                    "needs a template (its name) and elements (the template's ids and paths here), and"
+                    " nothing else",
+                )
                 continue
             pairs = cast("dict[str, str]", elements)
             doc = self.attempt(where, doc, lambda d, p=path, n=template, e=pairs: _used(d, p, n, e))
@@ -249,7 +312,9 @@ class _Reader:
 def _used(doc: Document, path: str, template: str, elements: Mapping[str, str]) -> Document:
     group = split(path)
     if group not in doc.groups:
-        raise UnknownName(f"there is no group {path!r}", fix=did_you_mean(path, [display(g) for g in doc.groups]))
+        raise UnknownName(
+            f"there is no group {path!r}", fix=did_you_mean(path, [display(g) for g in doc.groups])
+        )
     pairs = tuple((ident, find.element(doc, own).id) for ident, own in elements.items())
     return dc.replace(doc, uses=(*doc.uses, Use(group, template, pairs)))
 

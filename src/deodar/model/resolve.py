@@ -1,7 +1,7 @@
 """From a document to nodes: axes inferred at every port, connections fitted, every problem listed at once.
 
-Implicit resampling, contraction, expansion and delays become nodes of their own, so that what follows sees plain
-connections between equal axes.
+Implicit resampling, contraction, expansion and delays become nodes of their own, so that what follows sees
+plain connections between equal axes.
 """
 
 from __future__ import annotations
@@ -46,7 +46,11 @@ class Node:
     def passes(self, port: str) -> Sequence[str]:
         """Input ports that an output port passes on in the same instant."""
         direct = type(self.element).direct.get(port.removesuffix(WAVES), ())
-        return direct if "input" + WAVES not in self.ins or "input" not in direct else (*direct, "input" + WAVES, "input" + REST)
+        return (
+            direct
+            if "input" + WAVES not in self.ins or "input" not in direct
+            else (*direct, "input" + WAVES, "input" + REST)
+        )
 
     def shows_state(self, port: str) -> bool:
         """Whether an output port shows the state, so that it may be read before and after a step."""
@@ -94,9 +98,14 @@ class _Resolver:
         return list(self.nodes.values())
 
     def upstream_first(self) -> list[str]:
-        """Every element after those whose axes it takes over (loops last): however long a chain is, no visit goes deep."""
+        """Every element after those whose axes it takes over (loops last): however long a chain is, no visit
+        goes deep.
+        """
         ports = {e.id: self._direct_ports(e.element) for e in self.doc.entries}
-        waits = {i: {c.source for p in found for c in self.into.get((i, p), []) if ports[c.source]} for i, found in ports.items()}
+        waits = {
+            i: {c.source for p in found for c in self.into.get((i, p), []) if ports[c.source]}
+            for i, found in ports.items()
+        }
         feeds = self.feeds = {i: [] for i in ports}
         for i, found in ports.items():
             for source in {c.source for p in found for c in self.into.get((i, p), [])}:
@@ -125,11 +134,25 @@ class _Resolver:
             ident = ring[0]
             if self.delayed & {*ring}:
                 what = f"the axes of a loop follow only from themselves and are unknown: {loop}"
-                self.problem(ident, what, "Connect something to it whose axes are known, or put a Project into it")
+                self.problem(
+                    ident, what, "Connect something to it whose axes are known, or put a Project into it"
+                )
             else:
-                self.problem(ident, f"a loop without a state in it: {loop}", "Put a field, or a connection with reads='delayed', into it")
+                self.problem(
+                    ident,
+                    f"a loop without a state in it: {loop}",
+                    "Put a field, or a connection with reads='delayed', into it",
+                )
             return None
-        node = Node(ident, entry.path, entry.element, entry.every, {}, {}, {port: [] for port in entry.element.ports()})
+        node = Node(
+            ident,
+            entry.path,
+            entry.element,
+            entry.every,
+            {},
+            {},
+            {port: [] for port in entry.element.ports()},
+        )
         deferred = bool(type(entry.element).direct) and any(type(entry.element).direct.values())
         if deferred:
             self.visiting.append(ident)
@@ -188,7 +211,9 @@ class _Resolver:
                 node.ins[port] = axes if axes is not None else ()
 
     def join(self, node: Node, port: str, connections: Sequence[Connection]) -> None:
-        """Connections into one port; where the port takes what comes, the source with most axes and samples decides, others expand."""
+        """Connections into one port; where the port takes what comes, the source with most axes and samples
+        decides, others expand.
+        """
         found: list[tuple[Node, Slot, Axes]] = []
         for c in connections:
             if c.reads == "delayed":
@@ -206,7 +231,11 @@ class _Resolver:
     def slot(self, source: Node, c: Connection, node: Node) -> Slot | None:
         """What a connection reads; a delay becomes a node of its own."""
         if c.source_port not in source.outs:
-            self.problem(node.id, f"{source.path} has no output port {c.source_port!r}", f"There is: {', '.join(source.outs)}")
+            self.problem(
+                node.id,
+                f"{source.path} has no output port {c.source_port!r}",
+                f"There is: {', '.join(source.outs)}",
+            )
             return None
         if c.reads == "delayed":
             ident = f"{source.id}.{c.source_port}~"
@@ -214,14 +243,22 @@ class _Resolver:
                 axes = source.outs[c.source_port]
                 delay = Delay(axes=axes, name=f"{source.path}.{c.source_port} delayed")
                 self.nodes[ident] = Node(
-                    ident, delay.name, delay, 1, {"input": axes}, {"output": axes}, {"input": [(source.id, c.source_port, 0)]}, declared=False
+                    ident,
+                    delay.name,
+                    delay,
+                    1,
+                    {"input": axes},
+                    {"output": axes},
+                    {"input": [(source.id, c.source_port, 0)]},
+                    declared=False,
                 )
             return (ident, "output", 0)
         if c.reads and not source.shows_state(c.source_port):
             self.problem(
                 node.id,
-                f"the connection {source.path}.{c.source_port} -> {node.path}.{c.target_port} says {c.reads!r}, but {source.path} shows no state:"
-                " its output is of the same instant as its input",
+                f"the connection {source.path}.{c.source_port} -> {node.path}.{c.target_port} says"
+                f" {c.reads!r}, but {source.path} shows no state: its output is of the same instant as its"
+                " input",
                 "Leave reads out, or write reads='delayed'",
             )
             return None
@@ -237,8 +274,15 @@ class _Resolver:
         if port == "factor" and "input" in node.ins:
             want = node.ins["input"]
             if {a.name for a in axes} > {a.name for a in want}:
-                ends = f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}"
-                self.problem(node.id, f"{ends}: it has more axes", "Write: let the two change places; the port 'input' takes the larger one")
+                ends = (
+                    f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port}"
+                    f" {describe(want)}"
+                )
+                self.problem(
+                    node.id,
+                    f"{ends}: it has more axes",
+                    "Write: let the two change places; the port 'input' takes the larger one",
+                )
                 return
         node.ins[port] = want
         if axes != want:
@@ -255,10 +299,15 @@ class _Resolver:
         bad = [n for n in shared if not there[n].fits(here[n])]
         both = bool(set(there) - set(here)) and bool(set(here) - set(there))
         if bad or both:
-            reason = f"bounds, unit or periodicity of {bad[0]!r} differ" if bad else "axes are missing on both sides"
+            reason = (
+                f"bounds, unit or periodicity of {bad[0]!r} differ"
+                if bad
+                else "axes are missing on both sides"
+            )
             self.problem(
                 node.id,
-                f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}: {reason}",
+                f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}:"
+                f" {reason}",
                 f"Write: {_remedy(source.path, node.path, axes, want, bool(bad))}",
             )
             return None
@@ -266,7 +315,16 @@ class _Resolver:
         ident = f"{slot[0]}.{slot[1]}@{slot[2]}>{key}"
         if ident not in self.nodes:
             project = Project(want, name=f"{source.path}.{slot[1]} to {key}")
-            self.nodes[ident] = Node(ident, project.name, project, 1, {"input": axes}, {"output": want}, {"input": [slot]}, declared=False)
+            self.nodes[ident] = Node(
+                ident,
+                project.name,
+                project,
+                1,
+                {"input": axes},
+                {"output": want},
+                {"input": [slot]},
+                declared=False,
+            )
         return (ident, "output", 0)
 
     def inspect(self, entry: Entry, node: Node) -> None:
@@ -276,7 +334,9 @@ class _Resolver:
         own: Any = getattr(entry.element, "axes", ())
         twice = sorted({a.name for a in own if [b.name for b in own].count(a.name) > 1})
         if twice:
-            self.problem(node.id, f"two of its axes are called {twice[0]!r}", "Give each axis a name of its own")
+            self.problem(
+                node.id, f"two of its axes are called {twice[0]!r}", "Give each axis a name of its own"
+            )
             return
         if node.id in self.failed:
             return  # what does not arrive as it should would only show once more
@@ -284,18 +344,33 @@ class _Resolver:
             self.problem(node.id, *(what if isinstance(what, tuple) else self.between(node, what)))
         clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
         if clash:
-            self.problem(node.id, f"a port and a parameter are both called {sorted(clash)[0]!r}", "Rename one of them in the element's class")
+            self.problem(
+                node.id,
+                f"a port and a parameter are both called {sorted(clash)[0]!r}",
+                "Rename one of them in the element's class",
+            )
 
     def between(self, node: Node, what: str) -> tuple[str, str]:
         """A misfit of what comes to a coupling, with both of its ends; and what to type."""
         for port in node.ins if node.deferred else ():
             for c in self.into.get((node.id, port), []):
-                source, own = self.entries[c.source].path, describe(getattr(node.element, "axes", node.ins[port]))
+                source, own = (
+                    self.entries[c.source].path,
+                    describe(getattr(node.element, "axes", node.ins[port])),
+                )
                 names = ", ".join(a.name for a in getattr(node.element, "axes", node.ins[port]))
-                ends = f"{source}.{c.source_port} {describe(node.ins[port])} does not fit {node.path}.{port} {own}: {what}"
-                return ends, (
-                    f"Give both the same axes, or write: {source} >> Resample([{names}]) >> {node.path} keeps the part they share and loses the rest;"
-                    f" {source} >> Project([{names}]) >> {node.path} loses the places along every axis that is missing in it: it integrates over them"
+                ends = (
+                    f"{source}.{c.source_port} {describe(node.ins[port])} does not fit {node.path}.{port}"
+                    f" {own}: {what}"
+                )
+                return (
+                    ends,
+                    (
+                        f"Give both the same axes, or write: {source} >> Resample([{names}]) >> {node.path}"
+                        f" keeps the part they share and loses the rest; {source} >> Project([{names}]) >>"
+                        f" {node.path} loses the places along every axis that is missing in it: it integrates"
+                        " over them"
+                    ),
                 )
         return what, ""
 
@@ -311,7 +386,11 @@ class _Resolver:
                 counted[base] = counted.get(base, 0) + 1
         for base, count in counted.items():
             if count != len(axes):
-                self.problem(node.id, f"{base} has {count} values for {len(axes)} axes", "Give one number, or one for each axis")
+                self.problem(
+                    node.id,
+                    f"{base} has {count} values for {len(axes)} axes",
+                    "Give one number, or one for each axis",
+                )
                 good = False
         return good
 
@@ -332,10 +411,14 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
 
 
 def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:
-    """What to write between two ports that do not fit: first what keeps the places of the source, then what a `Project` or a `Resample` loses."""
+    """What to write between two ports that do not fit: first what keeps the places of the source, then what a
+    `Project` or a `Resample` loses.
+    """
 
     def chain(coupling: str) -> str:
-        ends = [path if path.replace(".", "_").isidentifier() else f"model[{path!r}]" for path in (source, target)]
+        ends = [
+            path if path.replace(".", "_").isidentifier() else f"model[{path!r}]" for path in (source, target)
+        ]
         return f"{ends[0]} >> {coupling} >> {ends[1]}"
 
     names, there = ", ".join(a.name for a in want), ", ".join(a.name for a in axes)
@@ -343,7 +426,9 @@ def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) 
         return _regrid(chain, axes, want, names)
     missing = [a for a in want if a.name not in [b.name for b in axes]]
     extra = [a for a in axes if a.name not in [b.name for b in want]]
-    if len(missing) == len(extra) == 1 and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
+    if len(missing) == len(extra) == 1 and dc.replace(extra[0], unit="").fits(
+        dc.replace(missing[0], unit="")
+    ):
         return chain(f"Project([{names}], rename={{{extra[0].name!r}: {missing[0].name!r}}})")
     ways: list[str] = []
     if len(axes) == 2 and [a.samples for a in want] == [sum(shape(axes)) - 1]:
@@ -354,9 +439,15 @@ def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) 
     if len(missing) == len(extra) == 1:
         ways.append(f"give both the same axis, if {extra[0].name} and {missing[0].name} are one dimension")
     lost, flat = (", ".join(a.name for a in found) for found in (extra, missing))
-    lose = f"{chain(f'Project([{names}])')} loses the places: it integrates over {lost}, and {target} gets the same value everywhere along {flat}"
+    lose = (
+        f"{chain(f'Project([{names}])')} loses the places: it integrates over {lost}, and {target} gets the"
+        f" same value everywhere along {flat}"
+    )
     if there == lost and names == flat:
-        lose = f"{chain(f'Project([{names}])')} loses the signal: it keeps one number, the integral over {lost}, and {target} is uniform along {flat}"
+        lose = (
+            f"{chain(f'Project([{names}])')} loses the signal: it keeps one number, the integral over {lost},"
+            f" and {target} is uniform along {flat}"
+        )
     return f"{', or '.join(ways)}. {lose}"
 
 
@@ -367,10 +458,23 @@ def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> 
     units = [(a, b) for a, b in pairs if a.unit != b.unit]
     same = f"one axis {pairs[0][0].name!r} for both"
     if units and all(dc.replace(a, unit=b.unit).fits(b) for a, b in units):
-        same = f"{same}: the numbers agree, only the units {units[0][0].unit!r} and {units[0][1].unit!r} differ, and one of them is probably wrong"
+        same = (
+            f"{same}: the numbers agree, only the units {units[0][0].unit!r} and {units[0][1].unit!r} differ,"
+            " and one of them is probably wrong"
+        )
     elif units:
         same = f"{same}, with all values in one unit ({units[0][0].unit!r} or {units[0][1].unit!r})"
     lose = f"{chain('Project([])')} loses every place: it keeps one number, the integral"
-    if units or [a.name for a in axes] != [a.name for a in want] or any(a.periodic and not b.periodic for a, b in pairs):
-        return f"{same}; or {chain(f'Weights(w, [{names}])')} with an array w that says which place goes where. {lose}"
-    return f"{same}; or {chain(f'Resample([{names}])')}, which keeps the part they share and loses what lies outside it. {lose}"
+    if (
+        units
+        or [a.name for a in axes] != [a.name for a in want]
+        or any(a.periodic and not b.periodic for a, b in pairs)
+    ):
+        return (
+            f"{same}; or {chain(f'Weights(w, [{names}])')} with an array w that says which place goes where."
+            f" {lose}"
+        )
+    return (
+        f"{same}; or {chain(f'Resample([{names}])')}, which keeps the part they share and loses what lies"
+        f" outside it. {lose}"
+    )

@@ -20,31 +20,48 @@ def reference(base: type[Any]) -> dict[str, Any]:
     """Any part of deodar that may stand where `base` is declared."""
     return {
         "oneOf": [
-            {"$ref": f"#/$defs/{name}"} for name, cls in registry.kinds().items() if issubclass(cls, base) and cls.__module__.startswith("deodar.")
+            {"$ref": f"#/$defs/{name}"}
+            for name, cls in registry.kinds().items()
+            if issubclass(cls, base) and cls.__module__.startswith("deodar.")
         ]
     }
 
 
 def document_schema() -> dict[str, Any]:
     """The schema of a whole document."""
-    parts = {name: cls for name, cls in registry.kinds().items() if issubclass(cls, Part) and cls.__module__.startswith("deodar.")}
+    parts = {
+        name: cls
+        for name, cls in registry.kinds().items()
+        if issubclass(cls, Part) and cls.__module__.startswith("deodar.")
+    }
     defs: dict[str, Any] = {name: schema(cls, reference) for name, cls in parts.items()}
     for name, cls in parts.items():
         if issubclass(cls, Element):
-            defs[name]["properties"] |= {"id": {"type": "string", "pattern": "^[0-9a-f]{8}$"}, "every": {"type": "integer", "minimum": 1}}
+            defs[name]["properties"] |= {
+                "id": {"type": "string", "pattern": "^[0-9a-f]{8}$"},
+                "every": {"type": "integer", "minimum": 1},
+            }
         defs[name]["additionalProperties"] = False
     axis: dict[str, Any] = {
         "type": "object",
         "properties": {
-            "name": {"type": "string"}, "lower": {"type": "number"}, "upper": {"type": "number"},
-            "samples": {"type": "integer", "minimum": 1}, "periodic": {"type": "boolean"}, "unit": {"type": "string"},
+            "name": {"type": "string"},
+            "lower": {"type": "number"},
+            "upper": {"type": "number"},
+            "samples": {"type": "integer", "minimum": 1},
+            "periodic": {"type": "boolean"},
+            "unit": {"type": "string"},
         },
         "required": ["lower", "upper", "samples"],
         "additionalProperties": False,
-    }  # fmt: skip
+    }
     connection: dict[str, Any] = {
         "type": "object",
-        "properties": {"source": {"type": "string"}, "target": {"type": "string"}, "reads": {"enum": [r for r in READS if r]}},
+        "properties": {
+            "source": {"type": "string"},
+            "target": {"type": "string"},
+            "reads": {"enum": [r for r in READS if r]},
+        },
         "required": ["source", "target"],
         "additionalProperties": False,
     }
@@ -55,11 +72,16 @@ def document_schema() -> dict[str, Any]:
     }
     use: dict[str, Any] = {
         "type": "object",
-        "properties": {"template": {"type": "string"}, "elements": {"type": "object", "additionalProperties": {"type": "string"}}},
+        "properties": {
+            "template": {"type": "string"},
+            "elements": {"type": "object", "additionalProperties": {"type": "string"}},
+        },
         "required": ["template", "elements"],
         "additionalProperties": False,
     }
-    elements = {"oneOf": [{"$ref": f"#/$defs/{name}"} for name, cls in parts.items() if issubclass(cls, Element)]}
+    elements = {
+        "oneOf": [{"$ref": f"#/$defs/{name}"} for name, cls in parts.items() if issubclass(cls, Element)]
+    }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "deodar document",
@@ -77,7 +99,10 @@ def document_schema() -> dict[str, Any]:
             "groups": {"type": "array", "items": {"type": "string"}},
             "uses": {"type": "object", "additionalProperties": use},
             "packages": {"type": "object", "additionalProperties": {"type": "string"}},
-            "arrays": {"type": "object", "properties": {"file": {"type": "string"}, "sha256": {"type": "string"}}},
+            "arrays": {
+                "type": "object",
+                "properties": {"file": {"type": "string"}, "sha256": {"type": "string"}},
+            },
             "notes": {"type": "string"},
             "layout": {"type": "object"},
         },

@@ -1,4 +1,6 @@
-"""The graph of a document that is drawn: couplings with one connection in and one out become text on a connection."""
+"""The graph of a document that is drawn: couplings with one connection in and one out become text on a
+connection.
+"""
 
 from __future__ import annotations
 
@@ -92,10 +94,19 @@ class _Sketch:
         chained = self._chained()
         wires = [w for c in self.connections if c.source not in chained for w in [self._wire(c, chained)]]
         passed = {e for c in self.connections if c.source not in chained for e in self._follow(c, chained)[1]}
-        wires += [self._wire(c, set()) for c in self.connections if c.source in chained and c.source not in passed]  # rings of couplings alone
+        wires += [
+            self._wire(c, set()) for c in self.connections if c.source in chained and c.source not in passed
+        ]  # rings of couplings alone
         items = [self._item(e, axes.get(e.id, {})) for e in self.doc.entries if e.id not in passed]
         by = {item.id: item for item in items}
-        items = [dc.replace(i, told=i.form != "source" or any(by[w.target].axes != i.axes for w in wires if w.source == i.id)) for i in items]
+        items = [
+            dc.replace(
+                i,
+                told=i.form != "source"
+                or any(by[w.target].axes != i.axes for w in wires if w.source == i.id),
+            )
+            for i in items
+        ]
         groups = {g: "" for g in self.doc.groups} | {use.group: use.template for use in self.doc.uses}
         for item in items:
             for k in range(1, len(item.group) + 1):
@@ -109,20 +120,27 @@ class _Sketch:
         plain = type(element).__name__ == "Field" or form in ("source", "sensor", "motor")
         kind = "" if plain else caption(element) if form == "coupling" else title(element)
         name = entry.names[-1]
-        if form == "coupling" and (">" in name and name.rsplit(">", 1)[1].rstrip("0123456789") == type(element).__name__):
+        if form == "coupling" and (
+            ">" in name and name.rsplit(">", 1)[1].rstrip("0123456789") == type(element).__name__
+        ):
             name, kind = kind, ""  # a name made from the connection says no more than the kind does
         recurrence = tuple(element.recurrence().values())
         shown = axes if form != "coupling" else ()
-        return Item(entry.id, form, name, kind, shown, recurrence, entry.group, entry.every if element.stateful else 1)
+        return Item(
+            entry.id, form, name, kind, shown, recurrence, entry.group, entry.every if element.stateful else 1
+        )
 
     def _chained(self) -> set[str]:
         """Couplings that stand on a connection: one in, one out."""
         return {
             e.id
             for e in self.doc.entries
-            if is_coupling(e.element) and len(self.into[e.id]) == len(self.out[e.id]) == 1 and len(e.element.ports()) == 1
-            and len(find.outputs(e)) == 1 and self.into[e.id][0].source != e.id
-        }  # fmt: skip
+            if is_coupling(e.element)
+            and len(self.into[e.id]) == len(self.out[e.id]) == 1
+            and len(e.element.ports()) == 1
+            and len(find.outputs(e)) == 1
+            and self.into[e.id][0].source != e.id
+        }
 
     def _follow(self, first: Connection, chained: set[str]) -> tuple[Connection, list[str]]:
         last, on = first, list[str]()
@@ -136,13 +154,19 @@ class _Sketch:
         source, target = self.by[first.source], self.by[last.target]
         form, numbers = form_of(source.element), form_of(target.element) == "coupling" and not on
         sign: Sign = "+"
-        if form == "coupling" or (form == "source" and not numbers):  # an input of a coupling is a number, and inhibits nothing
+        if form == "coupling" or (
+            form == "source" and not numbers
+        ):  # an input of a coupling is a number, and inhibits nothing
             sign = source.element.polarity()
         for ident in on:
             sign = product(sign, self.by[ident].element.polarity())
         reads = [c.reads for c in (first, last)] + [self.out[i][0].reads for i in on]
         source_port = "" if first.source_port == find.outputs(source)[0] else first.source_port
-        target_port = "" if not target.element.ports() or last.target_port == target.element.ports()[0] else last.target_port
+        target_port = (
+            ""
+            if not target.element.ports() or last.target_port == target.element.ports()[0]
+            else last.target_port
+        )
         captions = tuple(caption(self.by[ident].element) for ident in on)
         return Wire(source.id, target.id, source_port, target_port, sign, captions, "delayed" in reads)
 

@@ -21,7 +21,9 @@ def refresh(doc: Document, template: Document) -> Document:
             fix=did_you_mean(template.name, known) or "Link one: model.insert(template, name, link=True)",
         )
     for group in linked:
-        doc = _refreshed(doc, next(u for u in doc.uses if u.group == group and u.template == template.name), template)
+        doc = _refreshed(
+            doc, next(u for u in doc.uses if u.group == group and u.template == template.name), template
+        )
     return dc.replace(doc, foreign=doc.foreign or template.asks())
 
 
@@ -34,8 +36,15 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
     doc = dc.replace(
         doc,
         connections=tuple(c for c in doc.connections if not (c.source in mine and c.target in mine)),
-        knobs=tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in mine)) if k.name in driving else k for k in doc.knobs),
-        uses=tuple(u for u in doc.uses if u.group[: len(use.group)] != use.group or not mine >= {i for _, i in u.elements}),
+        knobs=tuple(
+            dc.replace(k, links=tuple(x for x in k.links if x[0] not in mine)) if k.name in driving else k
+            for k in doc.knobs
+        ),
+        uses=tuple(
+            u
+            for u in doc.uses
+            if u.group[: len(use.group)] != use.group or not mine >= {i for _, i in u.elements}
+        ),
     )
     # what is renamed in the template moves out of the way first, so that two names can be exchanged
     names = {own[e.id]: use.group + e.names for e in template.entries if e.id in own}
@@ -55,7 +64,9 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
         now[e.id] = entry.id
     inside = tuple(dc.replace(c, source=now[c.source], target=now[c.target]) for c in template.connections)
     doc = _driven(dc.replace(doc, connections=(*doc.connections, *inside)), template, now)
-    nested = [Use(use.group + u.group, u.template, tuple((t, now[i]) for t, i in u.elements)) for u in template.uses]
+    nested = [
+        Use(use.group + u.group, u.template, tuple((t, now[i]) for t, i in u.elements)) for u in template.uses
+    ]
     doc = dc.replace(doc, uses=(*doc.uses, *nested, Use(use.group, use.template, tuple(now.items()))))
     for g in template.groups:
         doc = edit.group(doc, use.group + g)
@@ -63,7 +74,9 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
 
 
 def _driven(doc: Document, template: Document, now: dict[str, str]) -> Document:
-    """The template's document parameters, at the values that they have here, and what else drives a parameter of the new elements."""
+    """The template's document parameters, at the values that they have here, and what else drives a parameter
+    of the new elements.
+    """
     for (i, leaf), name in doc.links().items():
         if i in now.values():
             if leaf not in [path for path, _, _ in leaves(doc.by_id()[i].element)]:
@@ -91,9 +104,17 @@ def _require_ends(doc: Document, use: Use, template: Document) -> None:
         for end, port, other in ((c.source, c.source_port, c.target), (c.target, c.target_port, c.source)):
             if end in there and other not in there:
                 entry = there[end]
-                ports = () if entry is None else find.outputs(entry) if end == c.source else entry.element.ports()
+                ports = (
+                    () if entry is None else find.outputs(entry) if end == c.source else entry.element.ports()
+                )
                 if port not in ports:
                     missing = by[end].names[len(use.group) :] if entry is None else (*entry.names, port)
-                    problems.append(Problem(show(c), f"the template {use.template!r} has no {display(missing)!r} any more", "Disconnect them first"))
+                    problems.append(
+                        Problem(
+                            show(c),
+                            f"the template {use.template!r} has no {display(missing)!r} any more",
+                            "Disconnect them first",
+                        )
+                    )
     if problems:
         raise ModelError(problems)

@@ -49,7 +49,8 @@ class Wiring:
 
     @functools.cached_property
     def driven(self) -> set[str]:
-        """The ids of what signals from outside can reach: stimuli, sensors and other elements without inputs, and all behind them.
+        """The ids of what signals from outside can reach: stimuli, sensors and other elements without inputs,
+        and all behind them.
 
         Where there are none, the model is a template, which gets its inputs where it is used.
         """
@@ -67,14 +68,19 @@ class Wiring:
 
     @functools.cached_property
     def bounds(self) -> dict[str, dict[str, Interval]]:
-        """For each node the bounds of its ports: the smallest intervals that hold all that can happen from the initial values on."""
+        """For each node the bounds of its ports: the smallest intervals that hold all that can happen from
+        the initial values on.
+        """
         found: dict[str, dict[str, Interval] | None] = dict.fromkeys(self.nodes)
         growing: set[str] = set(self.nodes)
         for k in range(MOST_PASSES):
             moved: set[str] = set()
             for i in growing:
                 n = self.nodes[i]
-                inputs = {port: total(*(_known(found, source, p) for source, p, _ in slots)) for port, slots in n.reads.items()}
+                inputs = {
+                    port: total(*(_known(found, source, p) for source, p, _ in slots))
+                    for port, slots in n.reads.items()
+                }
                 before = found[i]
                 found[i] = new = dict(n.element.bounds(n.ins, inputs, before or {}))
                 if before is None or any(_apart(v, before.get(port, ANY)) for port, v in new.items()):

@@ -13,7 +13,9 @@ from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
 from deodar.parameters import is_text, real, show
 
 MOST_SAMPLES = 1_000_000
-"""More samples on one axis are taken for a slip of the pen (a guess; a field this long would run at 0.01 of real time)."""
+"""More samples on one axis are taken for a slip of the pen (a guess; a field this long would run at 0.01 of
+real time).
+"""
 
 FARTHEST = 1e30
 """Bounds beyond this overflow in single precision once they are squared or multiplied."""
@@ -26,8 +28,8 @@ FINEST = 1e-6
 class Axis:
     """A metric dimension with its sampling.
 
-    Samples stand at `lower + i * step`. On a periodic axis `step = (upper - lower) / samples` (upper is lower again), on
-    others `step = (upper - lower) / (samples - 1)` (upper is a sample).
+    Samples stand at `lower + i * step`. On a periodic axis `step = (upper - lower) / samples` (upper is lower
+    again), on others `step = (upper - lower) / (samples - 1)` (upper is a sample).
 
     Args:
         name: what connections match by.
@@ -53,7 +55,11 @@ class Axis:
         missing = [key for key in names[len(args) : 4] if key not in values]
         if missing or len(args) > len(names):
             what = f"needs {', '.join(missing)}" if missing else f"takes {len(names)} values, not {len(args)}"
-            raise AxesError(what, where=f"axis {show(args[0] if args else values.get('name', ''))}", fix="For example Axis('x', 0, 100, samples=101)")
+            raise AxesError(
+                what,
+                where=f"axis {show(args[0] if args else values.get('name', ''))}",
+                fix="For example Axis('x', 0, 100, samples=101)",
+            )
         return super().__new__(cls)
 
     def __reduce__(self) -> tuple[type[Self], tuple[Any, ...]]:
@@ -64,7 +70,10 @@ class Axis:
         for key in ("lower", "upper"):
             value = real(getattr(self, key))
             if value is None or not math.isfinite(value):
-                raise AxesError(f"{key} needs a finite number, not {show(getattr(self, key))}", where=f"axis {show(self.name)}")
+                raise AxesError(
+                    f"{key} needs a finite number, not {show(getattr(self, key))}",
+                    where=f"axis {show(self.name)}",
+                )
             object.__setattr__(self, key, value)
         problems: list[Problem] = []
         where = f"axis {show(self.name)}"
@@ -74,13 +83,18 @@ class Axis:
         if not self.lower < self.upper:
             problems.append(Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}"))
         elif farthest > FARTHEST or self.range < max(farthest, 1 / FARTHEST) * FINEST:
-            what = f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not tell its places apart"
+            what = (
+                f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not tell its places"
+                " apart"
+            )
             problems.append(Problem(where, what, "Choose another unit, or an origin nearer to the values"))
         if isinstance(self.samples, bool) or not isinstance(self.samples, (int, np.integer)):
             problems.append(Problem(where, f"samples needs a whole number, not {show(self.samples)}"))
         elif not (1 if self.periodic else 2) <= self.samples <= MOST_SAMPLES:
             least = "1" if self.periodic else "2"
-            problems.append(Problem(where, f"samples is {show(self.samples)}; it is {least} to {MOST_SAMPLES}"))
+            problems.append(
+                Problem(where, f"samples is {show(self.samples)}; it is {least} to {MOST_SAMPLES}")
+            )
         else:
             object.__setattr__(self, "samples", int(self.samples))
         if not isinstance(self.periodic, (bool, np.bool_)):
@@ -106,7 +120,9 @@ class Axis:
         return self.lower + self.step * np.arange(self.samples)
 
     def fits(self, other: Axis) -> bool:
-        """Whether a connection may match the two: equal bounds (to 1e-9 of the range), unit and periodicity."""
+        """Whether a connection may match the two: equal bounds (to 1e-9 of the range), unit and
+        periodicity.
+        """
         near = 1e-9 * max(self.range, other.range)
         return (
             abs(self.lower - other.lower) <= near
@@ -117,7 +133,10 @@ class Axis:
 
     def __str__(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
-        return f"{self.name} {self.lower:g}..{self.upper:g}{unit}, {self.samples} samples{', periodic' if self.periodic else ''}"
+        return (
+            f"{self.name} {self.lower:g}..{self.upper:g}{unit}, {self.samples}"
+            f" samples{', periodic' if self.periodic else ''}"
+        )
 
 
 Axes = tuple[Axis, ...]

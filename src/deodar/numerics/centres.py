@@ -10,7 +10,9 @@ import jax.numpy as jnp
 from deodar.numerics.axes import Axis
 
 LEAST_DIRECTED = 1e-3
-"""On a ring, the share of the input that must point somewhere: the direction of homogeneous input is only rounding."""
+"""On a ring, the share of the input that must point somewhere: the direction of homogeneous input is only
+rounding.
+"""
 
 
 def centre(axis: Axis, f: Any, least: Any) -> tuple[Any, Any, Any]:
@@ -22,7 +24,8 @@ def centre(axis: Axis, f: Any, least: Any) -> tuple[Any, Any, Any]:
         least: sum of f up to which there is nothing.
 
     Returns:
-        The place in axis units, whether there is one, and the sum of f. Where there is none, the place is finite and without meaning.
+        The place in axis units, whether there is one, and the sum of f. Where there is none, the place is
+        finite and without meaning.
     """
     x = jnp.asarray(axis.points, f.dtype)
     n = jnp.sum(f)

@@ -1,7 +1,8 @@
 """Which way of convolving is cheapest for a grid and a set of Gaussian kernels.
 
-Costs were measured on one core of a server (AVX-512, 2.7 GHz); the ways differ by factors, so that the model only has to rank them.
-Everything here is decided before compiling, from a bound on the widths (`bucket`): widths may change inside it without compiling anew.
+Costs were measured on one core of a server (AVX-512, 2.7 GHz); the ways differ by factors, so that the model
+only has to rank them. Everything here is decided before compiling, from a bound on the widths (`bucket`):
+widths may change inside it without compiling anew.
 """
 
 from __future__ import annotations
@@ -35,18 +36,26 @@ CALL_NS = 800.0
 FOURIER_NS = 0.3
 FOURIER_CALL_NS = 5000.0
 LONGEST = 4
-"""Rings longer than so many times the axis are not taken: so wide a kernel is nearly flat, and hardly a convolution."""
+"""Rings longer than so many times the axis are not taken: so wide a kernel is nearly flat, and hardly a
+convolution.
+"""
 
 SMALLEST = 128
-"""Below so many samples a field over one axis always takes its matrix: a choice would cost more than it brings."""
+"""Below so many samples a field over one axis always takes its matrix: a choice would cost more than it
+brings.
+"""
 
 MANY = 6
-"""Copies (rows of a group, trials, points of a sweep) from which products of matrices are worth their preparation."""
+"""Copies (rows of a group, trials, points of a sweep) from which products of matrices are worth their
+preparation.
+"""
 
 
 @dataclass(frozen=True)
 class Choice:
-    """How a sum of kernels is applied: `matrices`, `taps` (with their reach), `waves` or `fourier` (with the waves of each axis), at what cost."""
+    """How a sum of kernels is applied: `matrices`, `taps` (with their reach), `waves` or `fourier` (with the
+    waves of each axis), at what cost.
+    """
 
     way: str
     waves: tuple[Waves, ...] = ()
@@ -65,12 +74,26 @@ def bounds(number: int) -> tuple[float, float]:
 
 
 @functools.cache
-def choose(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int, copies: int = 1) -> Choice:
-    """The cheapest way for `terms` kernels whose widths (in axis units) lie between the given bounds on each axis, for each of so many copies."""
+def choose(
+    axes: Axes,
+    boundaries: tuple[str, ...],
+    widths: tuple[tuple[float, float], ...],
+    terms: int,
+    copies: int = 1,
+) -> Choice:
+    """The cheapest way for `terms` kernels whose widths (in axis units) lie between the given bounds on each
+    axis, for each of so many copies.
+    """
     return min(candidates(axes, boundaries, widths, terms, copies), key=lambda c: c.nanoseconds)
 
 
-def candidates(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], terms: int, copies: int = 1) -> list[Choice]:
+def candidates(
+    axes: Axes,
+    boundaries: tuple[str, ...],
+    widths: tuple[tuple[float, float], ...],
+    terms: int,
+    copies: int = 1,
+) -> list[Choice]:
     """All ways that are open, each with what it should cost a copy."""
     few = _few(axes, boundaries, widths)
     if len(axes) == 1:
@@ -83,8 +106,12 @@ def candidates(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[floa
     return found
 
 
-def together(axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], copies: int) -> Choice:
-    """The waves in which kernels between these widths can be added up, at the cost of transforming one of so many copies there and back."""
+def together(
+    axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], copies: int
+) -> Choice:
+    """The waves in which kernels between these widths can be added up, at the cost of transforming one of so
+    many copies there and back.
+    """
     few = _few(axes, boundaries, widths)
     if len(axes) == 1:
         cost = 2 * LINE_NS[copies >= MANY] * axes[0].samples * few[0].count
@@ -113,7 +140,10 @@ def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Cho
 
 
 def _few(axes: Axes, boundaries: Sequence[str], widths: Sequence[tuple[float, float]]) -> tuple[Waves, ...]:
-    return tuple(_waves(a.samples, b, low / a.step, high / a.step) for a, b, (low, high) in zip(axes, boundaries, widths, strict=True))
+    return tuple(
+        _waves(a.samples, b, low / a.step, high / a.step)
+        for a, b, (low, high) in zip(axes, boundaries, widths, strict=True)
+    )
 
 
 def _fit(waves: Sequence[Waves]) -> bool:

@@ -30,13 +30,17 @@ def hue_saturation_value(picture: Any) -> tuple[Any, Any, Any]:
 
 
 def from_hues(axis: Axis, turn: Any, dtype: Any) -> Any:
-    """How far the samples of a hue axis are from hues (as shares of a turn), the shorter way round: one axis more, at the end."""
+    """How far the samples of a hue axis are from hues (as shares of a turn), the shorter way round: one axis
+    more, at the end.
+    """
     distance = jnp.asarray(axis.points, dtype) - axis.lower - turn[..., None] * axis.range
     return distance - axis.range * jnp.round(distance / axis.range)
 
 
 def cells(fine: Axis, coarse: Axis, dtype: Any) -> Any:
-    """Weights of the mean over the pixels whose middle lies in a cell; a cell without a pixel takes the nearest: shape (cells, pixels)."""
+    """Weights of the mean over the pixels whose middle lies in a cell; a cell without a pixel takes the
+    nearest: shape (cells, pixels).
+    """
     member = resampling.weights(coarse, fine.points, "nearest", dtype).T
     count = jnp.sum(member, axis=1, keepdims=True)
     nearest = resampling.weights(fine, coarse.points, "nearest", dtype)
@@ -44,6 +48,8 @@ def cells(fine: Axis, coarse: Axis, dtype: Any) -> Any:
 
 
 def same_side(fine: Axis, coarse: Axis) -> bool:
-    """Whether two axes are the same side of a picture: name and unit alike, ends at most a grid step apart."""
+    """Whether two axes are the same side of a picture: name and unit alike, ends at most a grid step
+    apart.
+    """
     apart = max(abs(fine.lower - coarse.lower), abs(fine.upper - coarse.upper))
     return fine.name == coarse.name and fine.unit == coarse.unit and apart <= coarse.step

@@ -1,10 +1,11 @@
 """Convolution of a field's output with interaction kernels, at any width and any boundary.
 
-A separable kernel is one matrix per axis, exact at every width, rebuilt without recompiling. A kernel given as samples is
-a product of spectra on the extended grid. Integrals are sums times the grid step (rectangle rule), which the matrices carry.
+A separable kernel is one matrix per axis, exact at every width, rebuilt without recompiling. A kernel given
+as samples is a product of spectra on the extended grid. Integrals are sums times the grid step (rectangle
+rule), which the matrices carry.
 
-Boundaries: `periodic` wraps with period N steps, `zero` sees nothing beyond the border, `reflect` sees the field mirrored
-at the outer edge of its last cell.
+Boundaries: `periodic` wraps with period N steps, `zero` sees nothing beyond the border, `reflect` sees the
+field mirrored at the outer edge of its last cell.
 """
 
 from __future__ import annotations
@@ -105,7 +106,9 @@ def spectrum(samples: Any, axes: Axes, bounds: Sequence[str], dtype: Any) -> Arr
 
 
 def spectral(kernel: Array, y: Array, axes: Axes, bounds: Sequence[str], sizes: Sequence[int]) -> Array:
-    """Convolution of y with a kernel given by its spectrum on a ring of these sizes, round which it does not reach."""
+    """Convolution of y with a kernel given by its spectrum on a ring of these sizes, round which it does not
+    reach.
+    """
     n = shape(axes)
     for d, b in enumerate(bounds):
         if b == "reflect":

@@ -1,8 +1,9 @@
 """Numbers that keep the digits of float64 in a program of single precision.
 
-Document time, and what is compared with it or multiplied by it, needs more digits than float32 has: from 2^24 ms on float32 does not tell one
-millisecond from the next. Such a number is held as two of the working precision, `high` and `low`. Their sum has 48 bits: at 2^44 steps the
-rounding is a sixteenth of a step. Programs compute with it in float64, inside `exact()`, and round once, at the end.
+Document time, and what is compared with it or multiplied by it, needs more digits than float32 has: from 2^24
+ms on float32 does not tell one millisecond from the next. Such a number is held as two of the working
+precision, `high` and `low`. Their sum has 48 bits: at 2^44 steps the rounding is a sixteenth of a step.
+Programs compute with it in float64, inside `exact()`, and round once, at the end.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ LOW = "~low"
 class Exact:
     """A number, or an array of numbers, as the sum of two in the working precision.
 
-    It takes part in no arithmetic by itself: `wide` gives float64 inside `exact()`, `rounded` the working precision.
+    It takes part in no arithmetic by itself: `wide` gives float64 inside `exact()`, `rounded` the working
+    precision.
     """
 
     high: Any
@@ -37,7 +39,9 @@ class Exact:
 
 
 def exact() -> contextlib.AbstractContextManager[Any]:
-    """Allow float64 for the operations of a block, also while a program of single precision is traced; leave with a cast."""
+    """Allow float64 for the operations of a block, also while a program of single precision is traced; leave
+    with a cast.
+    """
     return jax.enable_x64(True)
 
 
@@ -45,7 +49,9 @@ def split(value: Any, dtype: Any) -> tuple[Any, Any]:
     """High and low part of a number or an array of the host."""
     wide = np.asarray(value, np.float64)
     high = wide.astype(dtype)
-    rest = np.where(np.isfinite(high), wide - np.where(np.isfinite(high), high, 0.0), 0.0)  # none of what is infinite in this precision
+    rest = np.where(
+        np.isfinite(high), wide - np.where(np.isfinite(high), high, 0.0), 0.0
+    )  # none of what is infinite in this precision
     return high, rest.astype(dtype)
 
 

@@ -1,9 +1,9 @@
 """The stochastic Euler method, the one integrator (cedar-2016, eq. 17).
 
 References:
-    Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied cognitive systems
-    with cedar, Front. Neurorobot. 10:14, eqs. 16 and 17.
-    Kloeden & Platen (1992), Numerical solution of stochastic differential equations, Springer.
+    Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied
+    cognitive systems with cedar, Front. Neurorobot. 10:14, eqs. 16 and 17. Kloeden & Platen (1992), Numerical
+    solution of stochastic differential equations, Springer.
 """
 
 from __future__ import annotations

@@ -1,8 +1,10 @@
-"""A sum of interaction kernels convolved with an output: the lateral interaction of a field, the kernel of a coupling.
+"""A sum of interaction kernels convolved with an output: the lateral interaction of a field, the kernel of a
+coupling.
 
-In three steps, each as seldom as it may be: `prepare` makes weights from widths, `mix` puts amplitudes to them and adds up what can be
-added, `apply` is all that is left for every step. Kernels that are sums of Gaussians may share one transform (`choice`, `waves`); all
-others, and all where results are to be exact, are matrices or spectra of their own.
+In three steps, each as seldom as it may be: `prepare` makes weights from widths, `mix` puts amplitudes to
+them and adds up what can be added, `apply` is all that is left for every step. Kernels that are sums of
+Gaussians may share one transform (`choice`, `waves`); all others, and all where results are to be exact, are
+matrices or spectra of their own.
 """
 
 from __future__ import annotations
@@ -20,46 +22,80 @@ from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.waves import Waves
 
 Weights = list[Any]
-"""For each kernel: `spectrum`, or for each of its terms `matrices` (one an axis), `waves` or `spectra` (one vector an axis), or `taps`."""
+"""For each kernel: `spectrum`, or for each of its terms `matrices` (one an axis), `waves` or `spectra` (one
+vector an axis), or `taps`.
+"""
 
 Mixture = dict[str, Any]
-"""What is applied: `gain` on a node; else `terms` (for each its matrices, one an axis), `spectra`, `waves` and `taps` (by boundaries)."""
+"""What is applied: `gain` on a node; else `terms` (for each its matrices, one an axis), `spectra`, `waves`
+and `taps` (by boundaries).
+"""
 
 
 def buckets(kernels: Sequence[Kernel]) -> Hashable:
-    """What of the widths a program is built for: as long as it stays equal, they may change without compiling anew."""
-    return tuple(tuple(tuple(bucket(float(w)) for w in (width if isinstance(width, tuple) else (width,))) for width in k.widths()) for k in kernels)
+    """What of the widths a program is built for: as long as it stays equal, they may change without compiling
+    anew.
+    """
+    return tuple(
+        tuple(
+            tuple(bucket(float(w)) for w in (width if isinstance(width, tuple) else (width,)))
+            for width in k.widths()
+        )
+        for k in kernels
+    )
 
 
 def spans(kernels: Sequence[Kernel], axes: Axes) -> dict[str, list[tuple[tuple[float, float], ...]]]:
-    """For each kind of boundaries, for each of its Gaussians, the narrowest and widest on each axis that its bucket allows."""
+    """For each kind of boundaries, for each of its Gaussians, the narrowest and widest on each axis that its
+    bucket allows.
+    """
     out: dict[str, list[tuple[tuple[float, float], ...]]] = {}
     for kernel in kernels if axes else ():
         for width in kernel.widths():
-            out.setdefault(boundaries(kernel, axes), []).append(tuple(bounds(bucket(float(w))) for w in per_axis(width, axes)))
+            out.setdefault(boundaries(kernel, axes), []).append(
+                tuple(bounds(bucket(float(w))) for w in per_axis(width, axes))
+            )
     return out
 
 
 def covering(found: Sequence[tuple[tuple[float, float], ...]]) -> tuple[tuple[float, float], ...]:
     """On each axis the narrowest and the widest of all."""
-    return tuple((min(low for low, _ in axis), max(high for _, high in axis)) for axis in zip(*found, strict=True))
+    return tuple(
+        (min(low for low, _ in axis), max(high for _, high in axis)) for axis in zip(*found, strict=True)
+    )
 
 
 def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str, Choice]:
     """For each kind of boundaries, how its Gaussian kernels are applied together, where not by matrices."""
-    found = {key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies) for key, terms in spans(kernels, axes).items()}
+    found = {
+        key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies)
+        for key, terms in spans(kernels, axes).items()
+    }
     return {key: choice for key, choice in found.items() if choice.way != "matrices"}
 
 
-def prepare(kernels: Sequence[Kernel], axes: Axes, dtype: Any, chosen: Mapping[str, Choice] | None = None) -> Weights:
-    """What convolution needs and what depends on widths only. `chosen` are the choices; without them it is exact."""
+def prepare(
+    kernels: Sequence[Kernel], axes: Axes, dtype: Any, chosen: Mapping[str, Choice] | None = None
+) -> Weights:
+    """What convolution needs and what depends on widths only.
+
+    `chosen` are the choices; without them it is exact.
+    """
     if not axes:
         return []
-    return [_weights(kernel, axes, dtype, (chosen or {}).get(boundaries(kernel, axes)) if kernel.widths() else None) for kernel in kernels]
+    return [
+        _weights(
+            kernel, axes, dtype, (chosen or {}).get(boundaries(kernel, axes)) if kernel.widths() else None
+        )
+        for kernel in kernels
+    ]
 
 
 def mix(kernels: Sequence[Kernel], axes: Axes, weights: Weights) -> Mixture:
-    """The sum of the kernels, amplitudes included. Over one axis it is a single matrix, however many kernels there are."""
+    """The sum of the kernels, amplitudes included.
+
+    Over one axis it is a single matrix, however many kernels there are.
+    """
     if not axes:
         return {"gain": sum((t.amplitude for kernel in kernels for t in kernel.terms()), 0.0)}
     out: Mixture = {"terms": [], "spectra": {}, "waves": {}, "taps": {}}
@@ -78,17 +114,30 @@ def mix(kernels: Sequence[Kernel], axes: Axes, weights: Weights) -> Mixture:
 
 
 def apply(
-    mixture: Mixture, axes: Axes, y: Any, chosen: Mapping[str, Choice] | None = None, key: str = "", own: Any = None, arriving: Any = None
+    mixture: Mixture,
+    axes: Axes,
+    y: Any,
+    chosen: Mapping[str, Choice] | None = None,
+    key: str = "",
+    own: Any = None,
+    arriving: Any = None,
 ) -> Any:
-    """The integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y. `chosen`: the choices they were made for.
+    """The integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
 
-    For the boundaries `key`: `own` is y as waves, where it is known, and what is `arriving` as waves is added before the way back.
+    `chosen`: the choices they were made for.
+
+    For the boundaries `key`: `own` is y as waves, where it is known, and what is `arriving` as waves is added
+    before the way back.
     """
     if not axes:
         return mixture["gain"] * y
     parts = [convolution.separable(matrices, y) for matrices in mixture["terms"]]
     for ends, spectrum in mixture["spectra"].items():
-        sizes = [w.length for w in chosen[ends].waves] if chosen and ends in chosen else convolution.extended(axes, ends.split())
+        sizes = (
+            [w.length for w in chosen[ends].waves]
+            if chosen and ends in chosen
+            else convolution.extended(axes, ends.split())
+        )
         parts.append(convolution.spectral(spectrum, y, axes, ends.split(), sizes))
     parts += [convolution.tapped(taps, y, ends) for ends, taps in mixture["taps"].items()]
     for ends, gains in mixture["waves"].items():
@@ -110,11 +159,15 @@ def to_waves(waves: Sequence[Waves], y: Any) -> Any:
 
 def from_waves(waves: Sequence[Waves], y: Any) -> Any:
     """The array that waves add up to."""
-    return convolution.separable([jnp.asarray(w.basis(), y.dtype) for w in waves], y, _order(len(waves))[::-1])
+    return convolution.separable(
+        [jnp.asarray(w.basis(), y.dtype) for w in waves], y, _order(len(waves))[::-1]
+    )
 
 
 def _order(axes: int) -> list[int]:
-    """In which order axes are transformed: up to 30 % faster than others, since products come out as the next one wants them."""
+    """In which order axes are transformed: up to 30 % faster than others, since products come out as the next
+    one wants them.
+    """
     return [1, 0] if axes == 2 else [0, *range(axes - 1, 0, -1)]
 
 
@@ -137,16 +190,38 @@ def _weights(kernel: Kernel, axes: Axes, dtype: Any, choice: Choice | None) -> d
     if samples is not None:
         return {"spectrum": convolution.spectrum(samples, axes, ends, dtype)}
     if choice is None:
-        return {"matrices": [[_matrix(t, d, a, b, dtype) for d, (a, b) in enumerate(zip(axes, ends, strict=True))] for t in kernel.terms()]}
+        return {
+            "matrices": [
+                [_matrix(t, d, a, b, dtype) for d, (a, b) in enumerate(zip(axes, ends, strict=True))]
+                for t in kernel.terms()
+            ]
+        }
     if choice.way == "taps":
-        return {"taps": [[convolution.taps(axes[0], ends[0], _profile(t, 0, axes[0]), choice.reach, dtype)] for t in kernel.terms()]}
+        return {
+            "taps": [
+                [convolution.taps(axes[0], ends[0], _profile(t, 0, axes[0]), choice.reach, dtype)]
+                for t in kernel.terms()
+            ]
+        }
     if choice.way == "waves":
         return {
-            "waves": [[w.gains(a, _profile(t, d, a), dtype) for d, (a, w) in enumerate(zip(axes, choice.waves, strict=True))] for t in kernel.terms()]
+            "waves": [
+                [
+                    w.gains(a, _profile(t, d, a), dtype)
+                    for d, (a, w) in enumerate(zip(axes, choice.waves, strict=True))
+                ]
+                for t in kernel.terms()
+            ]
         }
     return {
         "spectra": [
-            _half([w.spectrum(a, _profile(t, d, a), dtype) for d, (a, w) in enumerate(zip(axes, choice.waves, strict=True))]) for t in kernel.terms()
+            _half(
+                [
+                    w.spectrum(a, _profile(t, d, a), dtype)
+                    for d, (a, w) in enumerate(zip(axes, choice.waves, strict=True))
+                ]
+            )
+            for t in kernel.terms()
         ]
     }
 

@@ -1,11 +1,11 @@
 """Counter-based noise: Threefry-2x32-20 and Box-Muller.
 
-The integers depend on seed, trial, the element's stored id, the cell and the element's own tick, and on nothing else: not
-on names, order, grouping, batches, chunks, precision or device.
+The integers depend on seed, trial, the element's stored id, the cell and the element's own tick, and on
+nothing else: not on names, order, grouping, batches, chunks, precision or device.
 
 References:
-    Salmon, Moraes, Dror & Shaw (2011), Parallel random numbers: as easy as 1, 2, 3, SC'11 (Threefry, 20 rounds).
-    Box & Muller (1958), A note on the generation of random normal deviates, Ann. Math. Statist. 29.
+    Salmon, Moraes, Dror & Shaw (2011), Parallel random numbers: as easy as 1, 2, 3, SC'11 (Threefry, 20
+    rounds). Box & Muller (1958), A note on the generation of random normal deviates, Ann. Math. Statist. 29.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ STREAM = 0x5EED
 _ROTATIONS = ((13, 15, 26, 6), (17, 29, 16, 24))
 _PARITY = 0x1BD11BDA
 
-# Minimax-like polynomials on the reduced ranges, fitted for float32 (largest error of log 7e-5, at 1.5, of sine 5e-6).
+# Minimax-like polynomials on the reduced ranges, fitted for float32 (largest error of log 7e-5, at 1.5, of
+# sine 5e-6).
 _LOG = (0.9999990, -0.4999706, 0.3335, -0.2519, 0.20685, -0.1584, 0.0754)
 _SINE = (6.2831853, -41.341675, 81.60523, -76.70, 42.0)
 
@@ -48,7 +49,9 @@ def threefry(x0: Any, x1: Any, k0: Any, k1: Any) -> tuple[Array, Array]:
 
 
 def element_keys(seed: Any, trial: Any, idents: Any) -> Array:
-    """Two key words for the noise of each element: threefry(counter (id, trial), key (seed, STREAM)), shape (elements, 2)."""
+    """Two key words for the noise of each element: threefry(counter (id, trial), key (seed, STREAM)), shape
+    (elements, 2).
+    """
     u32 = jnp.uint32
     ids = jnp.asarray(idents, u32)
     words = threefry(ids, jnp.full(ids.shape, trial, u32), jnp.asarray(seed, u32), u32(STREAM))
@@ -64,9 +67,10 @@ def bits(cells: int, key: Any, block: Any) -> tuple[Array, Array]:
 def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
     """Standard normal deviates of one tick, computed in `dtype`.
 
-    Block `tick // 2` gives two words a, b for each cell (in C order). With u = (a >> 9 + 1/2) / 2^23 and v the same of b, the pair is
-    sqrt(-2 ln u) sin(2 pi v), the first, on even ticks, and sqrt(-2 ln u) cos(2 pi v), the second, on odd ones. The 23 bits are
-    those that float32 holds exactly, so that both precisions draw the same numbers; the formula is then computed in `dtype`.
+    Block `tick // 2` gives two words a, b for each cell (in C order). With u = (a >> 9 + 1/2) / 2^23 and v
+    the same of b, the pair is sqrt(-2 ln u) sin(2 pi v), the first, on even ticks, and sqrt(-2 ln u) cos(2 pi
+    v), the second, on odd ones. The 23 bits are those that float32 holds exactly, so that both precisions
+    draw the same numbers; the formula is then computed in `dtype`.
     """
     a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
     odd = (tick & jnp.uint32(1)).astype(bool)
@@ -76,18 +80,22 @@ def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
 
 
 def pair(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> tuple[Array, Array]:
-    """The deviates of both ticks of a block, the even one's first: what `normal` gives at each, for less than it takes twice."""
+    """The deviates of both ticks of a block, the even one's first: what `normal` gives at each, for less than
+    it takes twice.
+    """
     a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
     radius, turn = _radius(a, dtype), _uniform(b)
     return (radius * _sine(turn, dtype)).reshape(shape), (radius * _cosine(turn, dtype)).reshape(shape)
 
 
 def correlation(axes: Axes, lengths: Sequence[Any], dtype: Any) -> list[Array]:
-    """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every point.
+    """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every
+    point.
 
-    One for each axis: the symmetric square root of the correlation matrix, so that it holds up to the borders. On a ring the
-    correlation is the sum over all ways round, divided by its value at distance 0 (which no longer differs from the formula below a
-    length of an eighth of the period, and is the nearest that a ring allows).
+    One for each axis: the symmetric square root of the correlation matrix, so that it holds up to the
+    borders. On a ring the correlation is the sum over all ways round, divided by its value at distance 0
+    (which no longer differs from the formula below a length of an eighth of the period, and is the nearest
+    that a ring allows).
     """
     return [_square_root(axis, length, dtype) for axis, length in zip(axes, lengths, strict=True)]
 
@@ -98,11 +106,15 @@ def _square_root(axis: Axis, length: Any, dtype: Any) -> Array:
     wanted = profile(x[:, None] - x[None, :], length, period) / profile(jnp.zeros((), dtype), length, period)
     values, vectors = jnp.linalg.eigh(wanted)
     root = jnp.matmul(vectors * jnp.sqrt(jnp.maximum(values, 0.0)), vectors.T, precision="highest")
-    return root / jnp.sqrt(jnp.sum(root * root, axis=1, keepdims=True))  # rounding leaves the variance 1 to 1e-6 in single precision
+    return root / jnp.sqrt(
+        jnp.sum(root * root, axis=1, keepdims=True)
+    )  # rounding leaves the variance 1 to 1e-6 in single precision
 
 
 def over(axes: Axes, deviates: Any, filters: Sequence[Array] | None) -> Any:
-    """Noise of unit amplitude over a field: white with the inverse root of the cell, or correlated with variance 1."""
+    """Noise of unit amplitude over a field: white with the inverse root of the cell, or correlated with
+    variance 1.
+    """
     if filters is None:
         return deviates / math.sqrt(cell(axes))
     return convolution.separable(filters, deviates)

@@ -18,17 +18,23 @@ STREAM = 0x3A57
 def random_weights(pre: Axes, post: Axes, patches: int, share: Any, seed: int, dtype: Any) -> Any:
     """Weights in (0, 1), or 0: uniform where a patch is connected at all, which a `share` of them is.
 
-    Each axis, of the source and of the target, is cut into so many equal patches; all weights between two patches are alike. They are drawn
-    by the numbers of the patches (Threefry, counter (source patch, target patch), key (seed, STREAM)), so that samples at the same place
-    have the same weight at every sampling, and integrals agree up to how well the patches are sampled. White weights, one for each sample,
-    would become a homogeneous map as the sampling becomes finer.
+    Each axis, of the source and of the target, is cut into so many equal patches; all weights between two
+    patches are alike. They are drawn by the numbers of the patches (Threefry, counter (source patch, target
+    patch), key (seed, STREAM)), so that samples at the same place have the same weight at every sampling, and
+    integrals agree up to how well the patches are sampled. White weights, one for each sample, would become a
+    homogeneous map as the sampling becomes finer.
 
     Returns:
         source places, target places.
     """
     u32 = jnp.uint32
     rows, columns = (jnp.asarray(_patch(axes, patches)) for axes in (pre, post))
-    words = threefry(rows[:, None] + jnp.zeros_like(columns)[None, :], columns[None, :] + jnp.zeros_like(rows)[:, None], u32(seed), u32(STREAM))
+    words = threefry(
+        rows[:, None] + jnp.zeros_like(columns)[None, :],
+        columns[None, :] + jnp.zeros_like(rows)[:, None],
+        u32(seed),
+        u32(STREAM),
+    )
     value, luck = ((word >> 9).astype(dtype) / 2**23 + 2.0**-24 for word in words)
     return jnp.where(luck < share, value, jnp.zeros_like(value))
 

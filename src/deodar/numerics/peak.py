@@ -18,8 +18,8 @@ UNDIRECTED = 1e-9
 def position(values: Any, axes: Axes, threshold: float, inside: np.ndarray | None = None) -> tuple[Any, Any]:
     """Return the position of the highest peak, as `dd.peaks(values, axes, threshold)[0].position` gives it.
 
-    The peak is the connected region above the threshold that holds the largest sample; its position is the centroid, weighted by the values above
-    the threshold.
+    The peak is the connected region above the threshold that holds the largest sample; its position is the
+    centroid, weighted by the values above the threshold.
 
     Args:
         values: array over the axes.
@@ -28,21 +28,27 @@ def position(values: Any, axes: Axes, threshold: float, inside: np.ndarray | Non
         inside: mask of the samples that may belong to the peak, shaped as the values; None: all.
 
     Returns:
-        One number for each axis, in axis units, in the precision of the values; and whether a sample is above the threshold. Where none is, the
-        numbers are finite and without meaning.
+        One number for each axis, in axis units, in the precision of the values; and whether a sample is above
+        the threshold. Where none is, the numbers are finite and without meaning.
     """
     above = values - threshold
     if inside is not None:
         above = jnp.where(inside, above, -jnp.inf)
     flat = above.ravel()
-    # the first of the largest by two reductions, which vector instructions do; argmax takes four times as long as a step of the field
+    # the first of the largest by two reductions, which vector instructions do; argmax takes four times as
+    # long as a step of the field
     top = jnp.min(jnp.where(flat == jnp.max(flat), jnp.arange(flat.size, dtype=jnp.int32), flat.size - 1))
     tops = jnp.unravel_index(top, above.shape)
     region = _run(above > 0, axes[0], tops[0]) if len(axes) == 1 else _region(above > 0, axes, top)
     weights = jnp.where(region & (above > 0), above, 0.0)
     total = jnp.sum(weights)
     centres = [
-        _centroid(axis, jnp.sum(weights, axis=tuple(k for k in range(len(axes)) if k != d)) / jnp.where(total > 0, total, 1.0), tops[d])
+        _centroid(
+            axis,
+            jnp.sum(weights, axis=tuple(k for k in range(len(axes)) if k != d))
+            / jnp.where(total > 0, total, 1.0),
+            tops[d],
+        )
         for d, axis in enumerate(axes)
     ]
     return jnp.stack(centres), total > 0
@@ -63,14 +69,18 @@ def _run(mask: Any, axis: Axis, top: Any) -> Any:
 
 
 def _region(mask: Any, axes: Axes, top: Any) -> Any:
-    """The true samples that a path over faces connects with the sample at flat index `top`: grown by one sample at a time."""
+    """The true samples that a path over faces connects with the sample at flat index `top`: grown by one
+    sample at a time.
+    """
     start = (jnp.arange(mask.size, dtype=jnp.int32).reshape(mask.shape) == top) & mask
 
     def grow(now: tuple[Any, Any]) -> tuple[Any, Any]:
         region = now[0]
         for d, axis in enumerate(axes):
             for side in (1, -1):
-                region = (region | _moved(region, d, axis, side)) & mask  # what one direction adds, the next one carries on
+                region = (
+                    region | _moved(region, d, axis, side)
+                ) & mask  # what one direction adds, the next one carries on
         return region, jnp.any(region != now[0])
 
     return jax.lax.while_loop(lambda now: now[1], grow, (start, jnp.any(start)))[0]

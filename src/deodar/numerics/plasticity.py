@@ -1,8 +1,9 @@
 """Weights between two arrays: reading them and changing them, at a cost that follows what is active.
 
-Weights stand as a matrix, source places first; activity is given with everything that does not count set to 0. Nothing is touched while
-one side is silent. For a single copy of a model only the rows of active source places are read and written; a batch of copies is computed
-whole, and rests while all its copies do (what `vmap` makes of a condition would compute it always).
+Weights stand as a matrix, source places first; activity is given with everything that does not count set to
+0. Nothing is touched while one side is silent. For a single copy of a model only the rows of active source
+places are read and written; a batch of copies is computed whole, and rests while all its copies do (what
+`vmap` makes of a condition would compute it always).
 """
 
 from __future__ import annotations
@@ -36,7 +37,9 @@ def read(weights: Any, pre: Any) -> Any:
 
 
 def learn(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any, most: Any) -> Any:
-    """The weights one step later. Unchanged to the bit where both `speed` and `loss` are 0, or one side is silent.
+    """The weights one step later.
+
+    Unchanged to the bit where both `speed` and `loss` are 0, or one side is silent.
 
     Args:
         rule: one of `RULES`.
@@ -55,15 +58,19 @@ def learn(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any, m
 def after(value: Any, result: Any) -> Any:
     """The value, to be used only once `result` is there.
 
-    A step that reads weights and changes them would keep a second copy of them if nothing said that the reading comes first.
+    A step that reads weights and changes them would keep a second copy of them if nothing said that the
+    reading comes first.
     """
-    return jnp.where(result.ravel()[0] > jnp.inf, jnp.zeros_like(value), value)  # never true, which the compiler does not know
+    return jnp.where(
+        result.ravel()[0] > jnp.inf, jnp.zeros_like(value), value
+    )  # never true, which the compiler does not know
 
 
 def change(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any) -> Any:
     """New weights by the rule itself; all arguments of shapes that broadcast.
 
-    A step longer than the relaxation time ends at the attractor and not beyond, where the rule has one that does not depend on other weights.
+    A step longer than the relaxation time ends at the attractor and not beyond, where the rule has one that
+    does not depend on other weights.
     """
     match rule:
         case "outstar":
@@ -79,7 +86,7 @@ def change(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any) 
     return new - jnp.minimum(loss, 1.0) * weights
 
 
-# ------------------------------------------------------------------------------------------------ one copy: the active rows
+# ---------------------------------------------------------------------------------- one copy: the active rows
 
 
 def _active(pre: Any, wanted: Any) -> tuple[Any, Any]:
@@ -88,7 +95,9 @@ def _active(pre: Any, wanted: Any) -> tuple[Any, Any]:
 
     def find() -> tuple[Any, Any]:
         here = pre > 0
-        return jnp.nonzero(here, size=places, fill_value=0)[0].astype(jnp.int32), jnp.sum(here, dtype=jnp.int32)
+        return jnp.nonzero(here, size=places, fill_value=0)[0].astype(jnp.int32), jnp.sum(
+            here, dtype=jnp.int32
+        )
 
     return lax.cond(wanted, find, lambda: (jnp.zeros(places, jnp.int32), jnp.zeros((), jnp.int32)))
 
@@ -128,7 +137,7 @@ def _learns(pre: Any, post: Any, speed: Any, loss: Any) -> Any:
     return jnp.any(pre > 0) & jnp.any(post > 0) & (jnp.any(speed != 0) | jnp.any(loss != 0))
 
 
-# ------------------------------------------------------------------------------------------------ a batch of copies: all of it, or nothing
+# ------------------------------------------------------------------- a batch of copies: all of it, or nothing
 
 
 @_read.def_vmap
@@ -139,7 +148,9 @@ def _(size: int, batched: Any, *args: Any) -> tuple[Any, bool]:
 @custom_vmap
 def _read_many(weights: Any, pre: Any) -> Any:
     nothing = jnp.zeros((weights.shape[0], weights.shape[2]), weights.dtype)
-    return lax.cond(jnp.any(pre > 0), lambda: jnp.einsum("bi,bij->bj", pre, weights, precision="highest"), lambda: nothing)
+    return lax.cond(
+        jnp.any(pre > 0), lambda: jnp.einsum("bi,bij->bj", pre, weights, precision="highest"), lambda: nothing
+    )
 
 
 @_read_many.def_vmap
@@ -157,11 +168,15 @@ def _many(rule: str) -> Callable[..., Any]:
             x, y = pre[:, :, None], post[:, None, :]
             s, l, m = (a[:, None, None] for a in (speed, loss, most))
             here = (x if rule in SOURCE_RULES else y) > 0
-            both = (jnp.any(pre > 0, axis=1) & jnp.any(post > 0, axis=1) & ((speed != 0) | (loss != 0)))[:, None, None]
+            both = (jnp.any(pre > 0, axis=1) & jnp.any(post > 0, axis=1) & ((speed != 0) | (loss != 0)))[
+                :, None, None
+            ]
             return jnp.where(here & both, jnp.minimum(change(rule, weights, x, y, s, l), m), weights)
 
         # a loop that is taken once or not at all: unlike a condition it never copies what it leaves alone
-        return lax.fori_loop(0, _learns(pre, post, speed, loss).astype(jnp.int32), lambda _, weights: step(weights), weights)
+        return lax.fori_loop(
+            0, _learns(pre, post, speed, loss).astype(jnp.int32), lambda _, weights: step(weights), weights
+        )
 
     @many.def_vmap
     def _(size: int, batched: Any, *args: Any) -> tuple[Any, bool]:
@@ -172,7 +187,9 @@ def _many(rule: str) -> Callable[..., Any]:
 
 def _spread(size: int, batched: Any, args: Any) -> list[Any]:
     """Every argument with the axis of copies."""
-    return [a if has else jnp.broadcast_to(a, (size, *jnp.shape(a))) for a, has in zip(args, batched, strict=True)]
+    return [
+        a if has else jnp.broadcast_to(a, (size, *jnp.shape(a))) for a, has in zip(args, batched, strict=True)
+    ]
 
 
 def _joined(size: int, batched: Any, args: Any) -> list[Any]:

@@ -17,10 +17,13 @@ REDUCTIONS = ("integral", "sum", "mean", "max", "min")
 def weights(source: Axis, points: Any, interpolation: str, dtype: Any) -> Array:
     """Weights that give the values at `points` from the samples of `source`: shape (points, samples).
 
-    Linear takes the two neighbours, nearest one (the upper of two equally near). Beyond the ends of an axis that is not
-    periodic zeros follow: linear falls to zero within one cell past the last sample, nearest within half a cell.
+    Linear takes the two neighbours, nearest one (the upper of two equally near). Beyond the ends of an axis
+    that is not periodic zeros follow: linear falls to zero within one cell past the last sample, nearest
+    within half a cell.
     """
-    position = (jnp.asarray(points, dtype) - jnp.asarray(source.lower, dtype)) / jnp.asarray(source.step, dtype)
+    position = (jnp.asarray(points, dtype) - jnp.asarray(source.lower, dtype)) / jnp.asarray(
+        source.step, dtype
+    )
     distance = position[:, None] - jnp.arange(source.samples, dtype=dtype)[None, :]
     if source.periodic:
         n = source.samples
@@ -38,7 +41,9 @@ def steps(axis: Axis, amount: Any, dtype: Any) -> tuple[Array, Array]:
     samples = jnp.asarray(amount, dtype) / jnp.asarray(axis.step, dtype)
     whole = jnp.floor(samples)
     # what a whole number of samples lacks by rounding is no part of one
-    whole = jnp.where(samples - whole > 1 - jnp.finfo(dtype).eps * jnp.maximum(8.0, jnp.abs(samples)), whole + 1, whole)
+    whole = jnp.where(
+        samples - whole > 1 - jnp.finfo(dtype).eps * jnp.maximum(8.0, jnp.abs(samples)), whole + 1, whole
+    )
     turns = whole % axis.samples if axis.periodic else jnp.clip(whole, -axis.samples - 1, axis.samples)
     return turns.astype(jnp.int32), jnp.maximum(samples - whole, 0.0)
 
@@ -46,7 +51,8 @@ def steps(axis: Axis, amount: Any, dtype: Any) -> tuple[Array, Array]:
 def shifted(y: Array, d: int, periodic: bool, whole: Array, part: Array) -> Array:
     """What stood at sample i of axis d stands at i + whole + part, interpolated linearly between samples.
 
-    Zeros come in at the ends of an axis that is not periodic. It is a copy of a stretch, which no matrix can beat.
+    Zeros come in at the ends of an axis that is not periodic. It is a copy of a stretch, which no matrix can
+    beat.
     """
     n = y.shape[d]
     if periodic:
@@ -55,7 +61,9 @@ def shifted(y: Array, d: int, periodic: bool, whole: Array, part: Array) -> Arra
         nothing = jnp.zeros((*y.shape[:d], n + 1, *y.shape[d + 1 :]), y.dtype)
         wide, first = jnp.concatenate([nothing, y, nothing], axis=d), n - whole
     stretch = lax.dynamic_slice_in_dim(wide, first, n + 1, axis=d)
-    return (1 - part) * lax.slice_in_dim(stretch, 1, n + 1, axis=d) + part * lax.slice_in_dim(stretch, 0, n, axis=d)
+    return (1 - part) * lax.slice_in_dim(stretch, 1, n + 1, axis=d) + part * lax.slice_in_dim(
+        stretch, 0, n, axis=d
+    )
 
 
 def reduce(y: Array, d: int, axis: Axis, how: str) -> Array:

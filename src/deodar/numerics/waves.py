@@ -1,7 +1,9 @@
-"""Convolution as a product in a space of waves: every symmetric kernel is diagonal there, and smooth ones need few of them.
+"""Convolution as a product in a space of waves: every symmetric kernel is diagonal there, and smooth ones
+need few of them.
 
-On a ring of `length` samples the waves are cosines and sines, before a mirror cosines (of the field and its image). A border beyond which
-there is nothing is a ring long enough that no kernel reaches round it; only the field's own samples are transformed.
+On a ring of `length` samples the waves are cosines and sines, before a mirror cosines (of the field and its
+image). A border beyond which there is nothing is a ring long enough that no kernel reaches round it; only the
+field's own samples are transformed.
 """
 
 from __future__ import annotations
@@ -75,7 +77,8 @@ class Waves:
     def _ring(self, axis: Axis, profile: Profile, dtype: Any) -> Array:
         lag = np.arange(self.length)
         lag = np.where(2 * lag <= self.length, lag, lag - self.length) * axis.step
-        # also round the ring that stands for a border, so that the kernel is smooth on it: what comes round meets no sample
+        # also round the ring that stands for a border, so that the kernel is smooth on it: what comes round
+        # meets no sample
         return profile(jnp.asarray(lag, dtype), axis.step * self.length) * jnp.asarray(axis.step, dtype)
 
     def _cosines(self, turns: np.ndarray) -> np.ndarray:

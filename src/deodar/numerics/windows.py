@@ -33,7 +33,9 @@ class Window(Part):
     """
 
     start: Annotated[float, Live("time", role="moment", meaning="first moment")] = 0.0
-    stop: Annotated[float, Live("time", role="moment", meaning="first moment at which it is off again")] = FOR_EVER
+    stop: Annotated[float, Live("time", role="moment", meaning="first moment at which it is off again")] = (
+        FOR_EVER
+    )
 
     short: ClassVar[str] = "a pair stands for it: windows=[(100, 400)]"
 

@@ -1,10 +1,12 @@
-"""Published experiments, run again: one folder for each paper; the folder is the registry, and entry points `deodar.papers` of installed packages.
+"""Published experiments, run again: one folder for each paper; the folder is the registry, and entry points
+`deodar.papers` of installed packages.
 
 A paper is a module or a package with
 
 * `HELP`: one line;
 * `about(quick)`: what makes its design, as plain data;
-* `BY_CONDITION`: the entries of `about` that map names of conditions to settings; a folder with fewer conditions is extended;
+* `BY_CONDITION`: the entries of `about` that map names of conditions to settings; a folder with fewer
+  conditions is extended;
 * `jobs(quick)`: its trials as `experiments.jobs.Job`;
 * `report(rows, quick)`: a `papers.Report` of the rows that are there;
 * `kept(row)`: a row without what no claim, figure or number reads; so it is kept in the repository;
@@ -63,6 +65,9 @@ def paper(name: str) -> ModuleType:
         if p.name == name:
             module, problem = p.load()
             if problem:
-                raise UnknownName(f"the paper {name!r} cannot be used: the package {p.package} {p.version} {problem}", fix="Type: deodar doctor")
+                raise UnknownName(
+                    f"the paper {name!r} cannot be used: the package {p.package} {p.version} {problem}",
+                    fix="Type: deodar doctor",
+                )
             return module
     raise UnknownName(f"there is no paper {name!r} to reproduce", fix=did_you_mean(name, names()))

@@ -1,4 +1,6 @@
-"""Copies of a batch that diverged: all their values are NaN, and a coordinate of the record gives the reason."""
+"""Copies of a batch that diverged: all their values are NaN, and a coordinate of the record gives the
+reason.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,16 @@ import numpy as np
 import xarray
 
 REASON = "diverged"
-"""The coordinate that gives the reason for each copy ("" where there is none), and the attribute that counts them."""
+"""The coordinate that gives the reason for each copy ("" where there is none), and the attribute that counts
+them.
+"""
 
 
-def marked(data: xarray.Dataset, dimensions: Sequence[str], reasons: Mapping[tuple[int, ...], str]) -> xarray.Dataset:
-    """The record with the copies that diverged made NaN, from the start: reductions such as `max` skip single missing values.
+def marked(
+    data: xarray.Dataset, dimensions: Sequence[str], reasons: Mapping[tuple[int, ...], str]
+) -> xarray.Dataset:
+    """The record with the copies that diverged made NaN, from the start: reductions such as `max` skip single
+    missing values.
 
     Args:
         data: the record.
@@ -35,7 +42,9 @@ def alike(records: Sequence[xarray.Dataset], dimensions: Sequence[str]) -> list[
         return list(records)
 
     def blank(data: xarray.Dataset) -> xarray.Dataset:
-        return data.assign_coords({_name(data): (list(dimensions), np.full([data.sizes[d] for d in dimensions], "", "<U1"))})
+        return data.assign_coords(
+            {_name(data): (list(dimensions), np.full([data.sizes[d] for d in dimensions], "", "<U1"))}
+        )
 
     return [data if _name(data) in data.coords else blank(data) for data in records]
 
@@ -52,4 +61,6 @@ def counted(data: xarray.Dataset) -> xarray.Dataset:
 
 
 def _name(data: xarray.Dataset) -> str:
-    return REASON if REASON not in data.sizes else f"{REASON}.reason"  # a document parameter that is swept may have that name
+    return (
+        REASON if REASON not in data.sizes else f"{REASON}.reason"
+    )  # a document parameter that is swept may have that name

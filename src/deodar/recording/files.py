@@ -30,14 +30,17 @@ SHARE = 0.8
 """Share of the free memory that a record may fill when it is read."""
 
 
-def save_record(data: xarray.Dataset, path: str | Path, format: str | None = None, force: bool = False) -> Path:
+def save_record(
+    data: xarray.Dataset, path: str | Path, format: str | None = None, force: bool = False
+) -> Path:
     """Write a record.
 
     Args:
         data: the record, as `simulate` returns it.
         path: where to; its folder must exist.
-        format: zarr (a folder, version 3), netcdf (NetCDF 3) or csv (one row for each time, trial, sweep point and sample, its metadata
-            in NAME.csv-metadata.json; not read back). None: what the name ends in: .zarr, .nc or .csv.
+        format: zarr (a folder, version 3), netcdf (NetCDF 3) or csv (one row for each time, trial, sweep
+            point and sample, its metadata in NAME.csv-metadata.json; not read back). None: what the name ends
+            in: .zarr, .nc or .csv.
         force: replace a record that stands there.
 
     Raises:
@@ -48,7 +51,8 @@ def save_record(data: xarray.Dataset, path: str | Path, format: str | None = Non
     kind = format_of(path, format)
     if not isinstance(data, xarray.Dataset):
         raise RecordError(
-            f"a record is an xarray.Dataset, not {type(data).__name__}", fix="A single variable: dd.save_record(data[['u.activation']], path)"
+            f"a record is an xarray.Dataset, not {type(data).__name__}",
+            fix="A single variable: dd.save_record(data[['u.activation']], path)",
         )
     claim(path, kind, force)
     if kind == "csv":
@@ -70,7 +74,9 @@ def format_of(path: Path, format: str | None = None) -> str:
     found = [kind for kind, suffix in SUFFIXES.items() if path.suffix.lower() == suffix]
     if not found:
         raise RecordError(
-            f"the name ends in {path.suffix or 'nothing'!r}, which names no format", where=str(path), fix="End it in .zarr, .nc or .csv"
+            f"the name ends in {path.suffix or 'nothing'!r}, which names no format",
+            where=str(path),
+            fix="End it in .zarr, .nc or .csv",
         )
     return found[0]
 
@@ -105,7 +111,9 @@ def load_record(path: str | Path) -> xarray.Dataset:
         raise TooLarge("does not fit into memory", where=str(path)) from None
     except Exception as error:  # readers of foreign bytes raise whatever they stumble over
         text = " ".join(str(error).split())[:200]
-        raise RecordError(f"cannot be read as a record, it may be damaged ({type(error).__name__}: {text})", where=str(path)) from None
+        raise RecordError(
+            f"cannot be read as a record, it may be damaged ({type(error).__name__}: {text})", where=str(path)
+        ) from None
     if KEY not in data.attrs and portable.KEY not in data.attrs:
         raise RecordError("is no record of deodar: nothing in it says what made it", where=str(path))
     try:
@@ -113,7 +121,9 @@ def load_record(path: str | Path) -> xarray.Dataset:
     except RecordError as error:
         raise RecordError([Problem(str(path), p.what, p.fix) for p in error.problems]) from None
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise RecordError(f"is damaged: its layout cannot be read ({type(error).__name__}: {error})", where=str(path)) from None
+        raise RecordError(
+            f"is damaged: its layout cannot be read ({type(error).__name__}: {error})", where=str(path)
+        ) from None
 
 
 def locate(path: Path) -> tuple[Path, str]:
@@ -121,7 +131,9 @@ def locate(path: Path) -> tuple[Path, str]:
     try:
         mode = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
-        near = did_you_mean(path.name, [p.name for p in path.parent.iterdir()]) if path.parent.is_dir() else ""
+        near = (
+            did_you_mean(path.name, [p.name for p in path.parent.iterdir()]) if path.parent.is_dir() else ""
+        )
         raise RecordError("there is no such record", fix=near if near.startswith("Did") else "") from None
     except (OSError, ValueError) as error:
         raise RecordError(f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
@@ -132,18 +144,26 @@ def locate(path: Path) -> tuple[Path, str]:
         if (path / "record.csv").is_file():
             path = path / "record.csv"
         else:
-            raise RecordError("is a folder without a record in it", fix="Name a record (.zarr, .nc) or a folder that deodar run wrote")
+            raise RecordError(
+                "is a folder without a record in it",
+                fix="Name a record (.zarr, .nc) or a folder that deodar run wrote",
+            )
     if not path.is_file():
         raise RecordError("is neither a file nor a folder")
     if path.suffix.lower() == ".csv":
-        raise RecordError("is a table for other programs, and is not read back", fix="Write records as .zarr or .nc to plot or repeat them")
+        raise RecordError(
+            "is a table for other programs, and is not read back",
+            fix="Write records as .zarr or .nc to plot or repeat them",
+        )
     with path.open("rb") as file:
         start = file.read(8)
     if start[:3] == b"CDF":
         return path, "netcdf"
     if start == b"\x89HDF\r\n\x1a\n":
         raise RecordError("is a NetCDF 4 (HDF5) file; deodar writes and reads NetCDF 3 and Zarr")
-    raise RecordError("is no record", fix="A record is a .zarr folder, a .nc file, or a folder that deodar run wrote")
+    raise RecordError(
+        "is no record", fix="A record is a .zarr folder, a .nc file, or a folder that deodar run wrote"
+    )
 
 
 def is_record(path: Path) -> bool:
@@ -164,7 +184,7 @@ def is_zarr(path: Path) -> bool:
         return False
 
 
-# ------------------------------------------------------------------------------------------------ formats
+# ---------------------------------------------------------------------------------------------------- formats
 
 
 def _write_zarr(data: xarray.Dataset, path: Path) -> None:
@@ -177,7 +197,11 @@ def _write_zarr(data: xarray.Dataset, path: Path) -> None:
 def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
     for name, variable in data.variables.items():
         if variable.nbytes > LARGEST_NETCDF:
-            raise RecordError(f"needs {variable.nbytes / 2**30:.1f} GiB; NetCDF 3 holds 4", where=str(name), fix="Save it as .zarr")
+            raise RecordError(
+                f"needs {variable.nbytes / 2**30:.1f} GiB; NetCDF 3 holds 4",
+                where=str(name),
+                fix="Save it as .zarr",
+            )
     stored = portable.pack(data, narrow=True)
     encoding: dict[Any, Any] = {name: {"_FillValue": None} for name in stored.variables}
     stored.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
@@ -185,7 +209,9 @@ def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
 
 def _read(path: Path, kind: str) -> xarray.Dataset:
     opened: Callable[[], xarray.Dataset] = {
-        "zarr": lambda: xarray.open_zarr(path, zarr_format=3, consolidated=False, decode_cf=False, chunks=None),
+        "zarr": lambda: xarray.open_zarr(
+            path, zarr_format=3, consolidated=False, decode_cf=False, chunks=None
+        ),
         "netcdf": lambda: xarray.open_dataset(path, engine="scipy", decode_cf=False),
     }[kind]
     with opened() as data:

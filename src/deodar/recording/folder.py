@@ -38,7 +38,10 @@ def claim(path: Path, format: str, force: bool = False) -> None:
 
 
 def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: bool = False) -> Path:
-    """Write record and model; a new folder appears whole. In one that exists only these two are replaced. Returns the record's path."""
+    """Write record and model; a new folder appears whole.
+
+    In one that exists only these two are replaced. Returns the record's path.
+    """
     name = record_name(format)
 
     def fill(inner: Path) -> None:
@@ -56,7 +59,9 @@ def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: b
 
 
 def _drop_others(path: Path, format: str) -> None:
-    """Take the replaced run's record in another format away: it does not belong to the model that now stands beside it."""
+    """Take the replaced run's record in another format away: it does not belong to the model that now stands
+    beside it.
+    """
     for other in files.SUFFIXES:
         old = path / record_name(other)
         if other == format or old.is_symlink():

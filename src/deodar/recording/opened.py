@@ -1,4 +1,6 @@
-"""Worlds as they are named on the command line, in the studio and in records; those made of records are read first."""
+"""Worlds as they are named on the command line, in the studio and in records; those made of records are read
+first.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ def opened(kind: type[World], argument: str) -> World:
 
 def again(kind: type[World], described: Mapping[str, Any]) -> World:
     """The world that a record says it was made with."""
-    return opened(kind, str(described.get("file", ""))) if issubclass(kind, Recording) else kind.again(described)
+    return (
+        opened(kind, str(described.get("file", ""))) if issubclass(kind, Recording) else kind.again(described)
+    )
 
 
 def named(text: str, where: str) -> World:
@@ -33,5 +37,7 @@ def named(text: str, where: str) -> World:
     if found is None:
         raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
     if not argument:
-        raise WorldError("needs to know what to open", where=where, fix=f"For example {name.lower()}:photo.jpg")
+        raise WorldError(
+            "needs to know what to open", where=where, fix=f"For example {name.lower()}:photo.jpg"
+        )
     return opened(found, argument)

@@ -21,7 +21,11 @@ def claim_folder(path: Path, force: bool = False) -> Path:
         if path.is_symlink() or not path.is_dir():
             raise OutputExists("exists and is not a folder", where=str(path), fix="Choose another name")
         if not force:
-            raise OutputExists("exists already", where=str(path), fix="Choose another name, or replace it with --force (force=True)")
+            raise OutputExists(
+                "exists already",
+                where=str(path),
+                fix="Choose another name, or replace it with --force (force=True)",
+            )
     require_parent(path)
     return path
 
@@ -36,7 +40,9 @@ def require_parent(path: Path) -> None:
 
 
 def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False) -> None:
-    """Fill a folder beside its final place, wait until all of it is on the disk, and rename it: it is there whole, or not at all."""
+    """Fill a folder beside its final place, wait until all of it is on the disk, and rename it: it is there
+    whole, or not at all.
+    """
     beside = old = None
     try:
         beside = Path(tempfile.mkdtemp(prefix=f".{path.name[:40]}.", dir=path.parent))
@@ -58,7 +64,9 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
             raise
     except OutputError as error:
         here = str(beside / "new") if beside is not None else str(path)
-        raise type(error)([Problem(p.where.replace(here, str(path)), p.what, p.fix) for p in error.problems]) from None
+        raise type(error)(
+            [Problem(p.where.replace(here, str(path)), p.what, p.fix) for p in error.problems]
+        ) from None
     except OSError as error:
         raise output.failed(path, error) from None
     finally:
@@ -67,10 +75,15 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
 
 
 def free(parent: Path, name: str, suffix: str = "") -> Path:
-    """The first of NAME-001, NAME-002, ... that does not exist; characters that a file name cannot have become `_`."""
+    """The first of NAME-001, NAME-002, ... that does not exist; characters that a file name cannot have
+    become `_`.
+    """
     plain = re.sub(r"[^\w.+-]+", "_", name).strip("._")[:80] or "record"
     for n in range(1, MOST_NUMBERED):
         path = parent / f"{plain}-{n:03}{suffix}"
         if not (path.exists() or path.is_symlink()):
             return path
-    raise OutputError(f"the folder {str(parent)!r} holds {MOST_NUMBERED} results called {plain}", fix="Choose a name with --out")
+    raise OutputError(
+        f"the folder {str(parent)!r} holds {MOST_NUMBERED} results called {plain}",
+        fix="Choose a name with --out",
+    )

@@ -1,8 +1,8 @@
 """A record in a form that every file format can hold, and back without a loss.
 
-Formats differ in the names, types and attributes they allow. Arrays are stored under plain ASCII names, in types that the format
-has; what was changed is written down in one attribute, as JSON, with a hash of every array. Other programs can read the file as
-it is; deodar restores it exactly and notices damage.
+Formats differ in the names, types and attributes they allow. Arrays are stored under plain ASCII names, in
+types that the format has; what was changed is written down in one attribute, as JSON, with a hash of every
+array. Other programs can read the file as it is; deodar restores it exactly and notices damage.
 """
 
 from __future__ import annotations
@@ -23,16 +23,37 @@ KEY = "deodar_layout"
 """Name of the attribute that holds what was changed."""
 
 LONGEST = 100
-RESERVED = frozenset(["byte", "char", "short", "ushort", "int", "uint", "int64", "uint64", "float", "real", "double", "bool", "string"])
+RESERVED = frozenset(
+    [
+        "byte",
+        "char",
+        "short",
+        "ushort",
+        "int",
+        "uint",
+        "int64",
+        "uint64",
+        "float",
+        "real",
+        "double",
+        "bool",
+        "string",
+    ]
+)
 """Names that NetCDF does not allow."""
 
 EXACT_INTEGERS = 2**53
 
 
 def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
-    """A Dataset that a file can hold; `narrow`: of 8, 16 and 32 bit integers and floats only, as in NetCDF 3."""
+    """A Dataset that a file can hold; `narrow`: of 8, 16 and 32 bit integers and floats only, as in NetCDF
+    3.
+    """
     names = _names([*data.variables, *data.dims])
-    kept: dict[str, Any] = {"names": {new: str(old) for old, new in names.items() if new != old}, "variables": {}}
+    kept: dict[str, Any] = {
+        "names": {new: str(old) for old, new in names.items() if new != old},
+        "variables": {},
+    }
     empty = [str(names[d]) for d, n in data.sizes.items() if n == 0] if narrow else []
     if empty:
         kept["empty"] = empty
@@ -44,7 +65,9 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
         if empty:
             array = np.pad(array, [(0, int(n == 0)) for n in array.shape])
         dims = [names[d] for d in variable.dims]
-        variables[names[name]] = xarray.Variable(dims, array, {k: v for k, v in attributes.items() if _simple(v)})
+        variables[names[name]] = xarray.Variable(
+            dims, array, {k: v for k, v in attributes.items() if _simple(v)}
+        )
     attributes = _plain(data.attrs)
     shown = {k: v for k, v in attributes.items() if isinstance(v, str)}
     kept["attributes"] = {k: None if k in shown else v for k, v in attributes.items()}
@@ -65,15 +88,24 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     kept = json.loads(text)
     names: Mapping[str, str] = kept["names"]
     if set(kept["variables"]) != set(map(str, stored.variables)):
-        raise RecordError(f"is damaged: of its arrays, {_listed(set(kept['variables']) ^ set(map(str, stored.variables)))} are missing or too many")
+        raise RecordError(
+            f"is damaged: of its arrays, {_listed(set(kept['variables']) ^ set(map(str, stored.variables)))}"
+            " are missing or too many"
+        )
     stored = stored.isel({d: slice(0, 0) for d in kept.get("empty", ())})
     variables: dict[str, Any] = {}
     for name, about in kept["variables"].items():
         variable = stored.variables[name]
         array = _restored(names.get(name, name), np.asarray(variable.values), about)
-        variables[names.get(name, name)] = ([names.get(str(d), str(d)) for d in variable.dims], array, about["attributes"])
+        variables[names.get(name, name)] = (
+            [names.get(str(d), str(d)) for d in variable.dims],
+            array,
+            about["attributes"],
+        )
     coords = {n: variables.pop(n) for n in [names.get(c, c) for c in kept["coords"]]}
-    attributes = {k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in kept["attributes"].items()}
+    attributes = {
+        k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in kept["attributes"].items()
+    }
     return xarray.Dataset(variables, coords, attributes)
 
 
@@ -81,16 +113,32 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
     about: dict[str, Any] = {"type": str(array.dtype)}
     if array.dtype.kind in "UTO" and all(isinstance(v, str) for v in array.ravel().tolist()):
         labels, codes = np.unique(array.astype(str), return_inverse=True)
-        return codes.reshape(array.shape).astype(np.int32), {"labels": labels.tolist(), "sha256": _digest(codes.astype(np.int64))}
+        return codes.reshape(array.shape).astype(np.int32), {
+            "labels": labels.tolist(),
+            "sha256": _digest(codes.astype(np.int64)),
+        }
     if array.dtype.kind not in "biuf":
-        raise RecordError(f"holds values of the type {array.dtype}; a record holds numbers, true or false, and text", where=name)
+        raise RecordError(
+            f"holds values of the type {array.dtype}; a record holds numbers, true or false, and text",
+            where=name,
+        )
     about["sha256"] = _digest(array)
-    if not narrow or array.dtype in (np.dtype("f4"), np.dtype("f8"), np.dtype("i1"), np.dtype("i2"), np.dtype("i4")):
+    if not narrow or array.dtype in (
+        np.dtype("f4"),
+        np.dtype("f8"),
+        np.dtype("i1"),
+        np.dtype("i2"),
+        np.dtype("i4"),
+    ):
         return array, about
     if array.dtype == np.dtype("f2"):
         return array.astype(np.float32), about
     if array.dtype.kind == "f":
-        raise RecordError(f"holds values of the type {array.dtype}, which NetCDF 3 does not have", where=name, fix="Save it as .zarr")
+        raise RecordError(
+            f"holds values of the type {array.dtype}, which NetCDF 3 does not have",
+            where=name,
+            fix="Save it as .zarr",
+        )
     if array.dtype.kind == "b":
         return array.astype(np.int8), about
     low, high = (int(array.min()), int(array.max())) if array.size else (0, 0)
@@ -98,20 +146,29 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
         return array.astype(np.int32), about
     if max(-low, high) <= EXACT_INTEGERS:
         return array.astype(np.float64), about
-    raise RecordError("holds whole numbers beyond 2^53, which NetCDF 3 cannot hold exactly", where=name, fix="Save it as .zarr")
+    raise RecordError(
+        "holds whole numbers beyond 2^53, which NetCDF 3 cannot hold exactly",
+        where=name,
+        fix="Save it as .zarr",
+    )
 
 
 def _restored(name: str, array: np.ndarray, about: Mapping[str, Any]) -> np.ndarray:
     if "labels" in about:
         codes = array.astype(np.int64)
         labels = np.asarray(about["labels"], dtype=str)
-        good = _digest(codes) == about["sha256"] and (not codes.size or 0 <= codes.min() <= codes.max() < len(labels))
+        good = _digest(codes) == about["sha256"] and (
+            not codes.size or 0 <= codes.min() <= codes.max() < len(labels)
+        )
         out = labels[codes] if good else codes
     else:
         out = array.astype(np.dtype(about["type"]))
         good = _digest(out) == about["sha256"]
     if not good:
-        raise RecordError(f"is damaged: the values of {name!r} are not those that were written", fix="Run it again, or take another copy")
+        raise RecordError(
+            f"is damaged: the values of {name!r} are not those that were written",
+            fix="Run it again, or take another copy",
+        )
     return out
 
 
@@ -156,7 +213,11 @@ def _simple(value: Any) -> bool:
     """Whether every format holds it as an attribute."""
     if isinstance(value, bool):
         return False
-    return (isinstance(value, str) and value != "") or isinstance(value, float) or (isinstance(value, int) and abs(value) < 2**31)
+    return (
+        (isinstance(value, str) and value != "")
+        or isinstance(value, float)
+        or (isinstance(value, int) and abs(value) < 2**31)
+    )
 
 
 def _listed(names: set[str]) -> str:

@@ -18,7 +18,9 @@ KEY = "deodar"
 
 
 def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[str, Any]:
-    """Everything that repeating a run needs, and everything that decides whether its bits will be the same."""
+    """Everything that repeating a run needs, and everything that decides whether its bits will be the
+    same.
+    """
     data, arrays = files.to_data(doc)
     packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
     return {
@@ -35,7 +37,9 @@ def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[s
 def made_by(device: Any) -> dict[str, str]:
     """Versions, device and machine; and the cores, because a program for several adds in another order."""
     versions = {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
-    where = {"device": f"{device.platform} {device.device_kind}"} | ({"cores": str(cores())} if device.platform == "cpu" else {})
+    where = {"device": f"{device.platform} {device.device_kind}"} | (
+        {"cores": str(cores())} if device.platform == "cpu" else {}
+    )
     return versions | {"python": platform.python_version(), **where, "machine": machine()}
 
 

@@ -27,8 +27,9 @@ def dataset(
 ) -> xarray.Dataset:
     """The record of a run.
 
-    Variables are named by path. Dimensions are sweep paths, `trial` (where trials were asked for), `time`, and axes by name; an
-    axis whose name is taken by another sampling, or that occurs twice, becomes `PATH.axis`, PATH being the path of the port.
+    Variables are named by path. Dimensions are sweep paths, `trial` (where trials were asked for), `time`,
+    and axes by name; an axis whose name is taken by another sampling, or that occurs twice, becomes
+    `PATH.axis`, PATH being the path of the port.
     """
     lead = [*sweep, *(["trial"] if trials is not None else []), "time"]
     coords: dict[str, Any] = {path: (path, np.asarray(values, float)) for path, values in sweep.items()}
@@ -48,7 +49,11 @@ def dataset(
             dims.append(dim)
             coords[dim] = (dim, axis.points, _axis_attributes(axis))
         shaped = array.reshape(*grid, *array.shape[1:]) if sweep else array
-        attributes: dict[str, Any] = {"long_name": f"{port} of {entry.path}", "kind": type(entry.element).__name__, "port": port}
+        attributes: dict[str, Any] = {
+            "long_name": f"{port} of {entry.path}",
+            "kind": type(entry.element).__name__,
+            "port": port,
+        }
         threshold = getattr(getattr(entry.element, "sigmoid", None), "threshold", None)
         if port == "activation" and isinstance(threshold, float):
             attributes["threshold"] = threshold

@@ -41,9 +41,11 @@ class Repetition:
     Attributes:
         data: the new record.
         differences: versions, device, machine and world that are not as they were.
-        largest: for each variable the largest difference of a value from the old record; infinite where it cannot be compared.
+        largest: for each variable the largest difference of a value from the old record; infinite where it
+            cannot be compared.
         same_bits: whether every value is the same to the last bit.
-        compared: number of times that were compared; fewer than recorded now, if the old record is incomplete.
+        compared: number of times that were compared; fewer than recorded now, if the old record is
+            incomplete.
     """
 
     data: xarray.Dataset
@@ -60,11 +62,18 @@ class Repetition:
     def __str__(self) -> str:
         if self.same_bits:
             text = "The repetition has the same bits as the record"
-            return text + (", although these differ: " + "; ".join(map(str, self.differences)) if self.differences else "")
+            return text + (
+                ", although these differ: " + "; ".join(map(str, self.differences))
+                if self.differences
+                else ""
+            )
         worst = ", ".join(f"{name} {value:.3g}" for name, value in self.largest.items())
         if self.differences:
             changed = "; ".join(map(str, self.differences))
-            return f"The repetition differs from the record. What differs: {changed}. Largest differences: {worst}"
+            return (
+                f"The repetition differs from the record. What differs: {changed}. Largest differences:"
+                f" {worst}"
+            )
         same = "nothing explains it: versions, machine and world are the same"
         return f"The repetition differs from the record, and {same}. Largest differences: {worst}"
 
@@ -96,7 +105,11 @@ def repeat(
         model = Model(document=provenance.document(made), trusted=trust)
         settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
         settings |= {"record": _recorded(made, model), "sweep": made["sweep"] or None}
-        settings |= {"workers": made.get("workers"), "batch": made.get("batch"), "device": device or made.get("device")}
+        settings |= {
+            "workers": made.get("workers"),
+            "batch": made.get("batch"),
+            "device": device or made.get("device"),
+        }
         settings |= {"accuracy": made.get("accuracy", "default")}
     except (KeyError, TypeError, ValueError) as error:
         raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None
@@ -106,7 +119,9 @@ def repeat(
 
 
 def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:
-    """The ports that were recorded; versions of the document before 3 meant another one by the path of a field alone."""
+    """The ports that were recorded; versions of the document before 3 meant another one by the path of a
+    field alone.
+    """
     record: list[str] | None = made["record"]
     if record is None or made["document"].get("deodar", 0) >= 3:
         return record
@@ -130,8 +145,13 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     whole = before.get("complete", True) and after.get("complete", True)
     a, b = (old, new) if whole else _common(old, new)
     largest = {str(name): _largest(a.get(name), b.get(name)) for name in {**a.variables, **b.variables}}
-    same = all(name in a.variables and name in b.variables and _same(a[name].values, b[name].values) for name in {**a.variables, **b.variables})
-    shown = {name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value}
+    same = all(
+        name in a.variables and name in b.variables and _same(a[name].values, b[name].values)
+        for name in {**a.variables, **b.variables}
+    )
+    shown = {
+        name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value
+    }
     return Repetition(new, _differences(before, after), shown, same, times)
 
 
@@ -155,7 +175,11 @@ def _made(data: xarray.Dataset) -> dict[str, Any]:
 
 def _differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> tuple[Difference, ...]:
     then, now = before.get("made_by", {}), after.get("made_by", {})
-    out = [Difference(k, str(then.get(k, "unknown")), str(now.get(k, "unknown"))) for k in {**then, **now} if then.get(k) != now.get(k)]
+    out = [
+        Difference(k, str(then.get(k, "unknown")), str(now.get(k, "unknown")))
+        for k in {**then, **now}
+        if then.get(k) != now.get(k)
+    ]
     was, is_ = _identity(before.get("world")), _identity(after.get("world"))
     if was != is_:
         out.append(Difference("world", _shown(before.get("world")), _shown(after.get("world"))))
@@ -178,7 +202,7 @@ def _largest(a: xarray.DataArray | None, b: xarray.DataArray | None) -> float:
     return float("inf") if np.isnan(gap).any() else float(gap.max())
 
 
-# ------------------------------------------------------------------------------------------------ worlds
+# ----------------------------------------------------------------------------------------------------- worlds
 
 
 def _world(described: Mapping[str, Any] | None) -> World | None:
@@ -189,15 +213,24 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
     found = registry.kinds("worlds").get(kind)
     give = f"Give it: --world {kind.lower()}:FILE"
     if found is None:
-        raise WorldError(f"the record was made with the world {_shown(described)}, which is not known here", fix=give)
+        raise WorldError(
+            f"the record was made with the world {_shown(described)}, which is not known here", fix=give
+        )
     try:
         world = again(found, described)
     except DeodarError as error:
-        raise WorldError(f"the record was made with the world {_shown(described)}, and it cannot be opened: {error.problems[0]}", fix=give) from None
+        raise WorldError(
+            f"the record was made with the world {_shown(described)}, and it cannot be opened:"
+            f" {error.problems[0]}",
+            fix=give,
+        ) from None
     if _identity(world.describe()) != _identity(described):
         raise WorldError(
             f"the record was made with the world {_shown(described)}, and this file now holds something else",
-            fix=f"Give the file that it was made with, or this one to compare all the same: --world {kind.lower()}:{described.get('file', 'FILE')}",
+            fix=(
+                "Give the file that it was made with, or this one to compare all the same: --world"
+                f" {kind.lower()}:{described.get('file', 'FILE')}"
+            ),
         )
     return world
 
@@ -211,5 +244,9 @@ def _shown(described: Any) -> str:
     if not isinstance(described, dict):
         return "none"
     digest = str(described.get("sha256", ""))[:12]
-    parts = [str(described.get("world")), str(described.get("file", "")), f"sha256 {digest}" if digest else ""]
+    parts = [
+        str(described.get("world")),
+        str(described.get("file", "")),
+        f"sha256 {digest}" if digest else "",
+    ]
     return " ".join(p for p in parts if p)

@@ -1,7 +1,9 @@
-"""A record as one long table in CSV, for other programs: one row for each sweep point, trial, time and sample.
+"""A record as one long table in CSV, for other programs: one row for each sweep point, trial, time and
+sample.
 
-The table is a line of names and the rows, and nothing else: `pandas.read_csv(path)` reads it. What belongs to it (title, units, what made the
-record) stands beside it in `NAME.csv-metadata.json`, in the form of the W3C's Metadata Vocabulary for Tabular Data (2015), section 5.
+The table is a line of names and the rows, and nothing else: `pandas.read_csv(path)` reads it. What belongs to
+it (title, units, what made the record) stands beside it in `NAME.csv-metadata.json`, in the form of the W3C's
+Metadata Vocabulary for Tabular Data (2015), section 5.
 """
 
 from __future__ import annotations
@@ -50,7 +52,9 @@ def beside(path: Path) -> Path:
 
 
 def metadata(data: xarray.Dataset, name: str) -> str:
-    """Return what belongs to the table of that file name, as JSON: its title, its columns with units, and in the notes what made the record."""
+    """Return what belongs to the table of that file name, as JSON: its title, its columns with units, and in
+    the notes what made the record.
+    """
     columns: list[dict[str, str]] = []
     for column in _columns(_blocks(data)):
         about: dict[str, Any] = dict(data[column].attrs) if column in data.variables else {}
@@ -60,8 +64,18 @@ def metadata(data: xarray.Dataset, name: str) -> str:
         said |= {"schema:unitText": str(about["units"])} if about.get("units") else {}
         columns.append(said)
     title = {"dc:title": str(data.attrs["title"])} if data.attrs.get("title") else {}
-    rest = {str(key): value if isinstance(value, str) else str(value) for key, value in data.attrs.items() if key != "title"}
-    found = {"@context": "http://www.w3.org/ns/csvw", "url": name, **title, "tableSchema": {"columns": columns}, "notes": [rest]}
+    rest = {
+        str(key): value if isinstance(value, str) else str(value)
+        for key, value in data.attrs.items()
+        if key != "title"
+    }
+    found = {
+        "@context": "http://www.w3.org/ns/csvw",
+        "url": name,
+        **title,
+        "tableSchema": {"columns": columns},
+        "notes": [rest],
+    }
     return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
 
 

@@ -60,7 +60,14 @@ class Studio:
         ready: Callable[[], None],
         ended: Callable[[], None] = lambda: None,
     ) -> None:
-        self._root, self._file, self._trust, self._world, self._ready, self._ended = root, file, trust, world, ready, ended
+        self._root, self._file, self._trust, self._world, self._ready, self._ended = (
+            root,
+            file,
+            trust,
+            world,
+            ready,
+            ended,
+        )
         self._hub: Hub | None = None
         routes = [
             Route("/", self._page),

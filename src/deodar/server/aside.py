@@ -13,13 +13,16 @@ from deodar.errors import DeodarError, DocumentError
 
 T = TypeVar("T")
 SECONDS = 60.0
-"""Longest wall time that a request waits for a file system (a guess: a network folder that does not answer takes longer)."""
+"""Longest wall time that a request waits for a file system (a guess: a network folder that does not answer
+takes longer).
+"""
 
 
 async def aside(function: Callable[[], T], where: str) -> T:
     """Run a function in a thread of its own, which ends with the process.
 
-    A pool of threads would be used up by a few calls that never return, and would keep the process from ending.
+    A pool of threads would be used up by a few calls that never return, and would keep the process from
+    ending.
 
     Raises:
         DocumentError: if it takes longer than `SECONDS`; the thread goes on, and its result is dropped.
@@ -40,10 +43,16 @@ async def aside(function: Callable[[], T], where: str) -> T:
         async with asyncio.timeout(SECONDS):
             return await asyncio.wrap_future(future)
     except TimeoutError:
-        raise DocumentError(f"took longer than {SECONDS:g} s to read or write", where=where, fix="Does its disk or network folder answer?") from None
+        raise DocumentError(
+            f"took longer than {SECONDS:g} s to read or write",
+            where=where,
+            fix="Does its disk or network folder answer?",
+        ) from None
 
 
 async def attempt(function: Callable[[], None]) -> None:
-    """Run a function as `aside` does, and go on without its result where it fails or takes too long: nothing depends on it."""
+    """Run a function as `aside` does, and go on without its result where it fails or takes too long: nothing
+    depends on it.
+    """
     with contextlib.suppress(DeodarError):
         await aside(function, "")

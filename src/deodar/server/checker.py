@@ -1,4 +1,6 @@
-"""Problems and warnings of a document after single changes, for which pages are not sent the whole document."""
+"""Problems and warnings of a document after single changes, for which pages are not sent the whole
+document.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +14,17 @@ from deodar.server.to_page import Checked
 from deodar.server.turns import Turns
 
 SECONDS = 0.2
-"""Wall time between single changes and the check of what they led to (a guess: warnings that appear so soon seem to belong to the change)."""
+"""Wall time between single changes and the check of what they led to (a guess: warnings that appear so soon
+seem to belong to the change).
+"""
 
 
 class Checker:
     """Checks in a thread and a few times a second: a large document takes 30 ms, and a drag edits more often.
 
     Attributes:
-        found: what the last check found; None: the whole document, which pages were sent last, holds it itself.
+        found: what the last check found; None: the whole document, which pages were sent last, holds it
+            itself.
 
     Args:
         present: the version and the document that are open.
@@ -27,7 +32,9 @@ class Checker:
         changed: called once something was found.
     """
 
-    def __init__(self, present: Callable[[], tuple[int, Document | None]], turns: Turns, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, present: Callable[[], tuple[int, Document | None]], turns: Turns, changed: Callable[[], None]
+    ) -> None:
         self.found: Checked | None = None
         self._present, self._turns, self._changed = present, turns, changed
         self._busy = False

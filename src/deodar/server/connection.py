@@ -1,7 +1,9 @@
-"""One page: what it asks for is done one after the other, what it has to know is sent when it is ready for it.
+"""One page: what it asks for is done one after the other, what it has to know is sent when it is ready for
+it.
 
-Nothing is queued for a page but answers. After each exchange the page says that it took everything in (`drawn`); only then the next one is
-put together, from what is true at that moment. A page that is slow sees fewer frames, and the server holds nothing back for it.
+Nothing is queued for a page but answers. After each exchange the page says that it took everything in
+(`drawn`); only then the next one is put together, from what is true at that moment. A page that is slow sees
+fewer frames, and the server holds nothing back for it.
 """
 
 from __future__ import annotations
@@ -20,7 +22,19 @@ from deodar.errors import DeodarError
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
 from deodar.server.project import Asks
-from deodar.server.to_page import Answer, Checked, Clock, Costs, Folder, Gallery, Opened, Problem, Scene, ToPage, Trouble
+from deodar.server.to_page import (
+    Answer,
+    Checked,
+    Clock,
+    Costs,
+    Folder,
+    Gallery,
+    Opened,
+    Problem,
+    Scene,
+    ToPage,
+    Trouble,
+)
 from deodar.server.to_server import Drawn, ToServer
 
 MOST_ANSWERS = 64
@@ -56,13 +70,14 @@ class Connection:
         try:
             done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
             for task in done:
-                task.result()  # an error of ours is told on the terminal; the page comes back and starts afresh
+                # an error of ours is told on the terminal; the page comes back and starts afresh
+                task.result()
         finally:
             self._hub.leave(self.page)
             for task in both:
                 task.cancel()
 
-    # -------------------------------------------------------------------------------- from the page
+    # ------------------------------------------------------------------------------------------ from the page
 
     async def _receive(self) -> None:
         while True:
@@ -104,7 +119,10 @@ class Connection:
             answers = [Answer(request=message.request, problems=[Problem(what=what)])]
         except Exception as error:
             logging.getLogger("deodar.studio").exception("a request of the page failed")
-            what = f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the studio tells more."
+            what = (
+                f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the"
+                " studio tells more."
+            )
             answers = [Answer(request=message.request, problems=[Problem(what=what)])]
         self._answers.extend(a for a in answers if message.request)
         self.page.wake()
@@ -113,7 +131,7 @@ class Connection:
         self._answers.append(Answer(request=request, problems=[Problem(what=what)]))
         self.page.wake()
 
-    # -------------------------------------------------------------------------------- to the page
+    # -------------------------------------------------------------------------------------------- to the page
 
     async def _send(self) -> None:
         try:
@@ -122,7 +140,9 @@ class Connection:
                 self.page.news.clear()
                 if self._ready:
                     await self._say()
-                with contextlib.suppress(TimeoutError):  # `wait_for` of Python 3.11 loses a cancellation that comes together with news
+                with contextlib.suppress(
+                    TimeoutError
+                ):  # `wait_for` of Python 3.11 loses a cancellation that comes together with news
                     async with asyncio.timeout(IDLE):
                         await self.page.news.wait()
         except (WebSocketDisconnect, RuntimeError, OSError):
@@ -136,7 +156,10 @@ class Connection:
             for message in await self._news_of_state():
                 await self._text(message)
                 spoke = True
-            if (self._session, self._version) == (hub.project.session, hub.project.version):  # no answer goes before the change that it is of
+            if (self._session, self._version) == (
+                hub.project.session,
+                hub.project.version,
+            ):  # no answer goes before the change that it is of
                 break
         shot = engine.shot
         sent = shot.number != self._shot
@@ -161,7 +184,8 @@ class Connection:
             self._ready = False
             await self._text(msgspec.structs.replace(clock, frame=self._exchange))
         else:
-            engine.want()  # the last shot held nothing for this page, and it is still waiting for one that does
+            # the last shot held nothing for this page, and it is still waiting for one that does
+            engine.want()
 
     async def _news_of_state(self) -> list[ToPage]:
         project = self._hub.project
@@ -185,7 +209,9 @@ class Connection:
         moved = None if self.page.follower is None else self.page.follower.news(track)
         return out if moved is None else [*out, moved]
 
-    def _new(self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[ToPage]) -> None:
+    def _new(
+        self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[ToPage]
+    ) -> None:
         if self._known.get(what) != message:
             self._known[what] = message
             out.append(message)

@@ -1,6 +1,8 @@
-"""What is opened: files below the root, and the content of a file that has no place there because it was dropped on the page.
+"""What is opened: files below the root, and the content of a file that has no place there because it was
+dropped on the page.
 
-Files are read from a folder that is held open, so that a path which becomes a link after its check leads nowhere (`OpenFolder`).
+Files are read from a folder that is held open, so that a path which becomes a link after its check leads
+nowhere (`OpenFolder`).
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ from deodar.server.workspace import DOCUMENTS, Workspace
 
 
 def read(text: str, title: str) -> Document:
-    """A document of our own, or a file of another tool, given as text; arrays in a file beside it are refused."""
+    """A document of our own, or a file of another tool, given as text; arrays in a file beside it are
+    refused.
+    """
     return _document(text.encode(), title, _nothing)
 
 
@@ -31,7 +35,11 @@ def read_package(content: str, title: str) -> Document:
     except (binascii.Error, ValueError):
         raise DocumentError("the content is not base64", where=title) from None
     if not package.is_content(data):
-        raise DocumentError("is no package", where=title, fix="deodar pack FILE makes one; a document without arrays ends in .json")
+        raise DocumentError(
+            "is no package",
+            where=title,
+            fix="deodar pack FILE makes one; a document without arrays ends in .json",
+        )
     return files.loads(data, lambda name: None)
 
 
@@ -47,7 +55,9 @@ def load(space: Workspace, place: Path) -> Document:
     except OSError as error:
         raise DocumentError(f"cannot be read: {error.strerror}", where=str(place)) from None
     except DeodarError as error:
-        raise DocumentError([Problem(f"{place}: {p.where}" if p.where else str(place), p.what, p.fix) for p in error.problems]) from None
+        raise DocumentError(
+            [Problem(f"{place}: {p.where}" if p.where else str(place), p.what, p.fix) for p in error.problems]
+        ) from None
 
 
 def is_foreign(space: Workspace, place: Path) -> bool:
@@ -62,7 +72,9 @@ def is_foreign(space: Workspace, place: Path) -> bool:
 
 
 def _is_example(space: Workspace, place: Path) -> bool:
-    """Whether a place is an example outside of the workspace, which may have been named on the command line."""
+    """Whether a place is an example outside of the workspace, which may have been named on the command
+    line.
+    """
     return not space.holds(place) and examples.holds(place)
 
 
@@ -91,17 +103,26 @@ def _beside(folder: OpenFolder, name: str) -> bytes | None:
     except FileNotFoundError:
         return None
     except OSError as error:
-        raise DocumentError(f"the array file {name!r} cannot be read: {error.strerror}", where="arrays") from None
+        raise DocumentError(
+            f"the array file {name!r} cannot be read: {error.strerror}", where="arrays"
+        ) from None
 
 
 def _nothing(name: str) -> bytes | None:
-    fix = "Put both files below the studio's folder and open the document by its name, or drop a package (deodar pack FILE)"
-    raise DocumentError("has its arrays in a file beside it, which was not dropped with it", where=name, fix=fix)
+    fix = (
+        "Put both files below the studio's folder and open the document by its name, or drop a package"
+        " (deodar pack FILE)"
+    )
+    raise DocumentError(
+        "has its arrays in a file beside it, which was not dropped with it", where=name, fix=fix
+    )
 
 
 def _near(place: Path) -> str:
     """A file of the same folder with a similar name."""
     try:
-        return did_you_mean(place.name, [path.name for path in place.parent.iterdir() if path.suffix.lower() in DOCUMENTS])
+        return did_you_mean(
+            place.name, [path.name for path in place.parent.iterdir() if path.suffix.lower() in DOCUMENTS]
+        )
     except OSError:
         return ""

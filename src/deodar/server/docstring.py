@@ -1,4 +1,7 @@
-"""What the docstring of a kind says: its equation, its parameters and ports, its source. Kinds from outside may say nothing."""
+"""What the docstring of a kind says: its equation, its parameters and ports, its source.
+
+Kinds from outside may say nothing.
+"""
 
 from __future__ import annotations
 

@@ -19,7 +19,8 @@ MOST_BYTES = 32 * 2**20
 
 
 class Embodiment:
-    """The world that was chosen; where none was, or it lacks a sensor or motor, an example of a kind that has them all.
+    """The world that was chosen; where none was, or it lacks a sensor or motor, an example of a kind that has
+    them all.
 
     Attributes:
         label: the world that is read, in a few words.
@@ -28,7 +29,9 @@ class Embodiment:
     def __init__(self, chosen: World | None = None) -> None:
         self.chosen = chosen
         self.label = ""
-        self._name = "" if chosen is None else _named(type(chosen).__name__, str(chosen.describe().get("file", "")))
+        self._name = (
+            "" if chosen is None else _named(type(chosen).__name__, str(chosen.describe().get("file", "")))
+        )
 
     def world(self, doc: Document) -> World | None:
         """The world for a document; None where it senses nothing, or nothing fits (then running says so)."""
@@ -37,7 +40,11 @@ class Embodiment:
         if not wanted:
             return None
         if self.chosen is None or not wanted <= {*self.chosen.sensors, *self.chosen.motors}:
-            fitting = [cls for cls in registry.kinds("worlds").values() if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}]
+            fitting = [
+                cls
+                for cls in registry.kinds("worlds").values()
+                if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}
+            ]
             if fitting:
                 self.label = _named(fitting[0].__name__, "an example")
                 return fitting[0].example()

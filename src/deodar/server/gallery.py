@@ -1,4 +1,6 @@
-"""The gallery: the documents that come with deodar, each with a sentence and a picture, `NAME.png` beside the document."""
+"""The gallery: the documents that come with deodar, each with a sentence and a picture, `NAME.png` beside the
+document.
+"""
 
 from __future__ import annotations
 

@@ -13,8 +13,10 @@ from starlette.responses import HTMLResponse, PlainTextResponse, RedirectRespons
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 HEADERS = {
-    "content-security-policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:;"
-    " connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
+    "content-security-policy": (
+        "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self'"
+        " data:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
+    ),
     "referrer-policy": "no-referrer",
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
@@ -24,10 +26,16 @@ ASK = """<!doctype html>
 <html lang="en">
 <title>deodar studio</title>
 <meta name="viewport" content="width=device-width">
-<style>:root { color-scheme: light dark } body { font: 1rem/1.5 system-ui, sans-serif; max-width: 34rem; margin: 15vh auto }</style>
+<style>
+:root { color-scheme: light dark }
+body { font: 1rem/1.5 system-ui, sans-serif; max-width: 34rem; margin: 15vh auto }
+</style>
 <h1>deodar studio</h1>
-<p>This studio needs its token. Open the address that <code>deodar studio</code> printed in the terminal, or enter the token of that address:</p>
-<form action="/" method="get"><label>Token <input name="token" type="password" autocomplete="off" autofocus></label> <button>Open</button></form>
+<p>This studio needs its token. Open the address that <code>deodar studio</code> printed in the terminal, or
+enter the token of that address:</p>
+<form action="/" method="get">
+<label>Token <input name="token" type="password" autocomplete="off" autofocus></label> <button>Open</button>
+</form>
 </html>
 """
 ON = """<!doctype html>
@@ -52,10 +60,11 @@ def is_local(host: str) -> bool:
 class Guard:
     """Refuses what does not come from a page of this server, opened by the person who started it.
 
-    The host of a request must be the one it listens on (or this machine's name or address), so that no foreign name can be made to point here;
-    its origin, where a browser states one, must be the same; and every request needs the token, in the address or as a cookie. Other users of
-    this machine reach it too, so the token is needed on localhost as well. The cookie's name has the port in it: browsers keep cookies by host
-    alone, and two studios would overwrite each other's.
+    The host of a request must be the one it listens on (or this machine's name or address), so that no
+    foreign name can be made to point here; its origin, where a browser states one, must be the same; and
+    every request needs the token, in the address or as a cookie. Other users of this machine reach it too, so
+    the token is needed on localhost as well. The cookie's name has the port in it: browsers keep cookies by
+    host alone, and two studios would overwrite each other's.
 
     Args:
         app: what is served to those who may.
@@ -77,7 +86,10 @@ class Guard:
             return await self._refuse(scope, receive, send, status, wrong)
         if self._token:
             asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
-            if not any(_same(self._token, given) for given in (asked, _cookie(headers.get("cookie", ""), self.cookie))):
+            if not any(
+                _same(self._token, given)
+                for given in (asked, _cookie(headers.get("cookie", ""), self.cookie))
+            ):
                 return await self._ask(scope, receive, send, headers)
             if asked and scope["type"] == "http" and scope["path"] == "/":
                 return await self._enter(scope, receive, send, headers)
@@ -111,7 +123,8 @@ class Guard:
     async def _enter(self, scope: Scope, receive: Receive, send: Send, headers: dict[str, str]) -> None:
         """Move the token from the address to a cookie, and go on to the page.
 
-        A browser that comes from another site does not send a strict cookie along a redirect, but it does from a page of this server.
+        A browser that comes from another site does not send a strict cookie along a redirect, but it does
+        from a page of this server.
         """
         if headers.get("sec-fetch-site") == "cross-site":
             answer: Response = HTMLResponse(ON, headers=HEADERS)
@@ -127,7 +140,9 @@ class Guard:
             why = "this studio needs the token that was printed when it was started: open that address"
             return await self._refuse(scope, receive, send, 401, why)
         policy = HEADERS["content-security-policy"].replace("form-action 'none'", "form-action 'self'")
-        answer = HTMLResponse(ASK, 401, headers={**HEADERS, "content-security-policy": policy, "cache-control": "no-store"})
+        answer = HTMLResponse(
+            ASK, 401, headers={**HEADERS, "content-security-policy": policy, "cache-control": "no-store"}
+        )
         return await answer(scope, receive, send)
 
     async def _refuse(self, scope: Scope, receive: Receive, send: Send, status: int, why: str) -> None:

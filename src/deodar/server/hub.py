@@ -39,10 +39,15 @@ class Hub:
         self.embodiment = Embodiment(world)
         self.engine = Engine(self._from_engine)
         self.project = Project(self.workspace, self.keeper, self.engine, self.embodiment, trust, self.tell)
-        self.welcome = Welcome(version=__version__, root=str(self.workspace.root), kinds=kinds.kinds(), examples=gallery.examples())
+        self.welcome = Welcome(
+            version=__version__,
+            root=str(self.workspace.root),
+            kinds=kinds.kinds(),
+            examples=gallery.examples(),
+        )
         self._keeping = asyncio.create_task(self._keep())
 
-    # -------------------------------------------------------------------------------- telling
+    # ------------------------------------------------------------------------------------------------ telling
 
     def tell(self) -> None:
         """Something changed: every page looks whether it concerns it."""
@@ -58,7 +63,9 @@ class Hub:
                 self._loop.call_soon_threadsafe(self.tell)
 
     async def gallery(self) -> Gallery:
-        """Recent files and unsaved edits, as the state folder holds them; where it does not answer, as it held them last."""
+        """Recent files and unsaved edits, as the state folder holds them; where it does not answer, as it
+        held them last.
+        """
 
         def read() -> None:
             recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
@@ -100,13 +107,19 @@ class Hub:
         if self._told_costs is None or self._told_costs[0] is not bill:
             found = bill.costs
             listed = () if found is None else found.elements
-            elements = [CostView(element=c.id, path=c.path, kind=c.kind, us=c.us, alike=c.alike, once=c.once) for c in listed]
+            elements = [
+                CostView(element=c.id, path=c.path, kind=c.kind, us=c.us, alike=c.alike, once=c.once)
+                for c in listed
+            ]
             problems = view.problems(bill.problems, None)
             step = 0.0 if found is None else found.step
-            self._told_costs = bill, Costs(measuring=bill.measuring, step=step, elements=elements, problems=problems)
+            self._told_costs = (
+                bill,
+                Costs(measuring=bill.measuring, step=step, elements=elements, problems=problems),
+            )
         return self._told_costs[1]
 
-    # -------------------------------------------------------------------------------- watching
+    # ----------------------------------------------------------------------------------------------- watching
 
     def new_page(self) -> Page:
         """A page with a number of its own; once its socket is open it belongs to `pages`."""
@@ -127,7 +140,7 @@ class Hub:
             self.engine.call(lambda: self.engine.push(None))
         self.watch()
 
-    # -------------------------------------------------------------------------------- ending
+    # ------------------------------------------------------------------------------------------------- ending
 
     async def _keep(self) -> None:
         while True:

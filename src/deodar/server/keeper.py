@@ -1,4 +1,6 @@
-"""What the studio keeps between its runs, in the user's state folder: unsaved edits, and which files were open."""
+"""What the studio keeps between its runs, in the user's state folder: unsaved edits, and which files were
+open.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,7 @@ class Keeper:
         self._unsaved = folder / "unsaved"
         self._recent = folder / "recent.json"
 
-    # -------------------------------------------------------------------------------- unsaved edits
+    # ------------------------------------------------------------------------------------------ unsaved edits
 
     def new_name(self) -> str:
         """A name under which the edits of one document are kept."""
@@ -51,7 +53,12 @@ class Keeper:
             self._unsaved.mkdir(parents=True, exist_ok=True)
             files.save(document, self._document(name), force=True)
             now = datetime.datetime.now().astimezone().isoformat(timespec="seconds")
-            note = {"title": document.name, "file": file, "when": now, "process": [os.getpid(), psutil.Process().create_time()]}
+            note = {
+                "title": document.name,
+                "file": file,
+                "when": now,
+                "process": [os.getpid(), psutil.Process().create_time()],
+            }
             self._note(name).write_text(json.dumps(note), encoding="utf-8")
 
     def forget(self, name: str) -> None:
@@ -70,7 +77,9 @@ class Keeper:
                 data = cast("dict[str, Any]", note)
                 if not _lives(data.get("process")):
                     text = {key: str(data.get(key, "")) for key in ("title", "file", "when")}
-                    out.append(Recovery(name=path.stem, title=text["title"], file=text["file"], when=text["when"]))
+                    out.append(
+                        Recovery(name=path.stem, title=text["title"], file=text["file"], when=text["when"])
+                    )
         return sorted(out, key=lambda r: r.when, reverse=True)
 
     def read(self, name: str) -> tuple[Document, str]:
@@ -89,7 +98,7 @@ class Keeper:
     def _note(self, name: str) -> Path:
         return self._unsaved / f"{name}.note"
 
-    # -------------------------------------------------------------------------------- recent files
+    # ------------------------------------------------------------------------------------------- recent files
 
     def opened(self, path: Path) -> None:
         """Remember a file that was opened or written."""

@@ -52,7 +52,9 @@ def _kind(cls: type[Any], known: dict[str, type[Any]]) -> Kind:
 
 
 def _declared(cls: type[Part]) -> list[Parameter]:
-    """Parameters as they are written down: those by position, then those by name; `name` is every element's."""
+    """Parameters as they are written down: those by position, then those by name; `name` is every
+    element's.
+    """
     first = positional(cls)
     return sorted((p for p in parameters(cls) if p.name != "name"), key=lambda p: p.name not in first)
 
@@ -74,7 +76,9 @@ def _example(cls: type[Any]) -> Any:
 
 
 def _ports(cls: type[Any], says: Docstring, example: Any) -> dict[str, str]:
-    """Ports and what they carry, those that the docstring leaves out without words; of a world its sensors and motors."""
+    """Ports and what they carry, those that the docstring leaves out without words; of a world its sensors
+    and motors.
+    """
     if issubclass(cls, World):
         return {name: str(signal) for name, signal in {**cls.sensors, **cls.motors}.items()}
     if not issubclass(cls, Element):
@@ -89,7 +93,7 @@ def _ports(cls: type[Any], says: Docstring, example: Any) -> dict[str, str]:
     return {**says.ports, **{port: says.ports.get(port, "") for port in [*inputs, *outputs]}}
 
 
-# ------------------------------------------------------------------------------------------------ parameters
+# ------------------------------------------------------------------------------------------------- parameters
 
 
 def _form(p: Parameter, says: Docstring, known: dict[str, type[Any]]) -> ParameterForm:
@@ -107,12 +111,18 @@ def _form(p: Parameter, says: Docstring, known: dict[str, type[Any]]) -> Paramet
         default=_plain(p, p.default),
         optional=p.optional,
         choices=list(p.choices),
-        of=[name for name, cls in known.items() if p.of is not None and p.form in ("part", "parts") and issubclass(cls, p.of)],
+        of=[
+            name
+            for name, cls in known.items()
+            if p.of is not None and p.form in ("part", "parts") and issubclass(cls, p.of)
+        ],
     )
 
 
 def _symbol(p: Parameter, description: str, equation: Sequence[str]) -> str:
-    """The symbol that its description begins with (`h, the attractor`), else its own name where the equation has it."""
+    """The symbol that its description begins with (`h, the attractor`), else its own name where the equation
+    has it.
+    """
     first = NAME.match(description)
     if first and is_letter(first[0]) and description[first.end() : first.end() + 1] in (",", ".", ":", ";"):
         return symbol(first[0])

@@ -1,7 +1,8 @@
 """What every message between the studio's server and its page has in common.
 
-The two unions are `to_server.ToServer` and `to_page.ToPage`. JSON Schema and TypeScript are generated from them
-(`python -m deodar.server.protocol`). Arrays do not travel as messages but as binary frames: see `deodar.server.frames`.
+The two unions are `to_server.ToServer` and `to_page.ToPage`. JSON Schema and TypeScript are generated from
+them (`python -m deodar.server.protocol`). Arrays do not travel as messages but as binary frames: see
+`deodar.server.frames`.
 """
 
 from __future__ import annotations

@@ -14,9 +14,18 @@ from types import TracebackType
 from deodar.errors import DocumentError, OutputError
 
 BY_DESCRIPTOR = hasattr(os, "O_NOFOLLOW") and {os.open, os.unlink, os.rename} <= os.supports_dir_fd
-"""Whether this system opens files relative to an open folder. Where it does not (Windows), the folder's path is used each time."""
+"""Whether this system opens files relative to an open folder.
 
-READ = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
+Where it does not (Windows), the folder's path is used each time.
+"""
+
+READ = (
+    os.O_RDONLY
+    | getattr(os, "O_NONBLOCK", 0)
+    | getattr(os, "O_CLOEXEC", 0)
+    | getattr(os, "O_NOCTTY", 0)
+    | getattr(os, "O_BINARY", 0)
+)
 NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 FOLDER = os.O_RDONLY | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
@@ -27,8 +36,8 @@ class OpenFolder:
 
     Args:
         path: the folder.
-        below: names of folders inside one another, to go down from `path`. None of them may be a link: where one became a link since its
-            path was resolved, opening fails.
+        below: names of folders inside one another, to go down from `path`. None of them may be a link: where
+            one became a link since its path was resolved, opening fails.
 
     Raises:
         OSError: if it cannot be opened.
@@ -54,7 +63,9 @@ class OpenFolder:
     def __enter__(self) -> OpenFolder:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         if self._descriptor is not None:
             os.close(self._descriptor)
             self._descriptor = None
@@ -63,7 +74,8 @@ class OpenFolder:
     def open(self, name: str, links: bool = False) -> Generator[tuple[BufferedReader, int]]:
         """Open a regular file for reading, without waiting: gives the file and its size in bytes.
 
-        A named pipe or a device is refused after it is opened, so that it cannot take the place of a file between a check and the opening.
+        A named pipe or a device is refused after it is opened, so that it cannot take the place of a file
+        between a check and the opening.
 
         Args:
             name: its name.
@@ -88,11 +100,16 @@ class OpenFolder:
         with self.open(name, links) as (file, size):
             content = b"" if size > most else file.read(most + 1)
             if size > most or len(content) > most:
-                raise DocumentError(f"is {max(size, len(content)) / 2**20:,.0f} MiB; at most {most // 2**20} are read")
+                raise DocumentError(
+                    f"is {max(size, len(content)) / 2**20:,.0f} MiB; at most {most // 2**20} are read"
+                )
             return content
 
     def write(self, name: str, content: bytes) -> None:
-        """Write a file beside its final name and rename it: it is there whole, or not at all. A link of that name is replaced, never followed."""
+        """Write a file beside its final name and rename it: it is there whole, or not at all.
+
+        A link of that name is replaced, never followed.
+        """
         beside = f".{name[:40]}.{secrets.token_hex(6)}"
         try:
             descriptor = self._open(beside, NEW | NO_LINK)

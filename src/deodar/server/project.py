@@ -59,7 +59,13 @@ class Project:
     """
 
     def __init__(
-        self, workspace: Workspace, keeper: Keeper, engine: Engine, embodiment: Embodiment, trust: bool, changed: Callable[[], None]
+        self,
+        workspace: Workspace,
+        keeper: Keeper,
+        engine: Engine,
+        embodiment: Embodiment,
+        trust: bool,
+        changed: Callable[[], None],
     ) -> None:
         self.workspace, self.keeper, self.engine, self.embodiment = workspace, keeper, engine, embodiment
         self._trust, self._changed = trust, changed
@@ -70,7 +76,9 @@ class Project:
         self.trouble: tuple[str, Sequence[Wrong]] = ("", ())
         self.failure: Sequence[Wrong] = ()
         self.busy = ""
-        self.checker = Checker(lambda: (self.version, None if self.model is None else self.model.document), self.turns, changed)
+        self.checker = Checker(
+            lambda: (self.version, None if self.model is None else self.model.document), self.turns, changed
+        )
         self._name = ""
         self._saved: Document | None = None
         self._kept: Document | None = None
@@ -79,7 +87,7 @@ class Project:
         self._recent = RecentChanges()
         self._attempt = 0
 
-    # -------------------------------------------------------------------------------- looking
+    # ------------------------------------------------------------------------------------------------ looking
 
     @property
     def session(self) -> int:
@@ -95,13 +103,19 @@ class Project:
         return view.document(self.model.document, file, self.unsaved, history.depth, history.ahead)
 
     def changes_since(self, session: int, version: int) -> list[Changed] | None:
-        """Single changes that bring a page from that version to this one; None if it needs the whole document."""
+        """Single changes that bring a page from that version to this one; None if it needs the whole
+        document.
+        """
         return self._recent.between(version, self.version) if session == self.session else None
 
     @property
     def unsaved(self) -> bool:
         """Whether there are edits that no file holds."""
-        return self.model is not None and self._saved is not self.model.document and view.plain(self.model.document) != self._saved
+        return (
+            self.model is not None
+            and self._saved is not self.model.document
+            and view.plain(self.model.document) != self._saved
+        )
 
     def failures(self) -> list[Problem]:
         """Why nothing runs, if so."""
@@ -109,7 +123,7 @@ class Project:
         found, paths = self.engine.failure
         return [*view.problems(self.failure, doc), *view.problems(found, doc, paths)]
 
-    # -------------------------------------------------------------------------------- opening and closing
+    # ------------------------------------------------------------------------------------ opening and closing
 
     async def open_file(self, path: Path, discard: bool) -> str:
         """Open a document; an example, or a file of another tool, as one without a file.
@@ -228,10 +242,12 @@ class Project:
         if self.unsaved and not discard:
             raise Asks("unsaved")
 
-    # -------------------------------------------------------------------------------- saving
+    # ------------------------------------------------------------------------------------------------- saving
 
     async def save(self, path: str, replace: bool) -> Path:
-        """Write the document; asks before it writes over what is not its own, or what changed since it was read."""
+        """Write the document; asks before it writes over what is not its own, or what changed since it was
+        read.
+        """
         model = self._require()
         place = self.workspace.target(path) if path else self.file
         if place is None:
@@ -242,7 +258,12 @@ class Project:
             raise Asks("replace")
         doc = model.document
         await aside(lambda: self.workspace.save(doc, place), path or str(place))
-        self.file, self._saved, self._digest, self._kept = place, view.plain(doc), await self._hash(place), doc
+        self.file, self._saved, self._digest, self._kept = (
+            place,
+            view.plain(doc),
+            await self._hash(place),
+            doc,
+        )
         await attempt(lambda: self.keeper.forget(self._name))
         await attempt(lambda: self.keeper.opened(place))
         self._moved()
@@ -258,7 +279,7 @@ class Project:
             await attempt(lambda: self.keeper.keep(name, doc, file))
             self._kept = doc
 
-    # -------------------------------------------------------------------------------- editing
+    # ------------------------------------------------------------------------------------------------ editing
 
     async def set(self, element: str, parameter: str, value: Any, gesture: object) -> Cost:
         """Change a parameter of an element, or (empty element) of the document."""
@@ -288,7 +309,9 @@ class Project:
             raise DocumentError(self.failure or [Wrong("", "no document is open")])
 
     async def embody(self, world: World) -> None:
-        """Let the sensors read another world; where there is none to read, it waits for a document that senses."""
+        """Let the sensors read another world; where there is none to read, it waits for a document that
+        senses.
+        """
         model, session = self._require(), self.engine.session
         self.embodiment.world(model.document)
         if session is None:
@@ -321,7 +344,9 @@ class Project:
         """Make the change again that was taken back."""
         await self._travel(lambda h: h.redo(), lambda h: h.undo())
 
-    async def _travel(self, there: Callable[[edit.History], bool], back: Callable[[edit.History], bool]) -> None:
+    async def _travel(
+        self, there: Callable[[edit.History], bool], back: Callable[[edit.History], bool]
+    ) -> None:
         history = self._require().history
         if not there(history):
             return
@@ -348,16 +373,25 @@ class Project:
             self.version += 1
             element, parameter, value = leaf
             change = Changed(
-                version=self.version, element=element, parameter=parameter, value=value, cost=cost, unsaved=self.unsaved,
-                undo=model.history.depth, redo=model.history.ahead,
-            )  # fmt: skip
+                version=self.version,
+                element=element,
+                parameter=parameter,
+                value=value,
+                cost=cost,
+                unsaved=self.unsaved,
+                undo=model.history.depth,
+                redo=model.history.ahead,
+            )
             self._recent.add(change)
             self._changed()
             self.checker.start()
         return cost
 
     async def _adopt(self, doc: Document) -> Cost:
-        """Let the engine go on with a document. One with problems is edited on, while what runs stays as it was."""
+        """Let the engine go on with a document.
+
+        One with problems is edited on, while what runs stays as it was.
+        """
         model = self._require()
         session = self.engine.session
         if session is None:
@@ -383,7 +417,9 @@ class Project:
         await self._start()
 
     def _reported(self) -> str:
-        """What became of the file that was just imported: the first line of the notes, where its report begins."""
+        """What became of the file that was just imported: the first line of the notes, where its report
+        begins.
+        """
         return "" if self.model is None else self.model.document.notes.partition("\n")[0]
 
     def _require(self) -> Model:

@@ -18,7 +18,10 @@ from deodar.server.to_server import ToServer
 
 SCHEMA = Path(__file__).with_name("protocol.schema.json")
 TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
-HEAD = "// Generated from src/deodar/server/to_server.py and to_page.py by `python -m deodar.server.protocol`; change those, not this one.\n"
+HEAD = (
+    "// Generated from src/deodar/server/to_server.py and to_page.py by `python -m deodar.server.protocol`;"
+    " change those, not this one.\n"
+)
 
 
 def schema() -> dict[str, Any]:
@@ -41,7 +44,9 @@ def typescript() -> str:
     out = [HEAD]
     for name, form in sorted(schema()["$defs"].items()):
         description = form.get("description", "")
-        out.append("".join(f"// {line.strip()}\n" if line.strip() else "//\n" for line in description.splitlines()))
+        out.append(
+            "".join(f"// {line.strip()}\n" if line.strip() else "//\n" for line in description.splitlines())
+        )
         if "properties" in form:
             out.append(f"export type {name} = {_record(form)};\n\n")
         else:
@@ -52,7 +57,10 @@ def typescript() -> str:
 
 def _record(form: dict[str, Any]) -> str:
     required = set(form.get("required", []))
-    lines = [f"  {key}{'' if key in required else '?'}: {_type(inner)};" for key, inner in form["properties"].items()]
+    lines = [
+        f"  {key}{'' if key in required else '?'}: {_type(inner)};"
+        for key, inner in form["properties"].items()
+    ]
     return "{\n" + "\n".join(lines) + "\n}"
 
 

@@ -25,6 +25,8 @@ class RecentChanges:
         self._changes.clear()
 
     def between(self, version: int, now: int) -> list[Changed] | None:
-        """The changes that bring a page from one version to another; None if single changes do not suffice."""
+        """The changes that bring a page from one version to another; None if single changes do not
+        suffice.
+        """
         found = [change for change in self._changes if change.version > version]
         return found if len(found) == now - version else None

@@ -1,7 +1,7 @@
 """A file that sends a browser to the address of the studio.
 
-The command line of a browser can be read by every user of the machine, and a token in it too. The browser is therefore started with the name of a
-file that only this user can read, and the file holds the address.
+The command line of a browser can be read by every user of the machine, and a token in it too. The browser is
+therefore started with the name of a file that only this user can read, and the file holds the address.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ class RedirectFile:
         folder = Path(tempfile.mkdtemp(prefix="deodar-studio-"))
         self.path = folder / "open.html"
         try:
-            descriptor = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600)
+            descriptor = os.open(
+                self.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600
+            )
             with os.fdopen(descriptor, "w", encoding="utf-8") as file:
                 file.write(PAGE.format(address=html.escape(address)))
         except OSError:

@@ -35,7 +35,10 @@ Answers = list[Answer | Folder]
 
 
 async def do(hub: Hub, page: Page, message: Any) -> Answers:
-    """Do what is asked; the last of the answers ends the request. Requests that change the document are done one after the other."""
+    """Do what is asked; the last of the answers ends the request.
+
+    Requests that change the document are done one after the other.
+    """
     if isinstance(message, to_server.DocumentRequest):
         return await hub.project.turns.take(lambda: _change(hub, page, message), message.session)
     return await _done(hub, page, message)
@@ -54,7 +57,7 @@ async def _change(hub: Hub, page: Page, message: to_server.DocumentRequest) -> A
     return [msgspec.structs.replace(a, version=version) if isinstance(a, Answer) else a for a in answers]
 
 
-# ------------------------------------------------------------------------------------------------ files
+# ------------------------------------------------------------------------------------------------------ files
 
 
 async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
@@ -98,7 +101,7 @@ async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
     return await aside(lambda: hub.workspace.listed(m.request, m.path), m.path)
 
 
-# ------------------------------------------------------------------------------------------------ edits
+# ------------------------------------------------------------------------------------------------------ edits
 
 
 async def _set(hub: Hub, page: Page, m: to_server.Set) -> Answer:
@@ -116,7 +119,9 @@ async def _add_knob(hub: Hub, page: Page, m: to_server.AddKnob) -> None:
     def change(doc: edit.Document) -> edit.Document:
         if m.name in [k.name for k in doc.knobs]:
             raise ParameterError("there is already a document parameter of that name", where=m.name)
-        return edit.link(edit.knob(doc, m.name, find.number(doc, m.element, m.parameter)), m.element, m.parameter, m.name)
+        return edit.link(
+            edit.knob(doc, m.name, find.number(doc, m.element, m.parameter)), m.element, m.parameter, m.name
+        )
 
     await hub.project.change(change)
 
@@ -169,7 +174,7 @@ async def _redo(hub: Hub, page: Page, m: to_server.Redo) -> None:
     await hub.project.redo()
 
 
-# ------------------------------------------------------------------------------------------------ running
+# ---------------------------------------------------------------------------------------------------- running
 
 
 async def _engine(hub: Hub, page: Page, function: Callable[[], Any]) -> None:
@@ -215,7 +220,9 @@ async def _push(hub: Hub, page: Page, m: to_server.Push) -> None:
     if session is None or entry is None:
         raise DocumentError("there is no such element in what runs", where=m.element)
     session.require_push(m.element)
-    hand = Hand(m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m))
+    hand = Hand(
+        m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m)
+    )
     page.pushes = True
     await _engine(hub, page, lambda: engine.push(hand))
 
@@ -278,7 +285,7 @@ async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> No
     await _engine(hub, page, lambda: hub.engine.rearrange(how))
 
 
-# ------------------------------------------------------------------------------------------------ watching
+# --------------------------------------------------------------------------------------------------- watching
 
 
 async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
@@ -305,16 +312,42 @@ def _require_room(hub: Hub, page: Page, stream: int) -> None:
 
 
 _DO: dict[type[Any], Callable[[Hub, Page, Any], Awaitable[Any]]] = {
-    to_server.OpenFile: _open_file, to_server.OpenExample: _open_example, to_server.OpenText: _open_text, to_server.OpenPackage: _open_package,
-    to_server.Recover: _recover, to_server.Forget: _forget, to_server.Close: _close, to_server.Save: _save,
-    to_server.ListFolder: _list_folder, to_server.Set: _set,
-    to_server.Describe: _describe, to_server.AddKnob: _add_knob, to_server.Link: _link, to_server.Unlink: _unlink,
-    to_server.RemoveKnob: _remove_knob, to_server.Arrange: _arrange, to_server.ApplyPreset: _apply_preset,
+    to_server.OpenFile: _open_file,
+    to_server.OpenExample: _open_example,
+    to_server.OpenText: _open_text,
+    to_server.OpenPackage: _open_package,
+    to_server.Recover: _recover,
+    to_server.Forget: _forget,
+    to_server.Close: _close,
+    to_server.Save: _save,
+    to_server.ListFolder: _list_folder,
+    to_server.Set: _set,
+    to_server.Describe: _describe,
+    to_server.AddKnob: _add_knob,
+    to_server.Link: _link,
+    to_server.Unlink: _unlink,
+    to_server.RemoveKnob: _remove_knob,
+    to_server.Arrange: _arrange,
+    to_server.ApplyPreset: _apply_preset,
     to_server.ApplyPresetText: _apply_preset_text,
-    to_server.Undo: _undo, to_server.Redo: _redo, to_server.Play: _play,
-    to_server.Pause: _pause, to_server.Step: _step, to_server.Reset: _reset, to_server.Speed: _speed,
-    to_server.Lengthen: _lengthen, to_server.MeasureCosts: _measure_costs, to_server.Push: _push,
-    to_server.Release: _release, to_server.UseWorld: _use_world, to_server.UseWorldContent: _use_world_content, to_server.WatchWorld: _watch_world,
-    to_server.MoveThing: _move_thing, to_server.PlaceThing: _place_thing, to_server.RemoveThing: _remove_thing, to_server.Watch: _watch,
-    to_server.Trace: _trace, to_server.Unwatch: _unwatch,
-}  # fmt: skip
+    to_server.Undo: _undo,
+    to_server.Redo: _redo,
+    to_server.Play: _play,
+    to_server.Pause: _pause,
+    to_server.Step: _step,
+    to_server.Reset: _reset,
+    to_server.Speed: _speed,
+    to_server.Lengthen: _lengthen,
+    to_server.MeasureCosts: _measure_costs,
+    to_server.Push: _push,
+    to_server.Release: _release,
+    to_server.UseWorld: _use_world,
+    to_server.UseWorldContent: _use_world_content,
+    to_server.WatchWorld: _watch_world,
+    to_server.MoveThing: _move_thing,
+    to_server.PlaceThing: _place_thing,
+    to_server.RemoveThing: _remove_thing,
+    to_server.Watch: _watch,
+    to_server.Trace: _trace,
+    to_server.Unwatch: _unwatch,
+}

@@ -1,4 +1,6 @@
-"""The world from above, for a page: the scene when it changed, and the bodies with what is new of their way."""
+"""The world from above, for a page: the scene when it changed, and the bodies with what is new of their
+way.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,16 @@ def scene(seen: _scene.Scene | None) -> Scene:
     if seen is None:
         return Scene(scene=None)
     boxes = [
-        BoxView(name=b.name, x=b.center[0], y=b.center[1], width=b.size[0], height=b.size[1], color=list(b.color), fixed=b.fixed) for b in seen.boxes
+        BoxView(
+            name=b.name,
+            x=b.center[0],
+            y=b.center[1],
+            width=b.size[0],
+            height=b.size[1],
+            color=list(b.color),
+            fixed=b.fixed,
+        )
+        for b in seen.boxes
     ]
     marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
     return Scene(scene=SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks))
@@ -30,7 +41,9 @@ class Follower:
         self._bodies: list[BodyView] = []
 
     def news(self, track: Track) -> Bodies | None:
-        """Where the bodies are, and the places of their way that the page does not have; None where nothing moved."""
+        """Where the bodies are, and the places of their way that the page does not have; None where nothing
+        moved.
+        """
         seen, way = track.scene, track.way
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
         fresh = way is not self._way
@@ -39,8 +52,14 @@ class Follower:
         if not fresh and count == taken and bodies == self._bodies:
             return None
         self._way, self._taken, self._bodies = way, count, bodies
-        return Bodies(bodies=bodies, fresh=fresh, way=[[round(v, DIGITS) for v in place] for place in way.places[taken:count]])
+        return Bodies(
+            bodies=bodies,
+            fresh=fresh,
+            way=[[round(v, DIGITS) for v in place] for place in way.places[taken:count]],
+        )
 
 
 def _body(body: _scene.Body) -> BodyView:
-    return BodyView(name=body.name, x=body.center[0], y=body.center[1], heading=body.heading, radius=body.radius)
+    return BodyView(
+        name=body.name, x=body.center[0], y=body.center[1], heading=body.heading, radius=body.radius
+    )

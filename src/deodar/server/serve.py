@@ -40,9 +40,12 @@ def serve(
     token: bool,
     say: Callable[[str], None],
 ) -> None:
-    """Serve until Ctrl-C. `say` gets the address once it answers; without `token` everybody who can connect may use the studio.
+    """Serve until Ctrl-C.
 
-    An address with a token reaches the browser through a file of this user, which is removed when the studio ends.
+    `say` gets the address once it answers; without `token` everybody who can connect may use the studio.
+
+    An address with a token reaches the browser through a file of this user, which is removed when the studio
+    ends.
     """
     redirects: list[RedirectFile] = []
 
@@ -56,7 +59,9 @@ def serve(
         try:
             redirects.append(RedirectFile(address))
         except OSError as error:
-            logging.getLogger("deodar.studio").warning(f"the browser is not opened: a temporary file cannot be written ({error.strerror})")
+            logging.getLogger("deodar.studio").warning(
+                f"the browser is not opened: a temporary file cannot be written ({error.strerror})"
+            )
             return
         webbrowser.open(redirects[-1].address)
 
@@ -82,18 +87,28 @@ def prepare(
 ) -> tuple[uvicorn.Server, socket.socket]:
     """A server that is not started yet, and the socket it is to listen at.
 
-    `ready` gets the address once everything is up. `ended` is called when the server stops, before a signal such as SIGTERM ends the process.
+    `ready` gets the address once everything is up. `ended` is called when the server stops, before a signal
+    such as SIGTERM ends the process.
     """
     bound = bind(host, port)
     number = bound.getsockname()[1]
     secret = "" if not token else tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
     shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
-    address = f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"
+    address = (
+        f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"
+    )
     studio = Studio(root, file, trust, world, host, number, secret, lambda: ready(address), ended)
     config = uvicorn.Config(
-        studio.app, log_level="warning", access_log=False, ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=MOST_MESSAGE,
-        lifespan="on", timeout_graceful_shutdown=2, server_header=False,
-    )  # fmt: skip
+        studio.app,
+        log_level="warning",
+        access_log=False,
+        ws="websockets-sansio",
+        ws_per_message_deflate=False,
+        ws_max_size=MOST_MESSAGE,
+        lifespan="on",
+        timeout_graceful_shutdown=2,
+        server_header=False,
+    )
     return uvicorn.Server(config), bound
 
 
@@ -102,7 +117,8 @@ def bind(host: str, port: int | None) -> socket.socket:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     wanted = [port] if port is not None else [*range(PORT, PORT + TRIED), 0]
     for number in wanted:
-        # named as TCP, so that the event loop turns off the waiting of small packets for each other: it would cost 40 ms a frame
+        # named as TCP, so that the event loop turns off the waiting of small packets for each other: it would
+        # cost 40 ms a frame
         bound = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
         if os.name == "posix":  # a port that was just left; elsewhere this would also take one that is in use
             bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -114,5 +130,8 @@ def bind(host: str, port: int | None) -> socket.socket:
             bound.close()
             if port is not None:
                 why = getattr(error, "strerror", None) or str(error)
-                raise OutputError(f"cannot listen at {host} on port {number}: {why}", fix="Take another one: --port 0 finds a free one") from None
+                raise OutputError(
+                    f"cannot listen at {host} on port {number}: {why}",
+                    fix="Take another one: --port 0 finds a free one",
+                ) from None
     raise OutputError(f"no free port at {host}", fix="Name one: --port N")

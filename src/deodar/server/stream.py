@@ -104,7 +104,9 @@ def fold(array: np.ndarray, axes: Sequence[Axis]) -> np.ndarray:
 
 
 def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
-    """At most so many samples along each axis (0: all), evenly spread, the ends among them; channels all stay."""
+    """At most so many samples along each axis (0: all), evenly spread, the ends among them; channels all
+    stay.
+    """
     for d in range(array.ndim - channels):
         n = array.shape[d]
         if _thinned(n, most) < n:

@@ -15,7 +15,9 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)*'*")
 
 
 def is_letter(name: str) -> bool:
-    """Whether a name is a letter of some alphabet, perhaps with a number, subscripts and primes: u, x', t_n, u1, sigma_i."""
+    """Whether a name is a letter of some alphabet, perhaps with a number, subscripts and primes: u, x', t_n,
+    u1, sigma_i.
+    """
     base = name.rstrip("'").split("_")[0]
     return base in GREEK or re.fullmatch(r"[A-Za-z]\d*", base) is not None
 

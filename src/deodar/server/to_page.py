@@ -8,7 +8,10 @@ from deodar.server.message import Data, Id, Message
 
 
 class Problem(Data, frozen=True):
-    """One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one. A warning stops no run."""
+    """One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+
+    A warning stops no run.
+    """
 
     what: str
     where: str = ""
@@ -20,11 +23,26 @@ class Problem(Data, frozen=True):
 class ParameterForm(Data, frozen=True):
     """How a parameter is shown and changed.
 
-    `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is TeX.
+    `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is
+    TeX.
     """
 
     name: str
-    form: Literal["number", "integer", "flag", "text", "texts", "per_axis", "axes", "axis", "part", "parts", "array", "numbers", "pairs"]
+    form: Literal[
+        "number",
+        "integer",
+        "flag",
+        "text",
+        "texts",
+        "per_axis",
+        "axes",
+        "axis",
+        "part",
+        "parts",
+        "array",
+        "numbers",
+        "pairs",
+    ]
     cost: Literal["live", "rebuild", "recompile"]
     meaning: str
     description: str
@@ -39,10 +57,12 @@ class ParameterForm(Data, frozen=True):
 
 
 class Kind(Data, frozen=True):
-    """A registered kind, as the page knows it: what is said of it, its equation (lines of TeX), its parameters and ports.
+    """A registered kind, as the page knows it: what is said of it, its equation (lines of TeX), its
+    parameters and ports.
 
-    `room` is where it stands: elements, couplings, kernels, sigmoids, windows, worlds, or own. `levels` names for a port the
-    parameters that are levels on its scale (threshold, resting level). `example` is a value to start from, where it stands inside a part.
+    `room` is where it stands: elements, couplings, kernels, sigmoids, windows, worlds, or own. `levels` names
+    for a port the parameters that are levels on its scale (threshold, resting level). `example` is a value to
+    start from, where it stands inside a part.
     """
 
     name: str
@@ -69,7 +89,10 @@ class AxisView(Data, frozen=True):
 
 
 class ElementView(Data, frozen=True):
-    """An element of the document. `axes` gives for each port the keys of its axes, as far as they are known."""
+    """An element of the document.
+
+    `axes` gives for each port the keys of its axes, as far as they are known.
+    """
 
     id: Id
     path: str
@@ -110,7 +133,10 @@ class KnobView(Data, frozen=True):
 
 
 class DocumentView(Data, frozen=True):
-    """The document as it is edited. `file` is relative to the root, empty without one; `unsaved`: edited since it was written."""
+    """The document as it is edited.
+
+    `file` is relative to the root, empty without one; `unsaved`: edited since it was written.
+    """
 
     file: str
     title: str
@@ -192,7 +218,9 @@ class Changed(Message, frozen=True, tag="changed"):
 
 
 class Checked(Message, frozen=True, tag="checked"):
-    """The problems and warnings of that version of the document, where single changes led to it; of a whole document it holds them itself."""
+    """The problems and warnings of that version of the document, where single changes led to it; of a whole
+    document it holds them itself.
+    """
 
     version: int
     problems: list[Problem]
@@ -201,11 +229,12 @@ class Checked(Message, frozen=True, tag="checked"):
 class Clock(Message, frozen=True, tag="clock"):
     """Where the run is. Sent after the frames of the same number, and whenever something changes.
 
-    `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as possible); `abstract` time
-    counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and will catch up, `worst` the largest lag since it was played,
-    `lost` what was given up; `overruns` counts how often it fell behind. `longest` is the step up to which it may grow to keep up (None: it
-    stays), and `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
-    stopped; `world` what the sensors read.
+    `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
+    possible); `abstract` time counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind
+    and will catch up, `worst` the largest lag since it was played, `lost` what was given up; `overruns`
+    counts how often it fell behind. `longest` is the step up to which it may grow to keep up (None: it
+    stays), and `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why
+    the run stopped; `world` what the sensors read.
     """
 
     frame: int
@@ -231,8 +260,10 @@ class Clock(Message, frozen=True, tag="clock"):
 
 
 class CostView(Data, frozen=True):
-    """What an element costs: microseconds of a step. `alike` elements are computed together and share the time; `once`: it stands still and is
-    computed once a chunk. What a connection resamples or delays has a path but is no element of the document.
+    """What an element costs: microseconds of a step.
+
+    `alike` elements are computed together and share the time; `once`: it stands still and is computed once a
+    chunk. What a connection resamples or delays has a path but is no element of the document.
     """
 
     element: Id
@@ -244,7 +275,9 @@ class CostView(Data, frozen=True):
 
 
 class Costs(Message, frozen=True, tag="costs"):
-    """What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in microseconds, 0 before it was measured."""
+    """What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in
+    microseconds, 0 before it was measured.
+    """
 
     measuring: bool
     step: float
@@ -253,7 +286,9 @@ class Costs(Message, frozen=True, tag="costs"):
 
 
 class BoxView(Data, frozen=True):
-    """Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1); `fixed`: it cannot be moved."""
+    """Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1);
+    `fixed`: it cannot be moved.
+    """
 
     name: str
     x: float
@@ -299,7 +334,9 @@ class Scene(Message, frozen=True, tag="scene"):
 
 
 class Bodies(Message, frozen=True, tag="bodies"):
-    """Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was known of it before is over."""
+    """Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was
+    known of it before is over.
+    """
 
     bodies: list[BodyView]
     fresh: bool
@@ -307,8 +344,10 @@ class Bodies(Message, frozen=True, tag="bodies"):
 
 
 class Announced(Message, frozen=True, tag="announced"):
-    """What a stream holds from now on: its shape, and the axes as they are thinned. `folded` names axes over which the maximum is taken, because
-    an array has more than two dimensions; `channels`: a picture. A time course has the shape [2]: pairs of time and value.
+    """What a stream holds from now on: its shape, and the axes as they are thinned.
+
+    `folded` names axes over which the maximum is taken, because an array has more than two dimensions;
+    `channels`: a picture. A time course has the shape [2]: pairs of time and value.
     """
 
     stream: int
@@ -336,10 +375,13 @@ class Folder(Message, frozen=True, tag="folder"):
 
 
 class Answer(Message, frozen=True, tag="answer"):
-    """The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
-    with discard) or `replace` (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it changed
-    and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file of another tool that was opened.
-    `version` is the first version of the document that holds the change, where the request was one.
+    """The end of a request; with problems, nothing was done.
+
+    `ask` names the question that has to be settled first: `unsaved` (send it again with discard) or `replace`
+    (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it
+    changed and `unmatched` lists what it could not change. `imported` says in a sentence what became of a
+    file of another tool that was opened. `version` is the first version of the document that holds the
+    change, where the request was one.
     """
 
     request: int
@@ -353,4 +395,19 @@ class Answer(Message, frozen=True, tag="answer"):
     version: int = 0
 
 
-ToPage = Welcome | Gallery | Opened | Trouble | Changed | Checked | Clock | Costs | Scene | Bodies | Announced | Lost | Folder | Answer
+ToPage = (
+    Welcome
+    | Gallery
+    | Opened
+    | Trouble
+    | Changed
+    | Checked
+    | Clock
+    | Costs
+    | Scene
+    | Bodies
+    | Announced
+    | Lost
+    | Folder
+    | Answer
+)

@@ -20,8 +20,10 @@ class Request(Message, frozen=True):
 
 
 class DocumentRequest(Request, frozen=True):
-    """A request that changes which document is open or what it holds. The server does one after the other, whichever page they come from.
-    `session` is the document that the request is meant for, as counted by `opened`; where another one was opened since, the request is refused.
+    """A request that changes which document is open or what it holds.
+
+    The server does one after the other, whichever page they come from. `session` is the document that the
+    request is meant for, as counted by `opened`; where another one was opened since, the request is refused.
     0: whichever is open.
     """
 
@@ -51,7 +53,9 @@ class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
 
 
 class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"):
-    """Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document without a file."""
+    """Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document
+    without a file.
+    """
 
     name: Text
     content: str
@@ -78,8 +82,9 @@ class Close(DocumentRequest, frozen=True, kw_only=True, tag="close"):
 
 
 class Save(DocumentRequest, frozen=True, kw_only=True, tag="save"):
-    """Write the document, to its own file where `path` is empty. `replace` allows to write over a file that is not the one it came from,
-    or that changed on disk since.
+    """Write the document, to its own file where `path` is empty.
+
+    `replace` allows to write over a file that is not the one it came from, or that changed on disk since.
     """
 
     path: Text = ""
@@ -93,10 +98,11 @@ class ListFolder(Request, frozen=True, kw_only=True, tag="list_folder"):
 
 
 class Set(DocumentRequest, frozen=True, kw_only=True, tag="set"):
-    """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of that name.
+    """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter
+    of that name.
 
-    `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that share a `gesture` (not 0) are
-    one step of undo: a slider that is dragged.
+    `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that
+    share a `gesture` (not 0) are one step of undo: a slider that is dragged.
     """
 
     element: Id
@@ -143,15 +149,17 @@ class RemoveKnob(DocumentRequest, frozen=True, kw_only=True, tag="remove_knob"):
 
 
 class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
-    """Change parts of the layout: each key given replaces that key of the document's layout, None takes it away."""
+    """Change parts of the layout: each key given replaces that key of the document's layout, None takes it
+    away.
+    """
 
     layout: dict[str, Any]
     undoable: bool = True
 
 
 class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"):
-    """Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
-    not match.
+    """Take over the values of another file below the root, by names and kinds, as one step of undo;
+    connections stay. The answer lists what did not match.
     """
 
     path: Text
@@ -199,17 +207,23 @@ class Speed(Request, frozen=True, kw_only=True, tag="speed"):
 
 
 class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
-    """Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run falls behind."""
+    """Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run
+    falls behind.
+    """
 
     longest: Annotated[float, msgspec.Meta(gt=0)] | None
 
 
 class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
-    """Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is done."""
+    """Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is
+    done.
+    """
 
 
 class Push(Request, frozen=True, kw_only=True, tag="push"):
-    """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same where it is None."""
+    """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the
+    same where it is None.
+    """
 
     element: Id
     amplitude: float
@@ -267,7 +281,9 @@ class RemoveThing(Request, frozen=True, kw_only=True, tag="remove_thing"):
 
 
 class Watch(Request, frozen=True, kw_only=True, tag="watch"):
-    """Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples along each axis (0: all)."""
+    """Send a port of an element as frames under a number of the page's choice, thinned to at most `most`
+    samples along each axis (0: all).
+    """
 
     stream: Count
     element: Id
@@ -276,7 +292,9 @@ class Watch(Request, frozen=True, kw_only=True, tag="watch"):
 
 
 class Trace(Request, frozen=True, kw_only=True, tag="trace"):
-    """Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its mean."""
+    """Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its
+    mean.
+    """
 
     stream: Count
     element: Id
@@ -298,7 +316,43 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 
 ToServer = (
-    OpenFile | OpenExample | OpenText | OpenPackage | Recover | Forget | Close | Save | ListFolder | Set | Describe | AddKnob | Link | Unlink
-    | RemoveKnob | Arrange | ApplyPreset | ApplyPresetText | Undo | Redo | Play | Pause | Step | Reset | Speed | Lengthen | MeasureCosts | Push
-    | Release | UseWorld | UseWorldContent | WatchWorld | MoveThing | PlaceThing | RemoveThing | Watch | Trace | Unwatch | Drawn
-)  # fmt: skip
+    OpenFile
+    | OpenExample
+    | OpenText
+    | OpenPackage
+    | Recover
+    | Forget
+    | Close
+    | Save
+    | ListFolder
+    | Set
+    | Describe
+    | AddKnob
+    | Link
+    | Unlink
+    | RemoveKnob
+    | Arrange
+    | ApplyPreset
+    | ApplyPresetText
+    | Undo
+    | Redo
+    | Play
+    | Pause
+    | Step
+    | Reset
+    | Speed
+    | Lengthen
+    | MeasureCosts
+    | Push
+    | Release
+    | UseWorld
+    | UseWorldContent
+    | WatchWorld
+    | MoveThing
+    | PlaceThing
+    | RemoveThing
+    | Watch
+    | Trace
+    | Unwatch
+    | Drawn
+)

@@ -1,8 +1,9 @@
 """The token that opens a studio.
 
-A studio that listens on this machine alone keeps its token for its port, in a file that only this user can read: after a restart at the same port
-open pages connect again. Whoever can read that file can act as the user anyway. A studio that listens beyond this machine takes a new token at
-each start, because its connection is not encrypted.
+A studio that listens on this machine alone keeps its token for its port, in a file that only this user can
+read: after a restart at the same port open pages connect again. Whoever can read that file can act as the
+user anyway. A studio that listens beyond this machine takes a new token at each start, because its connection
+is not encrypted.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ def new() -> str:
 
 
 def kept(folder: Path, port: int) -> str:
-    """The token of a port: the one that `folder` keeps, else a new one, which is kept from then on if the folder can be written."""
+    """The token of a port: the one that `folder` keeps, else a new one, which is kept from then on if the
+    folder can be written.
+    """
     place = folder / "tokens" / str(port)
     found = _read(place)
     if found:
@@ -38,7 +41,9 @@ def kept(folder: Path, port: int) -> str:
         place.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         _forget_old(place.parent)
         place.unlink(missing_ok=True)
-        descriptor = os.open(place, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600)
+        descriptor = os.open(
+            place, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600
+        )
         with os.fdopen(descriptor, "w", encoding="ascii") as file:
             file.write(token)
     return token

@@ -14,8 +14,8 @@ T = TypeVar("T")
 class Turns:
     """A lock around every change, in the order of arrival.
 
-    An edit awaits the engine between reading the document and committing it; a second edit that read the same document would overwrite the
-    first.
+    An edit awaits the engine between reading the document and committing it; a second edit that read the same
+    document would overwrite the first.
 
     Attributes:
         session: counts the documents that were opened.
@@ -29,7 +29,8 @@ class Turns:
     async def take(self, change: Callable[[], Awaitable[T]], session: int = 0) -> T:
         """Run a change once all changes before it are done.
 
-        A change whose page disconnects runs to its end, so that engine and history never hold different documents.
+        A change whose page disconnects runs to its end, so that engine and history never hold different
+        documents.
 
         Args:
             change: what to do.

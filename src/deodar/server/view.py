@@ -15,7 +15,15 @@ from deodar.model.parts import value_from_json
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray
-from deodar.server.to_page import AxisView, ConnectionView, DocumentView, ElementView, KnobView, LinkView, Problem
+from deodar.server.to_page import (
+    AxisView,
+    ConnectionView,
+    DocumentView,
+    ElementView,
+    KnobView,
+    LinkView,
+    Problem,
+)
 
 BESIDE = ("kind", "id", "every")
 """What a document writes of an element besides its parameters."""
@@ -37,13 +45,24 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
         dt=doc.dt,
         notes=doc.notes,
         axes=[axis(a, key) for a, key in named.items()],
-        elements=[_element(e, _told(data["elements"][e.path], arrays), nodes.get(e.id), named) for e in doc.entries],
+        elements=[
+            _element(e, _told(data["elements"][e.path], arrays), nodes.get(e.id), named) for e in doc.entries
+        ],
         connections=[
-            ConnectionView(source=c.source, source_port=c.source_port, target=c.target, target_port=c.target_port, reads=c.reads)
+            ConnectionView(
+                source=c.source,
+                source_port=c.source_port,
+                target=c.target,
+                target_port=c.target_port,
+                reads=c.reads,
+            )
             for c in doc.connections
         ],
         groups=[list(g) for g in doc.groups],
-        knobs=[KnobView(name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links]) for k in doc.knobs],
+        knobs=[
+            KnobView(name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links])
+            for k in doc.knobs
+        ],
         layout=dict(doc.layout),
         problems=problems(check(doc), doc),
         unsaved=unsaved,
@@ -54,16 +73,29 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
 
 def axis(a: Axis, key: str = "") -> AxisView:
     """An axis, under its key in the document where it has one."""
-    return AxisView(key=key, name=a.name, lower=a.lower, upper=a.upper, samples=a.samples, periodic=a.periodic, unit=a.unit)
+    return AxisView(
+        key=key,
+        name=a.name,
+        lower=a.lower,
+        upper=a.upper,
+        samples=a.samples,
+        periodic=a.periodic,
+        unit=a.unit,
+    )
 
 
 def problems(found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()) -> list[Problem]:
-    """Problems as the page shows them, each with the element that it belongs to: named in `where`, or in `paths`."""
+    """Problems as the page shows them, each with the element that it belongs to: named in `where`, or in
+    `paths`.
+    """
     entries = doc.entries if doc is not None else ()
     out: list[Problem] = []
     for p in found:
         concerned = [e.id for path in (p.where, *paths) for e in entries if _names(path, e.path)] or [""]
-        out += [Problem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity) for ident in dict.fromkeys(concerned)]
+        out += [
+            Problem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity)
+            for ident in dict.fromkeys(concerned)
+        ]
     return out
 
 
@@ -97,7 +129,11 @@ def _told(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
         return value
     if set(value) == {"array"} and value["array"] in arrays:
         content = arrays[value["array"]].data
-        return value | {"shape": list(content.shape), "min": float(content.min()), "max": float(content.max())}
+        return value | {
+            "shape": list(content.shape),
+            "min": float(content.min()),
+            "max": float(content.max()),
+        }
     return {key: _told(v, arrays) for key, v in value.items()}
 
 

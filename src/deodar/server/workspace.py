@@ -1,8 +1,9 @@
 """The folder that the studio may read and write, and nothing beside it.
 
-Paths are resolved first and used later. What becomes a link in between is not followed when a document is read or written: folders are opened one
-inside the other, without links (`OpenFolder`); a file is read there, or written beside its name and renamed. Windows has no such calls; there the
-check alone holds, and so it does everywhere for the files of worlds, which are read by their paths.
+Paths are resolved first and used later. What becomes a link in between is not followed when a document is
+read or written: folders are opened one inside the other, without links (`OpenFolder`); a file is read there,
+or written beside its name and renamed. Windows has no such calls; there the check alone holds, and so it does
+everywhere for the files of worlds, which are read by their paths.
 """
 
 from __future__ import annotations
@@ -44,7 +45,10 @@ class Workspace:
         self.root = root.resolve()
 
     def inside(self, path: str) -> Path:
-        """The place that a path of the page's names: relative to the root, or absolute and below it. Everything else is refused."""
+        """The place that a path of the page's names: relative to the root, or absolute and below it.
+
+        Everything else is refused.
+        """
         if "\0" in path:
             raise DocumentError("is no path", where=repr(path))
         try:
@@ -53,7 +57,11 @@ class Workspace:
             raise DocumentError(f"is no path ({error})", where=path) from None
         if place != self.root and self.root not in place.parents:
             fix = "Start the studio in the folder you want to work in"
-            raise DocumentError(f"lies outside the folder {self.root} that this studio may read and write", where=path, fix=fix)
+            raise DocumentError(
+                f"lies outside the folder {self.root} that this studio may read and write",
+                where=path,
+                fix=fix,
+            )
         return place
 
     def shown(self, path: Path) -> str:
@@ -70,14 +78,20 @@ class Workspace:
     def folder(self, place: Path) -> OpenFolder:
         """The folder of a place that `inside` gave, opened without following links."""
         if not place.is_relative_to(self.root):
-            raise DocumentError(f"lies outside the folder {self.root} that this studio may read and write", where=str(place))
+            raise DocumentError(
+                f"lies outside the folder {self.root} that this studio may read and write", where=str(place)
+            )
         try:
             return OpenFolder(self.root, place.relative_to(self.root).parts[:-1])
         except OSError as error:
-            raise DocumentError(f"the folder cannot be opened: {error.strerror}", where=self._named(place)) from None
+            raise DocumentError(
+                f"the folder cannot be opened: {error.strerror}", where=self._named(place)
+            ) from None
 
     def require_file(self, place: Path) -> None:
-        """Refuse what could stop its reader: named pipes, devices, links that appeared since the path was resolved. Folders pass, and nothing."""
+        """Refuse what could stop its reader: named pipes, devices, links that appeared since the path was
+        resolved. Folders pass, and nothing.
+        """
         try:
             if place.is_dir():
                 return
@@ -107,7 +121,9 @@ class Workspace:
             files.save(doc, Path(private) / place.name)
             made = {path.name: path.read_bytes() for path in Path(private).iterdir()}
             old = _array_file(folder, place)
-            for name in sorted(made, key=lambda name: name == place.name):  # the document last: it names the others
+            for name in sorted(
+                made, key=lambda name: name == place.name
+            ):  # the document last: it names the others
                 folder.write(name, made[name])
             if old and old not in made:
                 folder.remove(old)
@@ -116,7 +132,9 @@ class Workspace:
         return place.relative_to(self.root).as_posix() if place.is_relative_to(self.root) else str(place)
 
     def listed(self, request: int, path: str) -> Folder:
-        """Folders, documents and pictures in a folder; hidden ones are left out, and links that lead outside."""
+        """Folders, documents and pictures in a folder; hidden ones are left out, and links that lead
+        outside.
+        """
         place = self.inside(path)
         if not place.is_dir():
             raise DocumentError("there is no such folder", where=path)

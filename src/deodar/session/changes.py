@@ -1,4 +1,6 @@
-"""What differs between two documents of one structure: leaves with other values, and what taking them over costs."""
+"""What differs between two documents of one structure: leaves with other values, and what taking them over
+costs.
+"""
 
 from __future__ import annotations
 
@@ -39,9 +41,16 @@ def _of_element(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] 
     if type(old) is not type(new):
         return None
     moved = {p.name: p for p in parameters(type(old)) if getattr(old, p.name) is not getattr(new, p.name)}
-    plain = all(p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float) for name, p in moved.items())
+    plain = all(
+        p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float)
+        for name, p in moved.items()
+    )
     if not plain and structure(old) != structure(new):
         return None
     was = {path: value for path, value, _ in leaves(old, only=moved)}
     now = [(path, value, p) for path, value, p in leaves(new, only=moved) if path in was]
-    return [(path, value, cost(p), p.off and value == p.neutral) for path, value, p in now if value is not was[path] and np.any(value != was[path])]
+    return [
+        (path, value, cost(p), p.off and value == p.neutral)
+        for path, value, p in now
+        if value is not was[path] and np.any(value != was[path])
+    ]

@@ -21,7 +21,9 @@ class Clock:
 
     @property
     def origin(self) -> dict[str, float]:
-        """A tick before this one, less than 2^31 of them, and the time at it: the same for all ticks between two of these."""
+        """A tick before this one, less than 2^31 of them, and the time at it: the same for all ticks between
+        two of these.
+        """
         passed = (self.tick - self.tick0) // 2**31 * 2**31
         return {"origin": (self.tick0 + passed) % 2**32, "start": self.t0 + passed * self.dt}
 

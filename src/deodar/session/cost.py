@@ -1,7 +1,8 @@
 """What each element of a running model costs, in microseconds a step.
 
-Each group of equal elements is compiled alone, fed with what its inputs hold now, and timed; the whole step is timed in the same way beside it. The
-run is not touched: everything works on what the state was at one moment.
+Each group of equal elements is compiled alone, fed with what its inputs hold now, and timed; the whole step
+is timed in the same way beside it. The run is not touched: everything works on what the state was at one
+moment.
 """
 
 from __future__ import annotations
@@ -33,10 +34,14 @@ SECONDS = 1.0
 """Wall time for which all parts together are timed, beside compiling them."""
 
 SHORTEST = 1e-3
-"""Wall time of the steps of one call that is timed, in seconds: well above what the call itself takes and what the clock resolves."""
+"""Wall time of the steps of one call that is timed, in seconds: well above what the call itself takes and
+what the clock resolves.
+"""
 
 REPEATS = 3
-"""Least number of times that each part is timed; the fastest counts, because whatever disturbs makes it slower."""
+"""Least number of times that each part is timed; the fastest counts, because whatever disturbs makes it
+slower.
+"""
 
 
 @dc.dataclass(frozen=True)
@@ -76,7 +81,8 @@ class Costs:
     def sum(self) -> float:
         """Microseconds of all elements, each measured alone.
 
-        It differs from `step`: what is computed together may be fused or run in parallel, what is computed alone begins with a warm cache.
+        It differs from `step`: what is computed together may be fused or run in parallel, what is computed
+        alone begins with a warm cache.
         """
         return math.fsum(c.us for c in self.elements)
 
@@ -90,11 +96,27 @@ class Costs:
         return {"step_us": self.step, "sum_us": self.sum, "elements": rows}
 
     def __str__(self) -> str:
-        rows = [(c.path, c.kind, *(("once a chunk", "") if c.once else (f"{c.us:.3f}", f"{100 * self.share(c):.1f} %"))) for c in self.elements]
+        rows = [
+            (
+                c.path,
+                c.kind,
+                *(("once a chunk", "") if c.once else (f"{c.us:.3f}", f"{100 * self.share(c):.1f} %")),
+            )
+            for c in self.elements
+        ]
         head = ("element", "kind", "us a step", "share")
         widths = [max(len(r[k]) for r in [head, *rows]) for k in range(4)]
-        lines = [f"{p:{widths[0]}}  {k:{widths[1]}}  {u:>{widths[2]}}  {s:>{widths[3]}}".rstrip() for p, k, u, s in [head, *rows]]
-        return "\n".join([*lines, "", f"Sum {self.sum:.3f} us, each measured alone; the whole step takes {self.step:.3f} us."])
+        lines = [
+            f"{p:{widths[0]}}  {k:{widths[1]}}  {u:>{widths[2]}}  {s:>{widths[3]}}".rstrip()
+            for p, k, u, s in [head, *rows]
+        ]
+        return "\n".join(
+            [
+                *lines,
+                "",
+                f"Sum {self.sum:.3f} us, each measured alone; the whole step takes {self.step:.3f} us.",
+            ]
+        )
 
 
 @dc.dataclass(frozen=True)
@@ -114,7 +136,9 @@ class Moment:
 def moment(run: Run) -> Moment:
     """The present moment of a run."""
     clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
-    return Moment(run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock)
+    return Moment(
+        run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock
+    )
 
 
 def costs(at: Moment, seconds: float = SECONDS) -> Costs:
@@ -122,7 +146,8 @@ def costs(at: Moment, seconds: float = SECONDS) -> Costs:
 
     Args:
         at: the moment whose state and inputs are taken.
-        seconds: wall time for which all parts together are timed. Compiling them the first time takes about as long as compiling the model.
+        seconds: wall time for which all parts together are timed. Compiling them the first time takes about
+            as long as compiling the model.
 
     Raises:
         TimeError: a time that is not above 0.
@@ -132,29 +157,41 @@ def costs(at: Moment, seconds: float = SECONDS) -> Costs:
         raise TimeError(f"the time for measuring is {show(seconds)}; it is a number of seconds above 0")
     plan, used = at.program.plan, _read_ports(at)
     buffers = _buffers(at, used)
-    groups = [g for g, group in enumerate(plan.groups) if not group.still and (group.like.element.stateful or used[g])]
+    groups = [
+        g
+        for g, group in enumerate(plan.groups)
+        if not group.still and (group.like.element.stateful or used[g])
+    ]
     each = given / (len(groups) + 1)
     us = {g: _timed(_alone(at, g, used[g], buffers), plan.groups[g].like.every, each) for g in groups}
     step = _timed(_together(at), plan.ticks, each)
     by = at.document.by_id()
     found = [
         Cost(
-            n.id, by[n.id].path if n.id in by else n.path, type(n.element).__name__, us.get(g, 0.0) / group.rows, group.rows, group.still
+            n.id,
+            by[n.id].path if n.id in by else n.path,
+            type(n.element).__name__,
+            us.get(g, 0.0) / group.rows,
+            group.rows,
+            group.still,
         )
         for g, group in enumerate(plan.groups)
         for n in group.nodes
-    ]  # fmt: skip
+    ]
     return Costs(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
 
 
-# ------------------------------------------------------------------------------------------------ what is timed
+# ---------------------------------------------------------------------------------------------- what is timed
 
 
 def _read_ports(at: Moment) -> list[list[Port]]:
     """For each group the output ports that something reads: others are not computed in a step."""
     plan = at.program.plan
     read = {r.source[:2] for reads in plan.reads.values() for r in reads}
-    return [[Port(g, None, name) for name in group.like.outs if (g, name) in read] for g, group in enumerate(plan.groups)]
+    return [
+        [Port(g, None, name) for name in group.like.outs if (g, name) in read]
+        for g, group in enumerate(plan.groups)
+    ]
 
 
 def _buffers(at: Moment, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Any]:
@@ -163,7 +200,15 @@ def _buffers(at: Moment, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str]
     if not ports:
         return {}
     reader = at.program.new_reader(ports)
-    seen = at.program.call(reader, at.values, at.constants, at.state, at.keys, at.sensed, *packed(at.clock, at.program.program.dtype))
+    seen = at.program.call(
+        reader,
+        at.values,
+        at.constants,
+        at.state,
+        at.keys,
+        at.sensed,
+        *packed(at.clock, at.program.program.dtype),
+    )
     return {(p.group, p.name): rows for p, rows in zip(ports, seen, strict=True)}
 
 
@@ -178,7 +223,9 @@ def _together(at: Moment) -> Callable[[int], object]:
     return call
 
 
-def _alone(at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]) -> Callable[[int], object]:
+def _alone(
+    at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]
+) -> Callable[[int], object]:
     """The step of one group: its inputs stay what they are, its state goes on."""
     plan, precision = at.program.plan, at.program.precision
     group, count = plan.groups[g], len(plan.groups)
@@ -193,14 +240,27 @@ def _alone(at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, s
         return [one if k == g else None for k in range(count)]
 
     def run(
-        values: Tree, arrays: Tree, constants: Tree, state: Tree, keys: Tree, inputs: Tree, shown: Tree, sensed: Tree, clock: Tree, n: Any
+        values: Tree,
+        arrays: Tree,
+        constants: Tree,
+        state: Tree,
+        keys: Tree,
+        inputs: Tree,
+        shown: Tree,
+        sensed: Tree,
+        clock: Tree,
+        n: Any,
     ) -> Any:
         settled = only(alone.settle(values | {"arrays": arrays}, [constants])[0])
 
         def step(tick: Any, state: Tree, drawn: Tree) -> tuple[Tree, Any]:
             # without the barrier what depends on the inputs alone would be computed once, before the loop
             now, tick = lax.optimization_barrier((inputs, tick))
-            buffers = {(*source, instant): rows for source, rows in zip(sources, now, strict=True) for instant in (0, 1)}
+            buffers = {
+                (*source, instant): rows
+                for source, rows in zip(sources, now, strict=True)
+                for instant in (0, 1)
+            }
             shown = program.observe(ports, values, settled, state, keys, sensed, buffers, clock, tick)
             return program.step(values, settled, state, keys, drawn, sensed, buffers, clock, tick), shown
 
@@ -213,19 +273,35 @@ def _alone(at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, s
 
         return lax.fori_loop(0, n // 2 if pairs else n, body, (clock["tick"], state, shown))
 
-    state = {"groups": only(at.state["groups"][g]), "held": {k: v for k, v in at.state["held"].items() if k == str(g)}}
+    state = {
+        "groups": only(at.state["groups"][g]),
+        "held": {k: v for k, v in at.state["held"].items() if k == str(g)},
+    }
     keys = {k: v for k, v in at.keys.items() if k == str(g)}
     inputs, shown = [held_by[source] for source in sources], tuple(held_by[g, p.name] for p in ports)
-    args = (at.values, arrays, at.constants[g], state, keys, inputs, shown, at.sensed, unpacked(*packed(at.clock, at.program.program.dtype)))
+    args = (
+        at.values,
+        arrays,
+        at.constants[g],
+        state,
+        keys,
+        inputs,
+        shown,
+        at.sensed,
+        unpacked(*packed(at.clock, at.program.program.dtype)),
+    )
     executable, _ = at.program.compile(run, *args, np.int32(0))
     return lambda n: at.program.call(executable, *args, np.int32(n))
 
 
-# ------------------------------------------------------------------------------------------------ timing
+# ----------------------------------------------------------------------------------------------------- timing
 
 
 def _timed(call: Callable[[int], object], multiple: int, seconds: float) -> float:
-    """Microseconds of a step, beyond what a call without steps takes. `multiple`: ticks after which all repeats itself."""
+    """Microseconds of a step, beyond what a call without steps takes.
+
+    `multiple`: ticks after which all repeats itself.
+    """
 
     def taken(n: int) -> float:
         began = time.perf_counter()

@@ -1,4 +1,6 @@
-"""Between a model and its world: at each multiple of the world's period sensors are read and motors told, whatever the chunks are."""
+"""Between a model and its world: at each multiple of the world's period sensors are read and motors told,
+whatever the chunks are.
+"""
 
 from __future__ import annotations
 
@@ -39,8 +41,8 @@ class Moment:
 
 @dc.dataclass(frozen=True)
 class Kept:
-    """Where a world stands: what it keeps itself, the ticks of this exchange and the next, the tick from which periods count,
-    and what its motors were told at this exchange.
+    """Where a world stands: what it keeps itself, the ticks of this exchange and the next, the tick from
+    which periods count, and what its motors were told at this exchange.
     """
 
     kind: type[World]
@@ -54,8 +56,8 @@ class Kept:
 class Exchange:
     """A world, what a model uses of it, and when.
 
-    The motors are read at t, and what they do to the sensors shows at t + period: the rule of every part with a step of its own, so that the
-    same run results wherever the world is computed.
+    The motors are read at t, and what they do to the sensors shows at t + period: the rule of every part with
+    a step of its own, so that the same run results wherever the world is computed.
 
     Attributes:
         world: the world, or None.
@@ -89,8 +91,15 @@ class Exchange:
         """The world back to its start, for a batch of copies."""
         if self.world is not None:
             copies = [t for _ in range(batch.points or 1) for t in trials]
-            if batch.shape and not self.inside and (each := [s.sensor for s in self.sensors.values() if self._each(s)]):
-                raise WorldError(f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot be run in this world")
+            if (
+                batch.shape
+                and not self.inside
+                and (each := [s.sensor for s in self.sensors.values() if self._each(s)])
+            ):
+                raise WorldError(
+                    f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot"
+                    " be run in this world"
+                )
             self.world.reset(seed, copies, precision)
         self.unread, self._told = True, None
         self._last = 0
@@ -135,21 +144,33 @@ class Exchange:
         commands: dict[str, np.ndarray] = {}
         for motor, command in zip(self.motors.values(), found, strict=True):
             if not np.isfinite(command).all():
-                raise NotFinite(f"the motor {motor.motor!r} was told {show(command.ravel()[0])}", [motor.name], fix="Look for what drives it")
+                raise NotFinite(
+                    f"the motor {motor.motor!r} was told {show(command.ravel()[0])}",
+                    [motor.name],
+                    fix="Look for what drives it",
+                )
             commands[motor.motor] = command.reshape(-1, *shape(tuple(motor.axes)))
         self._told = commands
 
     def restep(self, tick: int, factor: float) -> None:
-        """The step is another one from this tick on, `factor` the old over the new: what is due stays where it is in time, to a step."""
+        """The step is another one from this tick on, `factor` the old over the new: what is due stays where
+        it is in time, to a step.
+        """
         self._last = tick - (tick - self._last) * factor
         self._due = self._origin = tick + math.ceil(max(0, self._due - tick) * factor - 1e-6)
 
     def keep(self) -> Kept | None:
         """What `put` needs to go back to this moment."""
-        return None if self.world is None else Kept(type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told)
+        return (
+            None
+            if self.world is None
+            else Kept(type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told)
+        )
 
     def put_now(self, now: Any) -> None:
-        """Where a world that was computed inside the step has come to: every copy, one layer (of rows) deep."""
+        """Where a world that was computed inside the step has come to: every copy, one layer (of rows)
+        deep.
+        """
         if self.world is not None:
             self.world.put(jax.tree.map(lambda a: a[:, 0], now))
 
@@ -176,15 +197,17 @@ class Exchange:
             reading = reading[0]
         if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
             raise WorldError(
-                f"the world gave an array of shape {list(reading.shape)}, finite: {bool(np.isfinite(reading).all())}; it needs"
-                f" {[a.samples for a in axes]}, finite",
+                f"the world gave an array of shape {list(reading.shape)}, finite:"
+                f" {bool(np.isfinite(reading).all())}; it needs {[a.samples for a in axes]}, finite",
                 where=sensor.sensor,
             )
         return reading
 
 
 def embodied(doc: Document, world: World | None) -> Body | None:
-    """What computes a world inside the step: worlds of pure functions that a model uses; None: it is exchanged with beside it."""
+    """What computes a world inside the step: worlds of pure functions that a model uses; None: it is
+    exchanged with beside it.
+    """
     if not isinstance(world, PureWorld) or not world.inside:
         return None
     sensors, motors = used(doc, world)
@@ -192,10 +215,13 @@ def embodied(doc: Document, world: World | None) -> Body | None:
 
 
 def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[str, Motor]]:
-    """The sensors and motors of a document by id, each of which the world must have. A motor without a world moves nothing.
+    """The sensors and motors of a document by id, each of which the world must have.
+
+    A motor without a world moves nothing.
 
     Raises:
-        WorldError: there is no world, or it lacks one of them, or has it over other axes; or two elements drive one motor.
+        WorldError: there is no world, or it lacks one of them, or has it over other axes; or two elements
+            drive one motor.
     """
     if world is not None and not isinstance(world, World):
         raise WorldError(f"{show(world)} is no world", fix="For a picture: world=dd.Picture('photo.jpg')")
@@ -208,7 +234,10 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
                 raise WorldError(
                     f"reads the sensor {e.element.sensor!r}, and no world was given that provides it",
                     where=e.path,
-                    fix="Give one: world=dd.Picture('photo.jpg'), on the command line --world picture:photo.jpg",
+                    fix=(
+                        "Give one: world=dd.Picture('photo.jpg'), on the command line --world"
+                        " picture:photo.jpg"
+                    ),
                 )
             world.require(e.element.sensor)
             _fit(e.path, e.element.sensor, world.sensors, tuple(e.element.axes))
@@ -216,7 +245,11 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
         if isinstance(e.element, Motor):
             name = e.element.motor
             if name in driven:
-                raise WorldError(f"drives the motor {name!r}, which {driven[name]} drives", where=e.path, fix="Connect both to one Motor: it adds up")
+                raise WorldError(
+                    f"drives the motor {name!r}, which {driven[name]} drives",
+                    where=e.path,
+                    fix="Connect both to one Motor: it adds up",
+                )
             driven[name] = e.path
             if world is not None:
                 world.require_motor(name)

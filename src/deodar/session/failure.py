@@ -14,11 +14,15 @@ Rows = list[tuple[int, int]]
 """Groups of a plan and rows in them."""
 
 
-def first_steps(bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int, copies: Sequence[Any]) -> dict[Any, tuple[int, Rows]]:
-    """For each copy the first step after which a value was not finite, and where: by bisection, which copies that fail alike share.
+def first_steps(
+    bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int, copies: Sequence[Any]
+) -> dict[Any, tuple[int, Rows]]:
+    """For each copy the first step after which a value was not finite, and where: by bisection, which copies
+    that fail alike share.
 
     Args:
-        bad: called with a number of steps; returns for each group which rows of which copies are not finite, (copies..., rows).
+        bad: called with a number of steps; returns for each group which rows of which copies are not finite,
+            (copies..., rows).
         low: steps after which all values are finite.
         high: steps after which each copy has one that is not.
         copies: their places in a batch; `...` stands for all as one.
@@ -28,7 +32,13 @@ def first_steps(bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int,
     middle = (low + high) // 2 if high - low > 1 else high
     groups = bad(middle)
     if middle == high:
-        return {copy: (high, [(g, r) for g, b in enumerate(groups) for r in range(b.shape[-1]) if b[copy][..., r].any()]) for copy in copies}
+        return {
+            copy: (
+                high,
+                [(g, r) for g, b in enumerate(groups) for r in range(b.shape[-1]) if b[copy][..., r].any()],
+            )
+            for copy in copies
+        }
     early = [copy for copy in copies if any(b[copy].any() for b in groups)]
     late = [copy for copy in copies if copy not in early]
     return first_steps(bad, low, middle, early) | first_steps(bad, middle, high, late)
@@ -38,8 +48,12 @@ def not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
     """The error that names elements and the step."""
     shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
     return NotFinite(
-        f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt {clock.dt:g})",
+        f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt"
+        f" {clock.dt:g})",
         names,
-        fix="The step may be too long for this model: try a smaller dt; else look for an input or a coupling that grows without bound",
+        fix=(
+            "The step may be too long for this model: try a smaller dt; else look for an input or a coupling"
+            " that grows without bound"
+        ),
         step=clock.tick,
     )

@@ -1,7 +1,8 @@
 """Ctrl-C as a request that is met between chunks.
 
-A `KeyboardInterrupt` raised wherever Python happens to be may land in a callback of JAX, which swallows it. While a run is on, the
-first Ctrl-C is therefore kept and told at the end of the chunk; a second one stops at once, as usual.
+A `KeyboardInterrupt` raised wherever Python happens to be may land in a callback of JAX, which swallows it.
+While a run is on, the first Ctrl-C is therefore kept and told at the end of the chunk; a second one stops at
+once, as usual.
 """
 
 from __future__ import annotations

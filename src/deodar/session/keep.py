@@ -10,7 +10,9 @@ from deodar.session.snapshot import Snapshot
 
 
 def learned(snapshot: Snapshot) -> dict[str, np.ndarray]:
-    """Values that elements have learned (weights, traces, gains), by the id of the element and the parameter that takes each as its initial value."""
+    """Values that elements have learned (weights, traces, gains), by the id of the element and the parameter
+    that takes each as its initial value.
+    """
     found: dict[str, np.ndarray] = {}
     for entry in snapshot.document.entries:
         if entry.element.stateful:
@@ -20,7 +22,8 @@ def learned(snapshot: Snapshot) -> dict[str, np.ndarray]:
 
 
 def keep(snapshot: Snapshot, model: Model) -> list[str]:
-    """Write learned values to a model as initial values, in one change, which `undo` takes back; return the paths of the parameters.
+    """Write learned values to a model as initial values, in one change, which `undo` takes back; return the
+    paths of the parameters.
 
     Raises:
         ParameterError: the model no longer has one of the elements.
@@ -31,7 +34,11 @@ def keep(snapshot: Snapshot, model: Model) -> list[str]:
     for place, value in learned(snapshot).items():
         ident, name = place.split(".", 1)
         if ident not in by:
-            raise ParameterError("was learned, and is no longer in the model", where=here[ident].path, fix="Undo its removal: model.undo()")
+            raise ParameterError(
+                "was learned, and is no longer in the model",
+                where=here[ident].path,
+                fix="Undo its removal: model.undo()",
+            )
         values[f"{by[ident].path}.{name}"] = value
     model.set(values)
     return list(values)

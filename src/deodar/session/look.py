@@ -1,6 +1,7 @@
 """A look at a running program: many ports read at one moment, by one compiled function.
 
-Elements of equal structure are rows of one array, so that a look at hundreds of elements compiles and runs as fast as at a few.
+Elements of equal structure are rows of one array, so that a look at hundreds of elements compiles and runs as
+fast as at a few.
 """
 
 from __future__ import annotations

@@ -18,14 +18,25 @@ SHARE = 0.8
 """Share of the free memory that a run may ask for (a guess that leaves the rest of the machine alive)."""
 
 COPIES = 6
-"""Arrays that a step keeps for each output (state, new state, outputs, noise, intermediate; measured 4 to 6)."""
+"""Arrays that a step keeps for each output (state, new state, outputs, noise, intermediate; measured 4 to 6).
+"""
 
 
 PROCESS = 300 * 2**20
-"""Bytes that a worker process takes with a small model (measured with JAX 0.10: 210 MiB before the model, 280 to 310 MiB with its programs)."""
+"""Bytes that a worker process takes with a small model (measured with JAX 0.10: 210 MiB before the model, 280
+to 310 MiB with its programs).
+"""
 
 
-def require(nodes: list[Node], precision: str, copies: int, recorded: int, rebuilt: Collection[str] = (), points: int = 1, workers: int = 0) -> None:
+def require(
+    nodes: list[Node],
+    precision: str,
+    copies: int,
+    recorded: int,
+    rebuilt: Collection[str] = (),
+    points: int = 1,
+    workers: int = 0,
+) -> None:
     """Raise unless states, constants and `recorded` numbers fit into the memory that is free.
 
     Args:
@@ -39,14 +50,20 @@ def require(nodes: list[Node], precision: str, copies: int, recorded: int, rebui
     """
     size, processes = _size(precision), max(1, workers)
     constants = sum(_constants(n) * (points if n.id in rebuilt else 1) for n in nodes)
-    need = size * (processes * (copies * COPIES * sum(_cells(n) for n in nodes) + constants) + recorded) + workers * PROCESS
+    need = (
+        size * (processes * (copies * COPIES * sum(_cells(n) for n in nodes) + constants) + recorded)
+        + workers * PROCESS
+    )
     free = psutil.virtual_memory().available
     if need > SHARE * free:
         largest = max(nodes, key=lambda n: _cells(n) * copies + _constants(n))
         axes = ", ".join(f"{a.name}: {a.samples}" for a in _axes(largest))
         raise TooLarge(
-            f"this run needs about {need / 2**30:,.1f} GiB and {free / 2**30:,.1f} GiB are free; most of it is {largest.path} ({axes or 'no axes'})",
-            fix="Take fewer samples, fewer trials, " + ("fewer workers, " if workers > 1 else "") + "or a larger `every`",
+            f"this run needs about {need / 2**30:,.1f} GiB and {free / 2**30:,.1f} GiB are free; most of it"
+            f" is {largest.path} ({axes or 'no axes'})",
+            fix="Take fewer samples, fewer trials, "
+            + ("fewer workers, " if workers > 1 else "")
+            + "or a larger `every`",
         )
 
 
@@ -69,10 +86,19 @@ def _cells(n: Node) -> int:
 
 
 def _constants(n: Node) -> int:
-    """Matrices of kernels, of correlated noise, of shifts and of resampling (one for each axis), and arrays given as parameters."""
+    """Matrices of kernels, of correlated noise, of shifts and of resampling (one for each axis), and arrays
+    given as parameters.
+    """
     e: Any = n.element
-    square = len(getattr(e, "kernel", ()) or ()) + sum(not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount"))
+    square = len(getattr(e, "kernel", ()) or ()) + sum(
+        not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount")
+    )
     arrays = sum(int(np.size(value)) for _, value, _ in leaves(e) if np.ndim(value))
     there = {a.name: a.samples for axes in n.ins.values() for a in axes}
-    between = sum(a.samples * there[a.name] for axes in n.outs.values() for a in axes if there.get(a.name, a.samples) != a.samples)
+    between = sum(
+        a.samples * there[a.name]
+        for axes in n.outs.values()
+        for a in axes
+        if there.get(a.name, a.samples) != a.samples
+    )
     return 2 * (square * sum(a.samples**2 for a in _axes(n)) + between) + arrays

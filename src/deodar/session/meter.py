@@ -9,11 +9,12 @@ import dataclasses as dc
 class Meter:
     """Lag and overruns of a run that is paced to the wall clock, since it began.
 
-    Wall times are in milliseconds unless said otherwise. After Lomp, Richter, Zibner and Schoener (2016), section 3.2, whose meter counts steps
-    that took too long.
+    Wall times are in milliseconds unless said otherwise. After Lomp, Richter, Zibner and Schoener (2016),
+    section 3.2, whose meter counts steps that took too long.
 
     Attributes:
-        speed: document time over wall time that was asked for; None: as fast as possible, where nothing can be late.
+        speed: document time over wall time that was asked for; None: as fast as possible, where nothing can
+            be late.
         factor: the same as it was achieved (real-time factor).
         time: document time that passed, in the document's unit.
         wall: wall time that passed, in seconds.
@@ -21,7 +22,8 @@ class Meter:
         lag: how far the run is behind the wall now, and will catch up.
         worst: the largest lag since it began.
         lost: wall time that was given up, because the lag had grown beyond what is caught up.
-        overruns: how often the run fell behind by more than the time between two exchanges (or by a step, if that is longer).
+        overruns: how often the run fell behind by more than the time between two exchanges (or by a step, if
+            that is longer).
         longest: the longest of them, from the moment that was missed until it was caught up.
         lengthened: steps that were longer than planned.
         step: the longest step taken, in the document's unit of time.
@@ -42,7 +44,9 @@ class Meter:
 
     @property
     def drift(self) -> float:
-        """How far document time is behind the wall in all, in milliseconds: what will be caught up and what was given up."""
+        """How far document time is behind the wall in all, in milliseconds: what will be caught up and what
+        was given up.
+        """
         return self.lag + self.lost
 
     def data(self) -> dict[str, float | int | None]:
@@ -55,7 +59,8 @@ class Meter:
         if self.speed is not None:
             parts.append(f"behind by {self.lag:.2f} ms at the end, {self.worst:.2f} ms at most")
             parts.append(
-                f"{self.overruns} overrun{'' if self.overruns == 1 else 's'}" + (f", the longest {self.longest:.0f} ms" if self.overruns else "")
+                f"{self.overruns} overrun{'' if self.overruns == 1 else 's'}"
+                + (f", the longest {self.longest:.0f} ms" if self.overruns else "")
             )
         if self.lost:
             parts.append(f"{self.lost:.0f} ms given up")

@@ -1,7 +1,7 @@
 """The pace of a run: the steps that are due by the wall clock.
 
-After Lomp, Richter, Zibner and Schoener (2016), section 3.2: a step waits until its time has come. The moments are counted from one beginning and
-not from step to step, so that lateness does not add up.
+After Lomp, Richter, Zibner and Schoener (2016), section 3.2: a step waits until its time has come. The
+moments are counted from one beginning and not from step to step, so that lateness does not add up.
 """
 
 from __future__ import annotations
@@ -21,17 +21,24 @@ from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
 EXCHANGE = 0.01
-"""Wall time of the steps between two exchanges, in seconds; with what else is done there, changes act within 20 ms."""
+"""Wall time of the steps between two exchanges, in seconds; with what else is done there, changes act within
+20 ms.
+"""
 
 MEASURED = 0.5
-"""Wall time over which the achieved speed is averaged, and for which a lengthened step is kept at least, in seconds."""
+"""Wall time over which the achieved speed is averaged, and for which a lengthened step is kept at least, in
+seconds.
+"""
 
 MOST_LAG = 0.25
-"""Wall time that is caught up, in seconds: a guess between a hiccup of the machine, which must not set the run back for good, and a pause (a laptop
-that slept), after which a burst of old steps would help nobody. What is beyond is given up."""
+"""Wall time that is caught up, in seconds: a guess between a hiccup of the machine, which must not set the
+run back for good, and a pause (a laptop that slept), after which a burst of old steps would help nobody. What
+is beyond is given up.
+"""
 
 RESERVE = 1.1
-"""Wall time that a lengthened step has, over what it takes: a tenth more, a guess, so that the lag shrinks."""
+"""Wall time that a lengthened step has, over what it takes: a tenth more, a guess, so that the lag shrinks.
+"""
 
 
 class Paced(Protocol):
@@ -78,8 +85,9 @@ class Paced(Protocol):
 class Pace:
     """Steps that are due.
 
-    Where the machine is too slow, a run falls behind and says so; its steps stay what they are, so that the result is the one of any other run. With
-    `longest` the step grows instead, in whole multiples of the planned one, as cedar does it; each change is entered in the session's journal.
+    Where the machine is too slow, a run falls behind and says so; its steps stay what they are, so that the
+    result is the one of any other run. With `longest` the step grows instead, in whole multiples of the
+    planned one, as cedar does it; each change is entered in the session's journal.
 
     Args:
         now: the wall clock, in seconds.
@@ -140,7 +148,9 @@ class Pace:
         return min(0.02, max(0.0, self._wall(session) - self._owed(session)))
 
     def took(self, session: Paced, n: int, passed: float, seconds: float) -> None:
-        """Learn from steps that were taken: how many, how much document time passed, and in what wall time."""
+        """Learn from steps that were taken: how many, how much document time passed, and in what wall
+        time.
+        """
         each = seconds / n
         self._cost = each if not self._cost else 0.7 * self._cost + 0.3 * each
         self._passed += passed
@@ -160,11 +170,15 @@ class Pace:
         self._since = (began, time_passed, steps)
 
     def lengthen(self, session: Paced) -> None:
-        """Take a longer step where there is not enough time for the planned one, and the planned one again where there is.
+        """Take a longer step where there is not enough time for the planned one, and the planned one again
+        where there is.
 
-        A step grows at once and shrinks after half a second at the earliest. It fits into the world's period and into every time constant.
+        A step grows at once and shrinks after half a second at the earliest. It fits into the world's period
+        and into every time constant.
         """
-        if session is not self._of or session.next_dt != self._asked:  # somebody else set it: that is planned from now on
+        if (
+            session is not self._of or session.next_dt != self._asked
+        ):  # somebody else set it: that is planned from now on
             self._of, self._planned, self._asked = session, session.next_dt, session.next_dt
         if self.longest is None or self.speed is None or not self._cost:
             wanted = 1
@@ -187,12 +201,21 @@ class Pace:
         unit, wall = unit_seconds(session.document.time_unit), self._now() - self._began
         late = 0.0 if self._late_since is None else self._now() - self._late_since
         return Meter(
-            speed=self.speed, factor=self._passed * unit / wall if wall > 0 else 0.0, time=self._passed, wall=wall, steps=self._taken,
-            lag=1e3 * self._lag, worst=1e3 * self._worst, lost=1e3 * self._given_up, overruns=self._overruns,
-            longest=1e3 * max(self._longest, late), lengthened=self._lengthened, step=self._step,
-        )  # fmt: skip
+            speed=self.speed,
+            factor=self._passed * unit / wall if wall > 0 else 0.0,
+            time=self._passed,
+            wall=wall,
+            steps=self._taken,
+            lag=1e3 * self._lag,
+            worst=1e3 * self._worst,
+            lost=1e3 * self._given_up,
+            overruns=self._overruns,
+            longest=1e3 * max(self._longest, late),
+            lengthened=self._lengthened,
+            step=self._step,
+        )
 
-    # -------------------------------------------------------------------------------- inside
+    # ------------------------------------------------------------------------------------------------- inside
 
     def _owed(self, session: Paced) -> float:
         """Wall time for which no step was taken yet."""
@@ -217,7 +240,9 @@ class Pace:
             self._late_since = None
 
     def _allowed(self, session: Paced, wanted: int) -> float:
-        """The longest step, at most `n` planned ones, that the bound, the time constants and the world allow."""
+        """The longest step, at most `n` planned ones, that the bound, the time constants and the world
+        allow.
+        """
         bound = self._planned if self.longest is None else self.longest
         for k in range(min(wanted, int(bound / self._planned + 1e-9)), 1, -1):
             step = k * self._planned
@@ -240,7 +265,10 @@ def require_speed(speed: object) -> float | None:
     """A speed as a number above 0, or None: as fast as possible."""
     given = None if speed is None else real(speed)
     if speed is not None and (given is None or not 0 < given < math.inf):
-        raise TimeError(f"a speed is a number above 0, or None for as fast as possible, not {show(speed)}", fix="1.0 is real time, 0.1 slow motion")
+        raise TimeError(
+            f"a speed is a number above 0, or None for as fast as possible, not {show(speed)}",
+            fix="1.0 is real time, 0.1 slow motion",
+        )
     return given
 
 
@@ -251,7 +279,8 @@ def require_longest(session: Paced, longest: object) -> float | None:
     given = real(longest)
     if given is None or given < session.next_dt:
         raise TimeError(
-            f"the longest step is {show(longest)}; it is a number, and not below the planned step of {session.next_dt:g}",
+            f"the longest step is {show(longest)}; it is a number, and not below the planned step of"
+            f" {session.next_dt:g}",
             fix="Leave it out to keep the step",
         )
     require_step(session.document, given)

@@ -23,7 +23,9 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
     return f"world.move {name}", tuple(center)
 
 
-def place(world: World, scene: Scene, name: str, center: Sequence[float], size: Sequence[float]) -> tuple[str, Any]:
+def place(
+    world: World, scene: Scene, name: str, center: Sequence[float], size: Sequence[float]
+) -> tuple[str, Any]:
     """Put a thing there, or another one in the place of one of that name; refused as in `move`."""
     scene.require_room(name, center, size)
     if name in [mark.name for mark in scene.marks]:

@@ -27,17 +27,28 @@ from deodar.worlds._base import World
 
 Tree = Any
 CHUNK_SECONDS = 0.2
-"""Wall time of a chunk in seconds; between chunks: progress, Ctrl-C, the check for values that are not finite."""
+"""Wall time of a chunk in seconds; between chunks: progress, Ctrl-C, the check for values that are not
+finite.
+"""
 
 MOST_STEPS = 2**44
-"""Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at a step of 1 ms."""
+"""Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at
+a step of 1 ms.
+"""
 
 
 class Run:
     """One model, or a batch of copies of it, in the middle of running."""
 
     def __init__(
-        self, program: Executable, doc: Document, dt: float, seed: int, trials: Sequence[int], world: World | None, swept: Sequence[Any] | None = None
+        self,
+        program: Executable,
+        doc: Document,
+        dt: float,
+        seed: int,
+        trials: Sequence[int],
+        world: World | None,
+        swept: Sequence[Any] | None = None,
     ) -> None:
         self.seed = seed
         self.trials = tuple(trials)
@@ -47,14 +58,20 @@ class Run:
         self.load(program, doc)
         self.pace = 0.0
         self.tolerated = 0
-        """Copies of a batch that may diverge: they go into `lost`. One more raises the first error; of a single run none is tolerated."""
+        """Copies of a batch that may diverge: they go into `lost`.
+
+        One more raises the first error; of a single run none is tolerated.
+        """
         self.lost: dict[tuple[int, ...], NotFinite] = {}
         self.reset()
 
-    # -------------------------------------------------------------------------------- what runs
+    # ---------------------------------------------------------------------------------------------- what runs
 
     def load(self, program: Executable, doc: Document) -> None:
-        """Take a program and the parameters of a document; the state stays what it is. What is refused changes nothing."""
+        """Take a program and the parameters of a document; the state stays what it is.
+
+        What is refused changes nothing.
+        """
         require_step(doc, self.clock.dt)
         self.exchange.take(doc)
         self.exchange.body = program.body
@@ -69,7 +86,9 @@ class Run:
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
         self.shared: Tree = None
         if self.exchange.inside:
-            self.shared, self.state, self.keys = self.program.embodied(self.exchange.world, self.state, self.keys)
+            self.shared, self.state, self.keys = self.program.embodied(
+                self.exchange.world, self.state, self.keys
+            )
         self.forget()
 
     def forget(self) -> None:
@@ -82,7 +101,7 @@ class Run:
         """What the sensors read and the motors move."""
         return self.exchange.world
 
-    # -------------------------------------------------------------------------------- running
+    # ------------------------------------------------------------------------------------------------ running
 
     def advance(self, steps: int, progress: Callable[[int], None] | None = None) -> None:
         """Advance by `steps` Euler steps, in chunks."""
@@ -100,7 +119,8 @@ class Run:
     ) -> None:
         """Advance by `steps` Euler steps; record after the first `start` of them, then after each `every`.
 
-        `collect(k, arrays)` gets the records from number k on; each array has the batch axes first, then the records.
+        `collect(k, arrays)` gets the records from number k on; each array has the batch axes first, then the
+        records.
         """
         chunk, capacity = self.program.chunk(ports)
         done, taken, due = 0, 0, start
@@ -108,7 +128,9 @@ class Run:
             gap, steady = due - done, self._until_sensing()
             most = min(self._chunk_steps(), steady)
             # a record at the tick of a new reading belongs to the next chunk, which sees that reading
-            if gap and (gap > most or gap == steady):  # its chunk is not this one: step, and throw the record away
+            if gap and (
+                gap > most or gap == steady
+            ):  # its chunk is not this one: step, and throw the record away
                 head = min(gap, most)
                 self._chunk(chunk, {"head": head, "every": 0, "records": 1}, head)
                 done += head
@@ -117,7 +139,10 @@ class Run:
                 records = 1 + min((steps - due) // every, capacity - 1, max(0, room) // every)
                 used = gap + (records - 1) * every
                 seen = self._chunk(chunk, {"head": gap, "every": every, "records": records}, used)
-                kept = tuple(np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)] for a in seen)
+                kept = tuple(
+                    np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)]
+                    for a in seen
+                )
                 self._require_finite(ports, kept, every)
                 collect(taken, kept)
                 taken, done, due = taken + records, done + used, due + records * every
@@ -127,7 +152,9 @@ class Run:
         if self.exchange.inside:
             self.exchange.put_now(unbatched(self.state["world"]["now"], self.program.batch.shape))
 
-    def _steps(self, chunk: Any, steps: int, records: int, progress: Callable[[int], None] | None, before: int = 0) -> None:
+    def _steps(
+        self, chunk: Any, steps: int, records: int, progress: Callable[[int], None] | None, before: int = 0
+    ) -> None:
         done = 0
         while done < steps:
             n = min(steps - done, self._chunk_steps(), self._until_sensing())
@@ -154,23 +181,33 @@ class Run:
         self.clock = self.clock.after(used)
         seconds = time.perf_counter() - began
         if used:
-            self.pace = used / max(seconds, 1e-9) if not self.pace else 0.5 * self.pace + 0.5 * used / max(seconds, 1e-9)
+            self.pace = (
+                used / max(seconds, 1e-9)
+                if not self.pace
+                else 0.5 * self.pace + 0.5 * used / max(seconds, 1e-9)
+            )
         return seen
 
     def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
-        return self.program.call(chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts))
+        return self.program.call(
+            chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts)
+        )
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
         """Ports at the present state."""
         self.sense()
         reader = self.program.reader(ports)
-        seen = self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
+        seen = self.program.call(
+            reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now()
+        )
         return [np.asarray(a) for a in seen]
 
     def look(self, reader: Any) -> Sequence[Any]:
         """What a reader that the caller keeps sees in the present state."""
         self.sense()
-        return self.program.call(reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now())
+        return self.program.call(
+            reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now()
+        )
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
         """The state of one element of a single run."""
@@ -192,7 +229,9 @@ class Run:
     def _now(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
         period = self._period() if self.exchange.inside else 1
         about = {**self.clock.origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
-        return packed(about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype)
+        return packed(
+            about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype
+        )
 
     def _values(self) -> Tree:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
@@ -201,7 +240,7 @@ class Run:
         """Steps that take about CHUNK_SECONDS; the first chunk is a probe."""
         return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else 20
 
-    # -------------------------------------------------------------------------------- worlds
+    # ------------------------------------------------------------------------------------------------- worlds
 
     def _period(self) -> int:
         """Ticks between two exchanges with the world; 0 where it never changes."""
@@ -226,14 +265,18 @@ class Run:
     def _commands(self, motors: Sequence[str]) -> list[np.ndarray]:
         return self.read([self.program.port(ident, "output") for ident in motors]) if motors else []
 
-    # -------------------------------------------------------------------------------- values that are not finite
+    # ----------------------------------------------------------------------------- values that are not finite
 
     def _keeps_others(self) -> bool:
         return self.tolerated > 0 and bool(self.program.batch.shape)
 
     def _new(self, bad: np.ndarray, after: float = math.inf) -> list[tuple[int, ...]]:
         """Places of the copies that are bad and not lost yet, or lost in a step later than `after`."""
-        return [place for place in map(tuple, np.argwhere(bad).tolist()) if place not in self.lost or self.lost[place].step > after]
+        return [
+            place
+            for place in map(tuple, np.argwhere(bad).tolist())
+            if place not in self.lost or self.lost[place].step > after
+        ]
 
     def _lose(self, found: Mapping[tuple[int, ...], NotFinite]) -> None:
         """Continue without some copies; raise the error of the first if these are more than are tolerated."""
@@ -255,7 +298,9 @@ class Run:
         self.state, _, _ = self._call(chunk, before, {"head": steps, "every": 0, "records": 0})
         self.clock = self.clock.after(steps)
 
-    def _diverged(self, before: Tree, used: int, copies: Sequence[tuple[int, ...]]) -> dict[tuple[int, ...], NotFinite]:
+    def _diverged(
+        self, before: Tree, used: int, copies: Sequence[tuple[int, ...]]
+    ) -> dict[tuple[int, ...], NotFinite]:
         """For each of these copies the first step at which a value was not finite, as an error."""
         found = self._search(before, used, copies)
         out: dict[tuple[int, ...], NotFinite] = {}
@@ -264,12 +309,16 @@ class Run:
             self._go(before, step - 1)
             for copy, (first, names) in found.items():
                 if first == step:
-                    out[copy] = not_finite(self._without_state(copy) or names, self.clock.after(1), self.doc.time_unit)
+                    out[copy] = not_finite(
+                        self._without_state(copy) or names, self.clock.after(1), self.doc.time_unit
+                    )
             self.state, self.clock = state, clock
         return {copy: out[copy] for copy in copies}
 
     def _search(self, before: Tree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
-        """For each copy (`...`: all as one) the first step of a chunk after which a value was not finite, and the elements where."""
+        """For each copy (`...`: all as one) the first step of a chunk after which a value was not finite, and
+        the elements where.
+        """
         chunk, _ = self.program.chunk(())
 
         def bad(n: int) -> list[np.ndarray]:
@@ -278,14 +327,36 @@ class Run:
 
         groups = self.program.plan.groups
         found = first_steps(bad, 0, max(used, 1), copies)
-        return {copy: (n, [self._path(node) for g, r in rows for node in [groups[g].nodes[r]]]) for copy, (n, rows) in found.items()}
+        return {
+            copy: (n, [self._path(node) for g, r in rows for node in [groups[g].nodes[r]]])
+            for copy, (n, rows) in found.items()
+        }
 
     def _without_state(self, copy: Any) -> list[str]:
-        """The first elements without a state whose output is not finite now in a copy (`...`: in any): they spoil the states that read them."""
+        """The first elements without a state whose output is not finite now in a copy (`...`: in any): they
+        spoil the states that read them.
+        """
         plan = self.program.plan
-        groups = list(dict.fromkeys(c.group for c in plan.calls if c.role == "output" and not plan.groups[c.group].like.element.stateful))
-        ports = [Port(g, r, next(iter(plan.groups[g].like.outs))) for g in groups for r in range(plan.groups[g].rows)]
-        bad = {(p.group, p.row): not np.isfinite(value[copy]).all() for p, value in zip(ports, self.read(ports), strict=True)} if ports else {}
+        groups = list(
+            dict.fromkeys(
+                c.group
+                for c in plan.calls
+                if c.role == "output" and not plan.groups[c.group].like.element.stateful
+            )
+        )
+        ports = [
+            Port(g, r, next(iter(plan.groups[g].like.outs)))
+            for g in groups
+            for r in range(plan.groups[g].rows)
+        ]
+        bad = (
+            {
+                (p.group, p.row): not np.isfinite(value[copy]).all()
+                for p, value in zip(ports, self.read(ports), strict=True)
+            }
+            if ports
+            else {}
+        )
         for g in groups:
             names = [self._path(n) for r, n in enumerate(plan.groups[g].nodes) if bad[g, r]]
             if names:
@@ -308,15 +379,23 @@ class Run:
                 name = f"{self._path(node)}.{port.name}"
 
                 def error(when: np.ndarray, name: str = name, end: int = end) -> NotFinite:
-                    return not_finite([name], dc.replace(self.clock, tick=end + int(np.argmax(when)) * every), self.doc.time_unit)
+                    return not_finite(
+                        [name],
+                        dc.replace(self.clock, tick=end + int(np.argmax(when)) * every),
+                        self.doc.time_unit,
+                    )
 
                 if not self._keeps_others():
                     raise error(np.asarray(spoilt.reshape(-1, values.shape[lead]).any(0)))
                 self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)), end)})
 
     def _require_finite_world(self, before: Tree, state: Tree, used: int) -> None:
-        """Refuse a world inside the step whose sensors show values that are not finite: they would spoil the model later, and elsewhere."""
-        if not self.exchange.inside or all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])):
+        """Refuse a world inside the step whose sensors show values that are not finite: they would spoil the
+        model later, and elsewhere.
+        """
+        if not self.exchange.inside or all(
+            np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])
+        ):
             return
         chunk, _ = self.program.chunk(())
         sensors, shape = list(state["world"]["now"]), self.program.batch.shape
@@ -328,14 +407,17 @@ class Run:
         def error(step: int, names: Sequence[str]) -> NotFinite:
             clock = self.clock.after(step)
             return NotFinite(
-                f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined in step {clock.tick}"
-                f" (time {clock.time:g} {self.doc.time_unit})",
+                f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined in"
+                f" step {clock.tick} (time {clock.time:g} {self.doc.time_unit})",
                 names,
                 fix="Look for what drives its motors",
                 step=clock.tick,
             )
 
-        spoilt = np.any([~np.isfinite(value).reshape(*shape, -1).all(-1) for value in state["world"]["now"].values()], axis=0)
+        spoilt = np.any(
+            [~np.isfinite(value).reshape(*shape, -1).all(-1) for value in state["world"]["now"].values()],
+            axis=0,
+        )
         copies = self._new(spoilt, self.clock.tick) if self._keeps_others() else [...]
         found = first_steps(bad, 0, max(used, 1), copies)
         errors = {copy: error(step, [sensors[k] for k, _ in rows]) for copy, (step, rows) in found.items()}
@@ -355,7 +437,8 @@ def require_step(doc: Document, dt: float) -> None:
         raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
     if abs(doc.t0) / dt > MOST_STEPS:
         raise TimeError(
-            f"time {doc.t0:g} {doc.time_unit} is {abs(doc.t0) / dt:.3g} steps of dt = {dt:g} from time 0; times are exact up to {MOST_STEPS:.3g}",
+            f"time {doc.t0:g} {doc.time_unit} is {abs(doc.t0) / dt:.3g} steps of dt = {dt:g} from time 0;"
+            f" times are exact up to {MOST_STEPS:.3g}",
             where="t0",
             fix="Start at a time nearer to 0, or take a larger dt",
         )
@@ -377,10 +460,14 @@ def whole(duration: Any, dt: float, what: str) -> int:
     duration = require_duration(duration, what)
     n = duration / dt
     if n > MOST_STEPS:
-        raise TimeError(f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS:.3g} can be counted")
+        raise TimeError(
+            f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS:.3g} can be counted"
+        )
     if abs(n - round(n)) > 1e-6 + 1e-14 * n:
         near = [k * dt for k in (int(n), int(n) + 1)]
-        raise TimeError(f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}")
+        raise TimeError(
+            f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}"
+        )
     return round(n)
 
 

@@ -23,17 +23,19 @@ def run_live(
 ) -> Meter:
     """Advance by a duration in document time, paced to the wall clock (Lomp et al. 2016, section 3.2).
 
-    A step is taken when its time has come, and all that are due are taken together, for about 10 ms at most. Where the machine is too slow the run
-    falls behind and says so in the meter; it catches up to 0.25 s, what is beyond is given up. Abstract time counts as milliseconds.
+    A step is taken when its time has come, and all that are due are taken together, for about 10 ms at most.
+    Where the machine is too slow the run falls behind and says so in the meter; it catches up to 0.25 s, what
+    is beyond is given up. Abstract time counts as milliseconds.
 
     Args:
         session: what runs.
         duration: document time; a whole number of steps.
         speed: document time over wall time: 1 is real time, less is slow motion; None: as fast as possible.
-        longest_step: let the step grow up to this, in whole multiples of dt, where there is not enough time for dt. The result then depends on the
-            machine; the journal of the session holds every change of dt with its tick, so that the run can be repeated. None: the step stays, and
-            with it the result.
-        between: called between two exchanges, for input and output of your own; it may read and set the session, and raise to stop.
+        longest_step: let the step grow up to this, in whole multiples of dt, where there is not enough time
+            for dt. The result then depends on the machine; the journal of the session holds every change of
+            dt with its tick, so that the run can be repeated. None: the step stays, and with it the result.
+        between: called between two exchanges, for input and output of your own; it may read and set the
+            session, and raise to stop.
         pace: the clock; none: a new one.
         sleep: how to wait, given seconds.
 
@@ -41,7 +43,8 @@ def run_live(
         The meter: real-time factor, lag, overruns, steps.
 
     Raises:
-        TimeError: a duration that is no whole number of steps, a speed that is not above 0, a step above a time constant.
+        TimeError: a duration that is no whole number of steps, a speed that is not above 0, a step above a
+            time constant.
         KeyboardInterrupt: on Ctrl-C, between two exchanges; the session stays where it then is.
     """
     pace = pace or Pace()

@@ -57,12 +57,13 @@ class Session:
         world: what provides the sensors that the model names.
         trial: which trial of the seed this is; a single run is trial 0.
         device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
-        accuracy: default, or exact: every kernel by its matrix, however much longer that takes (double precision always is).
+        accuracy: default, or exact: every kernel by its matrix, however much longer that takes (double
+            precision always is).
 
     Attributes:
         device: where it runs, as it was given.
-        journal: every change of a parameter or of dt, every reset and restore, every hand in the world, with its tick; with seed and document
-            it repeats the session.
+        journal: every change of a parameter or of dt, every reset and restore, every hand in the world, with
+            its tick; with seed and document it repeats the session.
     """
 
     def __init__(
@@ -87,9 +88,11 @@ class Session:
         memory.require(resolve(doc)[0], precision, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
-        self._run = Run(self.compiled(doc), doc, float(step), require_seed(seed), [require_seed(trial)], world)
+        self._run = Run(
+            self.compiled(doc), doc, float(step), require_seed(seed), [require_seed(trial)], world
+        )
 
-    # -------------------------------------------------------------------------------- running
+    # ------------------------------------------------------------------------------------------------ running
 
     def step(self, n: int = 1) -> None:
         """Advance by `n` Euler steps."""
@@ -111,13 +114,22 @@ class Session:
         self.step(waiting + whole(rest, self.next_dt, "a duration"))
 
     def run_live(
-        self, duration: float, speed: float | None = 1.0, longest_step: float | None = None, between: Callable[[], object] | None = None
+        self,
+        duration: float,
+        speed: float | None = 1.0,
+        longest_step: float | None = None,
+        between: Callable[[], object] | None = None,
     ) -> Meter:
-        """Advance by a duration in document time, paced to the wall clock; see `deodar.session.run_live.run_live`."""
+        """Advance by a duration in document time, paced to the wall clock; see
+        `deodar.session.run_live.run_live`.
+        """
         return run_live(self, duration, speed, longest_step, between)
 
     def costs(self, seconds: float = SECONDS) -> Costs:
-        """What each element costs in a step, measured now; see `deodar.session.cost.costs`. The run is not touched."""
+        """What each element costs in a step, measured now; see `deodar.session.cost.costs`.
+
+        The run is not touched.
+        """
         return costs(self.moment(), seconds)
 
     def moment(self) -> Moment:
@@ -134,7 +146,8 @@ class Session:
     def push(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
         """Inject an external input for `n` Euler steps, without adding an element.
 
-        Exactly as if `amount` (over the element's axes, or one number) were added to its input, noise included.
+        Exactly as if `amount` (over the element's axes, or one number) were added to its input, noise
+        included.
         """
         entry = find.element(self.document, path_of(path))
         self.require_push(entry.id)
@@ -167,23 +180,31 @@ class Session:
             raise UnknownName(f"the element with the id {ident} does not run")
         g, r = self.program.plan.row[ident]
         if entry.every != 1 or entry.element.push(self._run.row(g, r), 0.0, self.dt) is None:
-            raise ParameterError("takes no input from outside", where=entry.path, fix="Push a field or node that runs at every tick")
+            raise ParameterError(
+                "takes no input from outside",
+                where=entry.path,
+                fix="Push a field or node that runs at every tick",
+            )
 
-    # -------------------------------------------------------------------------------- looking and changing
+    # ----------------------------------------------------------------------------------- looking and changing
 
     def look(self, look: Look, places: Iterable[Place]) -> Mapping[Place, np.ndarray]:
         """Many ports now, through a look that was compiled for the program that runs."""
         return look.arrays(self._run.look(look.reader) if look.ports else [], places)
 
     def require(self, document: Document) -> None:
-        """Refuse a document that could not go on here: a step too long for a time constant, a sensor that the world does not have."""
+        """Refuse a document that could not go on here: a step too long for a time constant, a sensor that the
+        world does not have.
+        """
         for step in {self.dt, self.next_dt}:
             require_step(document, step)
         self._run.exchange.require(document)
 
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
         """The program that this session would run a document with; `model`: which keeps it."""
-        return executable(model or self._model, document, self._precision, device=self.device, accuracy=self._accuracy)
+        return executable(
+            model or self._model, document, self._precision, device=self.device, accuracy=self._accuracy
+        )
 
     def cost(self, document: Document) -> str:
         """What going on with another document would cost: live, rebuild or recompile."""
@@ -195,7 +216,11 @@ class Session:
         if "rebuild" not in {cost for _, _, cost, _ in changed}:
             return "live"
         exact, old = self._accuracy == "exact" or self._precision == "float64", self.document
-        return "rebuild" if exact or widths(old) == widths(document) or ways_of(old) == ways_of(document) else "recompile"
+        return (
+            "rebuild"
+            if exact or widths(old) == widths(document) or ways_of(old) == ways_of(document)
+            else "recompile"
+        )
 
     def read(self, path: str | Handle) -> np.ndarray:
         """Return what a port holds now: an array over the port's axes in their order, of shape () for a node.
@@ -212,13 +237,19 @@ class Session:
         return get(found.entry.element, found.parameter)
 
     def set(self, path: str | Mapping[str, Any], value: Any = ...) -> str:
-        """Change a parameter, or several at once, from the next step on; states stay. Returns what it cost: live, rebuild or recompile.
+        """Change a parameter, or several at once, from the next step on; states stay.
 
-        For example `session.set("u.tau", 30)` or `session.set({"u.tau": 30, "v.tau": 10})`; after an error none is changed.
+        Returns what it cost: live, rebuild or recompile.
+
+        For example `session.set("u.tau", 30)` or `session.set({"u.tau": 30, "v.tau": 10})`; after an error
+        none is changed.
         """
         values = edit.assignments(path, value)
         cost = self._adopt(edit.change_all(self.document, values))
-        self.journal += [Change(self.tick, at, FrozenArray(v) if isinstance(v, np.ndarray) else v) for at, v in values.items()]
+        self.journal += [
+            Change(self.tick, at, FrozenArray(v) if isinstance(v, np.ndarray) else v)
+            for at, v in values.items()
+        ]
         return cost
 
     def edit(self, document: Document) -> str:
@@ -231,14 +262,23 @@ class Session:
     def snapshot(self) -> Snapshot:
         """The whole state, to go back to."""
         run = self._run
-        return Snapshot(self.document, rows(run.program, run.state), run.clock, run.seed, self._precision, run.exchange.keep())
+        return Snapshot(
+            self.document,
+            rows(run.program, run.state),
+            run.clock,
+            run.seed,
+            self._precision,
+            run.exchange.keep(),
+        )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a snapshot, of this session or of another one of the same model."""
         if not isinstance(snapshot, Snapshot):
             raise ParameterError(f"{show(snapshot)} is no snapshot", fix="Take one with session.snapshot()")
         if snapshot.precision != self._precision:
-            raise ParameterError(f"the snapshot was taken in {snapshot.precision}, this session runs in {self._precision}")
+            raise ParameterError(
+                f"the snapshot was taken in {snapshot.precision}, this session runs in {self._precision}"
+            )
         if not set(self.document.by_id()) & set(snapshot.document.by_id()):
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
         self.journal.append(Change(self.tick, "restore", snapshot))
@@ -255,10 +295,12 @@ class Session:
         run.exchange.put(snapshot.world)
 
     def keep(self) -> list[str]:
-        """Take what elements have learned (weights, traces, gains) into the model, for `save`: what they start from. Returns its paths."""
+        """Take what elements have learned (weights, traces, gains) into the model, for `save`: what they
+        start from. Returns its paths.
+        """
         return keep(self.snapshot(), self._model)
 
-    # -------------------------------------------------------------------------------- a hand in the world
+    # ------------------------------------------------------------------------------------ a hand in the world
 
     def scene(self) -> Scene | None:
         """The world from above, now; None where there is none, or nothing to draw."""
@@ -268,11 +310,17 @@ class Session:
         return self.world.scene()
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Put a thing of the world, or its goal, elsewhere: x and y of its middle. Refused where it does not fit."""
+        """Put a thing of the world, or its goal, elsewhere: x and y of its middle.
+
+        Refused where it does not fit.
+        """
         self._note(*rearrange.move(*self._seen(), name, center))
 
     def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
-        """Put a thing into the world, or another one in the place of one of that name. Refused where it does not fit."""
+        """Put a thing into the world, or another one in the place of one of that name.
+
+        Refused where it does not fit.
+        """
         self._note(*rearrange.place(*self._seen(), name, center, size))
 
     def remove(self, name: str) -> None:
@@ -282,7 +330,10 @@ class Session:
     def _seen(self) -> tuple[World, Scene]:
         scene = self.scene()
         if self.world is None or scene is None:
-            raise WorldError("there is no world that is seen from above", fix="Give one: --world arena:blocks, or world=Arena('blocks')")
+            raise WorldError(
+                "there is no world that is seen from above",
+                fix="Give one: --world arena:blocks, or world=Arena('blocks')",
+            )
         return self.world, scene
 
     def _note(self, what: str, value: Any) -> None:
@@ -290,7 +341,7 @@ class Session:
             self.journal.pop()  # of several moves between two steps the last counts
         self.journal.append(Change(self.tick, what, value))
 
-    # -------------------------------------------------------------------------------- properties
+    # --------------------------------------------------------------------------------------------- properties
 
     @property
     def program(self) -> Executable:
@@ -350,17 +401,22 @@ class Session:
         return self._precision
 
     def __repr__(self) -> str:
-        return f"<Session of {self.document.name!r} at {self.time:g} {self.document.time_unit}, dt {self.dt:g}, seed {self.seed}>"
+        return (
+            f"<Session of {self.document.name!r} at {self.time:g} {self.document.time_unit}, dt {self.dt:g},"
+            f" seed {self.seed}>"
+        )
 
     def _repr_html_(self) -> str:
         d, how = self.document, f"dt {self.dt:g}, seed {self.seed}, {self.precision}"
         return f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), {how}"
 
-    # -------------------------------------------------------------------------------- inside
+    # ------------------------------------------------------------------------------------------------- inside
 
     def _port(self, path: str | Handle) -> Port:
         path, program = path_of(path), self._run.program
-        if self._ports.get(path, (None,))[0] is not program:  # found once for each program: a renamed element has another path
+        if (
+            self._ports.get(path, (None,))[0] is not program
+        ):  # found once for each program: a renamed element has another path
             entry, name = find.shown(self.document, path)
             self._ports[path] = (program, program.port(entry.id, name))
         return self._ports[path][1]
@@ -369,7 +425,9 @@ class Session:
         run = self._run
         changed = changed_leaves(run.doc, doc)
         by = doc.by_id()
-        if changed is None or any(limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)):
+        if changed is None or any(
+            limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)
+        ):
             self.require(doc)  # other leaves change no limit of the step
         if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
@@ -399,7 +457,9 @@ class Session:
 def require_model(model: Any) -> Model:
     """The model, refused if it is something else."""
     if not isinstance(model, Model):
-        raise ModelError(f"{show(model)} is no model", fix="Build one with dd.Model(name), or read one with dd.load(file)")
+        raise ModelError(
+            f"{show(model)} is no model", fix="Build one with dd.Model(name), or read one with dd.load(file)"
+        )
     return model
 
 

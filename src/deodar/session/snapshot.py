@@ -25,7 +25,8 @@ class Snapshot:
 
     Attributes:
         document: the document with its parameters.
-        states: for each element by id its state, and the one that is not yet visible (of parts with a step of their own).
+        states: for each element by id its state, and the one that is not yet visible (of parts with a step of
+            their own).
         clock: tick, time and dt.
         seed: seed of the noise; with the tick it says all about it.
         precision: float32 or float64.
@@ -41,7 +42,9 @@ class Snapshot:
 
 
 def rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
-    """The state of every element by id: what is shown, and what is held until it is due (the same where nothing is held)."""
+    """The state of every element by id: what is shown, and what is held until it is due (the same where
+    nothing is held).
+    """
     here = host(state)
     out: dict[str, tuple[Row, Row]] = {}
     for ident, (g, r) in program.plan.row.items():
@@ -52,7 +55,10 @@ def rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
 
 
 def fill(run: Run, states: Mapping[str, tuple[Row, Row]]) -> None:
-    """States by id into the present program, where their shapes are the same; others start anew. Noise follows from seed and tick."""
+    """States by id into the present program, where their shapes are the same; others start anew.
+
+    Noise follows from seed and tick.
+    """
     fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
     state = host(fresh)
     for ident, (g, r) in run.program.plan.row.items():

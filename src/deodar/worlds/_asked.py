@@ -15,7 +15,8 @@ NUMBERS = ("period", "reflection", "place_noise", "place_every", "infrared_noise
 
 
 def asked(argument: str) -> tuple[str, Mapping[str, Any]]:
-    """The layout and the settings in `LAYOUT, NAME=VALUE, ...`, for example `z, unit=cm, goal=-27 78, place_noise=0.5`.
+    """The layout and the settings in `LAYOUT, NAME=VALUE, ...`, for example `z, unit=cm, goal=-27 78,
+    place_noise=0.5`.
 
     Raises:
         WorldError: there is no such setting, or its value is none.
@@ -26,8 +27,18 @@ def asked(argument: str) -> tuple[str, Mapping[str, Any]]:
         name, equal, value = (part.strip() for part in piece.partition("="))
         if not equal or name not in (*WORDS, *PLACES, *NUMBERS):
             hint = did_you_mean(name, [*WORDS, *PLACES, *NUMBERS])
-            raise WorldError(f"there is no setting {piece!r}" if not equal else f"there is no setting {name!r}", where=f"arena:{argument}", fix=hint)
-        found[name] = value if name in WORDS else _place(name, value, argument) if name in PLACES else _number(name, value, argument)
+            raise WorldError(
+                f"there is no setting {piece!r}" if not equal else f"there is no setting {name!r}",
+                where=f"arena:{argument}",
+                fix=hint,
+            )
+        found[name] = (
+            value
+            if name in WORDS
+            else _place(name, value, argument)
+            if name in PLACES
+            else _number(name, value, argument)
+        )
     return layout, found
 
 
@@ -36,7 +47,11 @@ def _place(name: str, value: str, argument: str) -> list[float]:
     numbers = [_float(word) for word in value.split()]
     if not least <= len(numbers) <= most or None in numbers:
         what = "x and y, and a heading in rad if wanted" if most > least else "x and y"
-        raise WorldError(f"{name} is {value!r}; it is {what}, with spaces between", where=f"arena:{argument}", fix=f"For example {name}=20 30")
+        raise WorldError(
+            f"{name} is {value!r}; it is {what}, with spaces between",
+            where=f"arena:{argument}",
+            fix=f"For example {name}=20 30",
+        )
     return [n for n in numbers if n is not None] + [0.0] * (most - len(numbers))
 
 

@@ -1,4 +1,7 @@
-"""The contract of a world: a plant with named sensors and motors, at its own rate. Models name them; a world provides them."""
+"""The contract of a world: a plant with named sensors and motors, at its own rate.
+
+Models name them; a world provides them.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,8 @@ class Signal:
 
     Attributes:
         meaning: what it reads or moves, in words.
-        shape: samples along each axis; None: whatever axes the model states, the world samples itself over them.
+        shape: samples along each axis; None: whatever axes the model states, the world samples itself over
+            them.
         unit: of the values; "" where they have none.
         period: ms between two new values; None: the world's own.
         each: whether every copy of a model reads its own (a robot of its own), or all the same (one camera).
@@ -32,23 +36,28 @@ class Signal:
     each: bool = False
 
     def __str__(self) -> str:
-        samples = "" if self.shape is None else " x ".join(map(str, self.shape)) if self.shape else "one number"
+        samples = (
+            "" if self.shape is None else " x ".join(map(str, self.shape)) if self.shape else "one number"
+        )
         return "; ".join(part for part in (self.meaning, f"{samples} {self.unit}".strip()) if part)
 
 
 class World:
     """A world on the host: it stands still while a model steps, and is read and told at its own rate.
 
-    At each multiple t of the period the sensors are read and shown to the model, and the motors are read from it; what they do to the sensors
-    shows at t + period. A world that moves by itself moves in `act`, or by the time that it is given.
+    At each multiple t of the period the sensors are read and shown to the model, and the motors are read from
+    it; what they do to the sensors shows at t + period. A world that moves by itself moves in `act`, or by
+    the time that it is given.
 
-    Several copies of a model (trials, points of a sweep) run at once; each has a robot of its own. Motors come with a leading axis of copies,
-    and so do readings of sensors whose signal says `each`; other readings have none, all copies see the same.
+    Several copies of a model (trials, points of a sweep) run at once; each has a robot of its own. Motors
+    come with a leading axis of copies, and so do readings of sensors whose signal says `each`; other readings
+    have none, all copies see the same.
 
     Class attributes:
         sensors: each sensor by name.
         motors: each motor by name.
-        stands_in: whether its example may stand in where no world was chosen; not where it needs an extra, or a device.
+        stands_in: whether its example may stand in where no world was chosen; not where it needs an extra, or
+            a device.
 
     Attributes:
         period: ms between two exchanges; None: the world never changes, one reading serves a whole run.
@@ -69,11 +78,15 @@ class World:
         """
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
-        """What a sensor reads at a time (ms), sampled over the axes: finite, of their shape, with copies first where the signal says `each`."""
+        """What a sensor reads at a time (ms), sampled over the axes: finite, of their shape, with copies
+        first where the signal says `each`.
+        """
         raise NotImplementedError
 
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
-        """Go on by one period from `time` (ms), with what the motors were told then: for each driven motor an array, copies first."""
+        """Go on by one period from `time` (ms), with what the motors were told then: for each driven motor an
+        array, copies first.
+        """
 
     def keep(self) -> Any:
         """What `put` needs to go back to this moment."""
@@ -90,8 +103,16 @@ class World:
         """Put a thing or a mark of the scene elsewhere: x and y of its middle."""
         raise WorldError(f"nothing in the world {type(self).__name__} can be moved", where=name)
 
-    def place(self, name: str, center: Sequence[float], size: Sequence[float], color: Sequence[float] = (0.72, 0.53, 0.3)) -> None:
-        """Put a thing there, or replace the one of that name: x and y of its middle, its size along both, red, green and blue from 0 to 1."""
+    def place(
+        self,
+        name: str,
+        center: Sequence[float],
+        size: Sequence[float],
+        color: Sequence[float] = (0.72, 0.53, 0.3),
+    ) -> None:
+        """Put a thing there, or replace the one of that name: x and y of its middle, its size along both,
+        red, green and blue from 0 to 1.
+        """
         raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
 
     def remove(self, name: str) -> None:
@@ -99,7 +120,10 @@ class World:
         raise WorldError(f"nothing can be taken out of the world {type(self).__name__}", where=name)
 
     def arrangement(self) -> Any:
-        """All that `place`, `move` and `remove` change, as it is now, for `arrange`. Actions of experiments need both methods."""
+        """All that `place`, `move` and `remove` change, as it is now, for `arrange`.
+
+        Actions of experiments need both methods.
+        """
         raise WorldError(f"the world {type(self).__name__} does not say what its things are")
 
     def arrange(self, kept: Any) -> None:
@@ -126,12 +150,18 @@ class World:
     def require(self, sensor: str) -> None:
         """Refuse a sensor that this world does not have."""
         if sensor not in self.sensors:
-            raise WorldError(f"the world {type(self).__name__} has no sensor {sensor!r}", fix=_hint(sensor, self.sensors, "sensors"))
+            raise WorldError(
+                f"the world {type(self).__name__} has no sensor {sensor!r}",
+                fix=_hint(sensor, self.sensors, "sensors"),
+            )
 
     def require_motor(self, motor: str) -> None:
         """Refuse a motor that this world does not have."""
         if motor not in self.motors:
-            raise WorldError(f"the world {type(self).__name__} has no motor {motor!r}", fix=_hint(motor, self.motors, "motors"))
+            raise WorldError(
+                f"the world {type(self).__name__} has no motor {motor!r}",
+                fix=_hint(motor, self.motors, "motors"),
+            )
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:
@@ -142,7 +172,11 @@ class World:
 def fitting(name: str, signal: Signal, axes: Axes) -> None:
     """Refuse axes over which a sensor or motor is not sampled."""
     if signal.shape is not None and shape(axes) != signal.shape:
-        wanted = "no axes, it is one number" if not signal.shape else "axes of " + " x ".join(map(str, signal.shape)) + " samples"
+        wanted = (
+            "no axes, it is one number"
+            if not signal.shape
+            else "axes of " + " x ".join(map(str, signal.shape)) + " samples"
+        )
         raise WorldError(f"{name!r} has {wanted}; the model gives it {list(shape(axes))}")
 
 

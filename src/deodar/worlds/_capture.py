@@ -50,7 +50,11 @@ class Film:
 
     def __init__(self, path: Path) -> None:
         if not path.is_file():
-            raise WorldError("there is no such video", where=str(path), fix="Name a file that OpenCV can read, such as an .mp4 or .avi")
+            raise WorldError(
+                "there is no such video",
+                where=str(path),
+                fix="Name a file that OpenCV can read, such as an .mp4 or .avi",
+            )
         self.path = path
         self._opened: Any = None
         self.rewind()
@@ -68,7 +72,9 @@ class Film:
         self._shown, self._number, self._end = first, 0, False
 
     def picture(self, moment: float, again: bool) -> np.ndarray:
-        """The picture (height, width, 3) at a time in ms; after the end the last one, or from the start again."""
+        """The picture (height, width, 3) at a time in ms; after the end the last one, or from the start
+        again.
+        """
         wanted = int(moment * self.rate / 1000 + 1e-6)
         if again and self._end:
             wanted %= self._number + 1
@@ -94,7 +100,8 @@ class Film:
 
 
 class Eye:
-    """A camera that is read in a thread of its own, so that whoever asks gets the newest picture and never waits for the next.
+    """A camera that is read in a thread of its own, so that whoever asks gets the newest picture and never
+    waits for the next.
 
     Attributes:
         size: width and height in pixels.
@@ -106,7 +113,11 @@ class Eye:
         there, first = opened.read() if opened.isOpened() else (False, np.zeros((0, 0, 3), np.uint8))
         if not there:
             opened.release()
-            raise WorldError("there is no camera, or another program uses it", where=f"camera {source}", fix="Try another number: --camera 1")
+            raise WorldError(
+                "there is no camera, or another program uses it",
+                where=f"camera {source}",
+                fix="Try another number: --camera 1",
+            )
         self._stream = _Stream(opened, np.ascontiguousarray(first[:, :, ::-1]), patience)
         self.size = (int(first.shape[1]), int(first.shape[0]))
         self._thread = threading.Thread(target=self._stream.watch, name=f"camera {source}", daemon=True)
@@ -121,7 +132,11 @@ class Eye:
         """
         silent = time.monotonic() - self._stream.since
         if silent > self.patience:
-            raise WorldError(f"has given no picture for {silent:.1f} s", where=f"camera {self.source}", fix="Look whether it is still connected")
+            raise WorldError(
+                f"has given no picture for {silent:.1f} s",
+                where=f"camera {self.source}",
+                fix="Look whether it is still connected",
+            )
         return self._stream.newest
 
     def close(self) -> None:
@@ -131,7 +146,9 @@ class Eye:
 
 
 class _Stream:
-    """The newest picture, and the thread's work; it does not hold the eye, so that an eye that nobody holds closes."""
+    """The newest picture, and the thread's work; it does not hold the eye, so that an eye that nobody holds
+    closes.
+    """
 
     def __init__(self, opened: Any, first: np.ndarray, patience: float) -> None:
         self.opened, self.newest, self.since, self.patience = opened, first, time.monotonic(), patience
@@ -151,7 +168,9 @@ class _Stream:
 
 
 def example(moves: bool = True) -> Path:
-    """A short film in the folder of temporary files, gone at exit: a red square of 16 pixels crosses a grey ground in a second, or stands still."""
+    """A short film in the folder of temporary files, gone at exit: a red square of 16 pixels crosses a grey
+    ground in a second, or stands still.
+    """
     cv2 = opencv("writing a video")
     folder = Path(tempfile.mkdtemp(prefix="deodar-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)

@@ -1,8 +1,9 @@
 """A disc among boxes: how far it gets, along which walls it slides. Pure functions of one copy.
 
-Boxes are rows (lower x, lower y, upper x, upper y) of an array, parallel to the axes; a flag for each says whether it is there. The
-disc never jumps over a wall however long the step: it is swept along its straight path, and stops or slides at the first touch. A
-disc against a box is a point against a box with round corners (the Minkowski sum), which is convex.
+Boxes are rows (lower x, lower y, upper x, upper y) of an array, parallel to the axes; a flag for each says
+whether it is there. The disc never jumps over a wall however long the step: it is swept along its straight
+path, and stops or slides at the first touch. A disc against a box is a point against a box with round corners
+(the Minkowski sum), which is convex.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ import jax.numpy as jnp
 from jax import lax
 
 SKIN = 1e-6
-"""Gap that is left at a touch, m: above the rounding of single precision at 10 m, far below anything that matters."""
+"""Gap that is left at a touch, m: above the rounding of single precision at 10 m, far below anything that
+matters.
+"""
 
 CLOSE = 4e-6
 """Gap below which the disc counts as touching, m."""
@@ -23,7 +26,8 @@ GRAZING = 1e-6
 """Share of a step that may point into a touched wall and still counts as along it: rounding of the slide."""
 
 SLIDES = 6
-"""Walls that one step may meet; a corner takes two, a notch three. What is left of the step then is dropped."""
+"""Walls that one step may meet; a corner takes two, a notch three. What is left of the step then is dropped.
+"""
 
 PUSHES = 8
 """Boxes out of which a disc is pushed in one step, when they were put on it."""
@@ -32,7 +36,9 @@ NOT_HIT = 2.0
 
 
 def gaps(position: Any, boxes: Any, radius: Any) -> tuple[Any, Any]:
-    """For each box (n, 4) the gap between it and the disc, negative inside, and the unit vector (n, 2) out of it."""
+    """For each box (n, 4) the gap between it and the disc, negative inside, and the unit vector (n, 2) out of
+    it.
+    """
     lower, upper = boxes[:, :2], boxes[:, 2:]
     away = position - jnp.clip(position, lower, upper)
     square = jnp.sum(away * away, axis=1)
@@ -46,7 +52,9 @@ def gaps(position: Any, boxes: Any, radius: Any) -> tuple[Any, Any]:
 
 
 def push_out(position: Any, boxes: Any, present: Any, radius: Any) -> Any:
-    """The disc moved out of boxes that it stands in (because they were put there), the deepest first; elsewhere it stays where it is."""
+    """The disc moved out of boxes that it stands in (because they were put there), the deepest first;
+    elsewhere it stays where it is.
+    """
 
     def push(_: Any, p: Any) -> Any:
         gap, normal = gaps(p, boxes, radius)
@@ -92,16 +100,23 @@ def move(position: Any, step: Any, boxes: Any, present: Any, radius: Any, sticks
 
 
 def first_touch(position: Any, step: Any, boxes: Any, radius: Any) -> Any:
-    """For each box the share of a step after which a disc that is outside touches it; above 1: not in this step."""
+    """For each box the share of a step after which a disc that is outside touches it; above 1: not in this
+    step.
+    """
     tall, wide = jnp.asarray([0, radius], boxes.dtype), jnp.asarray([radius, 0], boxes.dtype)
     lower, upper = boxes[:, :2], boxes[:, 2:]
-    flat = jnp.minimum(_into_box(position, step, lower - wide, upper + wide), _into_box(position, step, lower - tall, upper + tall))
+    flat = jnp.minimum(
+        _into_box(position, step, lower - wide, upper + wide),
+        _into_box(position, step, lower - tall, upper + tall),
+    )
     corners = jnp.stack([lower, upper, boxes[:, jnp.asarray([0, 3])], boxes[:, jnp.asarray([2, 1])]], axis=1)
     return jnp.minimum(flat, jnp.min(_into_disc(position, step, corners, radius), axis=1))
 
 
 def _into_box(position: Any, step: Any, lower: Any, upper: Any) -> Any:
-    """Share of the step at which a point enters boxes (..., 2), 0 where it is inside, NOT_HIT where it never does."""
+    """Share of the step at which a point enters boxes (..., 2), 0 where it is inside, NOT_HIT where it never
+    does.
+    """
     tiny = jnp.asarray(1e-30, step.dtype)
     inverse = 1.0 / jnp.where(jnp.abs(step) < tiny, tiny, step)
     one, other = (lower - position) * inverse, (upper - position) * inverse
@@ -115,7 +130,9 @@ def _into_disc(position: Any, step: Any, middles: Any, radius: Any) -> Any:
     away = position - middles
     square = jnp.sum(step * step)
     approach = -jnp.sum(away * step, axis=-1)
-    across = away[..., 0] * step[1] - away[..., 1] * step[0]  # exact for near passes, unlike the difference of squares
+    across = (
+        away[..., 0] * step[1] - away[..., 1] * step[0]
+    )  # exact for near passes, unlike the difference of squares
     depth = square * radius * radius - across * across
     meets = (depth >= 0) & (approach > 0) & (square > 0)
     share = (approach - jnp.sqrt(jnp.where(meets, depth, 0.0))) / jnp.where(square > 0, square, 1.0)
@@ -123,7 +140,9 @@ def _into_disc(position: Any, step: Any, middles: Any, radius: Any) -> Any:
 
 
 def rays(origins: Any, directions: Any, boxes: Any, present: Any, longest: float) -> Any:
-    """Distance (m,) from each origin (m, 2) along its unit vector (m, 2) to the nearest box; at most `longest`."""
+    """Distance (m,) from each origin (m, 2) along its unit vector (m, 2) to the nearest box; at most
+    `longest`.
+    """
 
     def one(origin: Any, direction: Any) -> Any:
         share = _into_box(origin, direction * longest, boxes[:, :2], boxes[:, 2:])

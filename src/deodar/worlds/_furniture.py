@@ -1,4 +1,6 @@
-"""What stands in an arena while it runs: things that come, move and go without anything being compiled anew."""
+"""What stands in an arena while it runs: things that come, move and go without anything being compiled
+anew.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,8 @@ class Furniture:
 
     Attributes:
         things: what stands there; None: a place that is free.
-        windows: for each the first period in which it stands and the first in which it no longer does; one row, or one for each trial.
+        windows: for each the first period in which it stands and the first in which it no longer does; one
+            row, or one for each trial.
     """
 
     def __init__(self, layout: Layout, period: float) -> None:
@@ -48,7 +51,11 @@ class Furniture:
             times = np.clip(np.ceil(given / self.period - 0.5), *ALWAYS).astype(np.int32)
         names = [t.name if t is not None else None for t in self.things]
         if thing.name not in names and None not in names:
-            raise WorldError(f"the arena is full: {SPARE} things besides those of its file", where=thing.name, fix="Take one away with remove(name)")
+            raise WorldError(
+                f"the arena is full: {SPARE} things besides those of its file",
+                where=thing.name,
+                fix="Take one away with remove(name)",
+            )
         k = names.index(thing.name if thing.name in names else None)
         self.things[k], self.windows[k] = thing, times
 
@@ -65,17 +72,25 @@ class Furniture:
 
     def standing(self) -> list[Thing]:
         """What stands there all the time."""
-        return [t for t, w in zip(self.things, self.windows, strict=True) if t is not None and (w == ALWAYS).all()]
+        return [
+            t for t, w in zip(self.things, self.windows, strict=True) if t is not None and (w == ALWAYS).all()
+        ]
 
     def there(self, period: int, trial: int) -> list[Thing]:
         """What stands there in a period of a trial."""
-        rows = ((t, w[min(trial, len(w) - 1)]) for t, w in zip(self.things, self.windows, strict=True) if t is not None)
+        rows = (
+            (t, w[min(trial, len(w) - 1)])
+            for t, w in zip(self.things, self.windows, strict=True)
+            if t is not None
+        )
         return [thing for thing, (start, stop) in rows if start <= period < stop]
 
-    # -------------------------------------------------------------------------------- arrays
+    # ------------------------------------------------------------------------------------------------- arrays
 
     def boxes(self) -> np.ndarray:
-        """Things (n, 4) in metres, then the four sides of the border; a place that is free holds a box far away."""
+        """Things (n, 4) in metres, then the four sides of the border; a place that is free holds a box far
+        away.
+        """
         left, low, right, high = self.border
         far = 10 * max(right - left, high - low)
         free = (right + 2 * far, high + 2 * far, right + 3 * far, high + 3 * far)
@@ -98,7 +113,11 @@ class Furniture:
 
     def to_data(self) -> list[Any]:
         """What stands there, and when, as plain data."""
-        return [[t.name, *t.center, *t.size, *t.color, w.tolist()] for t, w in zip(self.things, self.windows, strict=True) if t is not None]
+        return [
+            [t.name, *t.center, *t.size, *t.color, w.tolist()]
+            for t, w in zip(self.things, self.windows, strict=True)
+            if t is not None
+        ]
 
     def take(self, data: Sequence[Any]) -> None:
         """What `to_data` gave."""

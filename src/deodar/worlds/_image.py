@@ -19,7 +19,8 @@ PICTURE = Signal("colour over two dimensions; the last axis is red, green, blue"
 
 @dataclass(frozen=True)
 class Frame:
-    """Where a picture lies on axes: it keeps its shape, fills the longer side of their area, and stands in the middle of the other.
+    """Where a picture lies on axes: it keeps its shape, fills the longer side of their area, and stands in
+    the middle of the other.
 
     Attributes:
         across, down: column and row of the outer edge of the first cell.
@@ -49,11 +50,18 @@ def frame(size: tuple[int, int], axes: Axes) -> Frame:
 def sampled(pixels: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
     """A picture (height, width, 3) of bytes over axes: (x, y, channel), values from 0 to 1."""
     if len(axes) != 3 or axes[2].samples != CHANNELS:
-        raise WorldError(f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor)
+        raise WorldError(
+            f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor
+        )
     from PIL import Image
 
     at = frame((pixels.shape[1], pixels.shape[0]), axes)
-    box = (at.across, at.down, at.across + axes[0].samples * axes[0].step / at.scale, at.down + axes[1].samples * axes[1].step / at.scale)
+    box = (
+        at.across,
+        at.down,
+        at.across + axes[0].samples * axes[0].step / at.scale,
+        at.down + axes[1].samples * axes[1].step / at.scale,
+    )
     seen = _resized(Image.fromarray(pixels), box, (axes[0].samples, axes[1].samples))
     return np.asarray(seen, dtype=np.float32).transpose(1, 0, 2) / 255.0
 

@@ -11,8 +11,11 @@ from deodar.worlds._contact import rays
 from deodar.worlds._vehicle import Infrared, ahead
 
 
-def distances(sensors: Infrared, position: Any, heading: Any, boxes: Any, present: Any, reflection: Any) -> Any:
-    """Distance (sensors,) that the light finds, m: that of the nearest box along one ray, divided by how well it reflects.
+def distances(
+    sensors: Infrared, position: Any, heading: Any, boxes: Any, present: Any, reflection: Any
+) -> Any:
+    """Distance (sensors,) that the light finds, m: that of the nearest box along one ray, divided by how well
+    it reflects.
 
     Beyond the range of the table everything reads the same, so rays end there.
     """

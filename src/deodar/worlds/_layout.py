@@ -2,10 +2,12 @@
 
     {"unit": "m", "arena": {"x": [0, 1], "y": [0, 1]},
      "walls": [{"name": "north", "center": [0.5, 0.9], "size": [0.6, 0.05]}],
-     "boxes": [...], "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "color": [1, 0, 0]}],
+     "boxes": [...],
+     "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "color": [1, 0, 0]}],
      "start": [0.2, 0.2], "heading": 0.0, "goal": [0.8, 0.8]}
 
-A file may hold several arenas by name. Everything stands parallel to the two axes and is seen and touched whatever its height.
+A file may hold several arenas by name. Everything stands parallel to the two axes and is seen and touched
+whatever its height.
 """
 
 from __future__ import annotations
@@ -34,7 +36,9 @@ LARGEST_FILE = 2**24
 
 @dataclass(frozen=True)
 class Thing:
-    """A box that stands in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to 1."""
+    """A box that stands in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to
+    1.
+    """
 
     name: str
     center: tuple[float, float]
@@ -68,7 +72,10 @@ class Layout:
         """The same as a file says it."""
         left, low, right, high = self.border
         data: dict[str, Any] = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
-        data["blocks"] = [{"name": t.name, "center": list(t.center), "size": list(t.size), "color": list(t.color)} for t in self.things]
+        data["blocks"] = [
+            {"name": t.name, "center": list(t.center), "size": list(t.size), "color": list(t.color)}
+            for t in self.things
+        ]
         if self.start is not None:
             data |= {"start": list(self.start[:2]), "heading": self.start[2]}
         return data if self.goal is None else data | {"goal": list(self.goal)}
@@ -99,7 +106,9 @@ def load(source: str | Path | Mapping[str, Any]) -> Layout:
     file, _, name = str(source).partition("#")
     if not Path(file).is_file():
         hint = did_you_mean(str(source), known) + ". Or name a .json file" if known else ""
-        raise WorldError("there is no arena and no file of this name", where=str(source), fix=hint.replace("?.", "?"))
+        raise WorldError(
+            "there is no arena and no file of this name", where=str(source), fix=hint.replace("?.", "?")
+        )
     data = _read(Path(file))
     if "arena" in data:
         return _layout(data, str(source))
@@ -118,7 +127,9 @@ def _read(path: Path) -> dict[str, Any]:
             raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
         data = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:
-        raise WorldError(f"cannot be read as JSON ({type(error).__name__}: {error})", where=str(path)) from None
+        raise WorldError(
+            f"cannot be read as JSON ({type(error).__name__}: {error})", where=str(path)
+        ) from None
     if not isinstance(data, dict):
         raise WorldError(f"holds {show(data)}; an arena is an object with walls", where=str(path))
     return data
@@ -135,7 +146,9 @@ class _Faults(list[Problem]):
         self.append(Problem(": ".join(p for p in (self.where, place) if p), what, fix))
 
     def pair(self, place: str, value: Any) -> tuple[float, float] | None:
-        numbers = [real(v) for v in value] if isinstance(value, Sequence) and not isinstance(value, str) else []
+        numbers = (
+            [real(v) for v in value] if isinstance(value, Sequence) and not isinstance(value, str) else []
+        )
         if len(numbers) != 2 or not all(n is not None and math.isfinite(n) for n in numbers):
             self.say(place, f"is {show(value)}; it is two finite numbers")
             return None
@@ -158,7 +171,9 @@ def _layout(data: Any, where: str) -> Layout:
     if names not in ("x,y", "x,z"):
         faults.say("plane", f"is {names!r}; it is x,y, or x,z (y up)")
         names = "x,y"
-    turned = names == "x,z"  # as in Webots: y is up, a robot that is not turned looks along -z; so x here is -z, y here -x
+    turned = (
+        names == "x,z"
+    )  # as in Webots: y is up, a robot that is not turned looks along -z; so x here is -z, y here -x
     border = _border(data, names.split(","), turned, scale, faults)
     things = tuple(_things(data, turned, scale, faults))
     start = _place(data, "start", turned, scale, faults)
@@ -166,21 +181,34 @@ def _layout(data: Any, where: str) -> Layout:
     if heading is None or not math.isfinite(heading):
         faults.say("heading", f"is {show(data.get('heading'))}; it is an angle in rad")
     area = data.get("goal_area")
-    goal = _place(data if "goal" in data or not isinstance(area, Mapping) else {"goal": area.get("center")}, "goal", turned, scale, faults)
+    goal = _place(
+        data if "goal" in data or not isinstance(area, Mapping) else {"goal": area.get("center")},
+        "goal",
+        turned,
+        scale,
+        faults,
+    )
     if faults or border is None:
         raise WorldError(faults)
     return Layout(border, things, None if start is None else (*start, float(heading or 0)), goal)
 
 
-def _border(data: Mapping[str, Any], names: Sequence[str], turned: bool, scale: float, faults: _Faults) -> Any:
+def _border(
+    data: Mapping[str, Any], names: Sequence[str], turned: bool, scale: float, faults: _Faults
+) -> Any:
     area = data.get("arena")
     if not isinstance(area, Mapping) or not set(names) <= set(area):
-        faults.say("arena", f"is {show(area)}; it is {{{', '.join(f'{n!r}: [lower, upper]' for n in names)}}}")
+        faults.say(
+            "arena", f"is {show(area)}; it is {{{', '.join(f'{n!r}: [lower, upper]' for n in names)}}}"
+        )
         return None
     spans = [faults.pair(f"arena.{n}", area[n]) for n in names]
     for name, span in zip(names, spans, strict=True):
         if span is not None and span[0] >= span[1]:
-            faults.say(f"arena.{name}", f"is {show(area[name])}; the lower end comes first, and there is room between them")
+            faults.say(
+                f"arena.{name}",
+                f"is {show(area[name])}; the lower end comes first, and there is room between them",
+            )
     first, second = spans
     if first is None or second is None:
         return None
@@ -193,7 +221,9 @@ def _turn(place: tuple[float, float], turned: bool, scale: float) -> tuple[float
     return (-b, -a) if turned else (a, b)
 
 
-def _place(data: Mapping[str, Any], key: str, turned: bool, scale: float, faults: _Faults) -> tuple[float, float] | None:
+def _place(
+    data: Mapping[str, Any], key: str, turned: bool, scale: float, faults: _Faults
+) -> tuple[float, float] | None:
     if data.get(key) is None:
         return None
     found = faults.pair(key, data[key])
@@ -218,7 +248,9 @@ def _things(data: Mapping[str, Any], turned: bool, scale: float, faults: _Faults
             thing = _thing(name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults)
             if thing is not None:
                 (w, h), center = thing.size, _turn(thing.center, turned, scale)
-                yield Thing(name, center, (h * scale, w * scale) if turned else (w * scale, h * scale), thing.color)
+                yield Thing(
+                    name, center, (h * scale, w * scale) if turned else (w * scale, h * scale), thing.color
+                )
 
 
 def make(name: str, center: Any, size: Any, color: Any, scale: float = 1.0) -> Thing:

@@ -20,7 +20,10 @@ def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:
     except (TypeError, ValueError):
         rows = np.zeros((0, 0))
     if rows.ndim != 2 or rows.shape[1] != len(scale) or not len(rows) or not np.isfinite(rows).all():
-        raise WorldError(f"is {show(given)}; it is {len(scale)} finite numbers, or a row of them for each trial", where=what)
+        raise WorldError(
+            f"is {show(given)}; it is {len(scale)} finite numbers, or a row of them for each trial",
+            where=what,
+        )
     return rows * np.asarray(scale)
 
 
@@ -43,7 +46,9 @@ class Places:
         source: where the arena is from.
     """
 
-    def __init__(self, border: tuple[float, float, float, float], unit: str, scale: float, source: str) -> None:
+    def __init__(
+        self, border: tuple[float, float, float, float], unit: str, scale: float, source: str
+    ) -> None:
         self.border, self.unit, self.scale, self.source = border, unit, scale, source
 
     def misplaced(self, rows: np.ndarray, what: str, radius: float, things: Sequence[Thing]) -> list[Problem]:
@@ -54,8 +59,12 @@ class Places:
         for k, row in enumerate(rows):
             x, y = float(row[0]), float(row[1])
             if min(x - left, right - x, y - low, high - y) < radius:
-                span = ", ".join(f"{a / self.scale:g} to {b / self.scale:g}" for a, b in ((left, right), (low, high)))
-                problems.append(self.fault(what, rows, k, f"lies outside the arena, {span} {self.unit}{needs}"))
+                span = ", ".join(
+                    f"{a / self.scale:g} to {b / self.scale:g}" for a, b in ((left, right), (low, high))
+                )
+                problems.append(
+                    self.fault(what, rows, k, f"lies outside the arena, {span} {self.unit}{needs}")
+                )
                 continue
             inside = [t.name for t in things if _distance(t.box, x, y) < max(radius, 1e-12)]
             if inside:
@@ -65,7 +74,9 @@ class Places:
     def fault(self, what: str, rows: np.ndarray, k: int, text: str) -> Problem:
         """The problem of a row."""
         place = what if len(rows) == 1 else f"{what} of trial {k}"
-        return Problem(f"{self.source}: {place}" if self.source else place, f"{self.shown(rows[k % len(rows)])} {text}")
+        return Problem(
+            f"{self.source}: {place}" if self.source else place, f"{self.shown(rows[k % len(rows)])} {text}"
+        )
 
     def shown(self, row: np.ndarray) -> str:
         """A place in a message."""

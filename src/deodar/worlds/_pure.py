@@ -26,19 +26,21 @@ class PureWorld(World):
     """A world whose state is a tree of arrays, and whose step is a function of arrays that JAX can trace.
 
     What the functions see:
-        shared: arrays that are the same for all copies (walls, amplitudes), as `shared` gives them now: they may change while it runs.
-        own: arrays of one copy, as `own` gives them; and under `keys` two words for each name in `noises`, which key its noise.
+        shared: arrays that are the same for all copies (walls, amplitudes), as `shared` gives them now: they
+            may change while it runs.
+        own: arrays of one copy, as `own` gives them; and under `keys` two words for each name in `noises`,
+            which key its noise.
         state: what `start` and `advance` return.
 
-    Noise is drawn as that of elements is (`numerics.noise`), keyed by the seed, the trial and the name: it is the same in every batch, in both
-    precisions, and wherever the world is computed.
+    Noise is drawn as that of elements is (`numerics.noise`), keyed by the seed, the trial and the name: it is
+    the same in every batch, in both precisions, and wherever the world is computed.
     """
 
     noises: tuple[str, ...] = ()
     inside = True
     """Whether batches compute it inside the compiled step; beside it the same run results, more slowly."""
 
-    # -------------------------------------------------------------------------------- what a world writes
+    # ------------------------------------------------------------------------------------ what a world writes
 
     def shared(self) -> dict[str, np.ndarray]:
         """Arrays that all copies share, as they now are."""
@@ -60,7 +62,7 @@ class PureWorld(World):
         """The state one period later, with what every motor was told."""
         raise NotImplementedError
 
-    # -------------------------------------------------------------------------------- computed on the host
+    # ----------------------------------------------------------------------------------- computed on the host
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         self._trials = tuple(trials)
@@ -68,7 +70,9 @@ class PureWorld(World):
         numbers = np.asarray([number(name) for name in self.noises], np.uint32)
         words = self.call("keys", _keys, np.uint32(seed), np.asarray(trials, np.uint32), numbers)
         self._keys = {name: np.asarray(words)[:, k] for k, name in enumerate(self.noises)}
-        self._state: Tree = self.call("start", lambda world: jax.vmap(world.start, in_axes=(None, 0)), *self._values())
+        self._state: Tree = self.call(
+            "start", lambda world: jax.vmap(world.start, in_axes=(None, 0)), *self._values()
+        )
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
@@ -85,9 +89,19 @@ class PureWorld(World):
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
         shared, own, state = *self._values(), self._now()
         copies = len(self._trials)
-        told = {name: motors.get(name, np.zeros((copies, *(signal.shape or ())))) for name, signal in self.motors.items()}
+        told = {
+            name: motors.get(name, np.zeros((copies, *(signal.shape or ()))))
+            for name, signal in self.motors.items()
+        }
         told = {name: np.asarray(value, self._dtype) for name, value in told.items()}
-        self._state = self.call("advance", lambda world: jax.vmap(world.advance, in_axes=(None, 0, 0, 0)), shared, own, state, told)
+        self._state = self.call(
+            "advance",
+            lambda world: jax.vmap(world.advance, in_axes=(None, 0, 0, 0)),
+            shared,
+            own,
+            state,
+            told,
+        )
 
     def keep(self) -> Any:
         return jax.tree.map(np.asarray, self._now())
@@ -97,7 +111,9 @@ class PureWorld(World):
             self._state = kept
 
     def structure(self) -> Hashable:
-        """All that the functions use of the object itself: worlds that agree in it share compiled programs."""
+        """All that the functions use of the object itself: worlds that agree in it share compiled
+        programs.
+        """
         return id(self)
 
     def parts(self) -> tuple[Tree, Tree, Tree]:
@@ -118,10 +134,13 @@ class PureWorld(World):
         return array.astype(self._dtype) if array.dtype.kind == "f" else array
 
     def call(self, name: Hashable, make: Callable[[Any], Callable[..., Any]], *args: Any) -> Any:
-        """Run a function of this world compiled, in the precision of the model. Worlds of one structure share it.
+        """Run a function of this world compiled, in the precision of the model.
+
+        Worlds of one structure share it.
 
         Args:
-            name: what tells this function from others of the world; all that it uses beside the world and `args` is part of it.
+            name: what tells this function from others of the world; all that it uses beside the world and
+                `args` is part of it.
             make: gives the function of a world.
             args: its arguments.
         """
@@ -153,5 +172,7 @@ def _keys(_: Any) -> Callable[..., Any]:
 
 
 def number(name: str) -> int:
-    """The number that keys a noise of a world; elements are numbered by hashes of their paths, so that none has the same."""
+    """The number that keys a noise of a world; elements are numbered by hashes of their paths, so that none
+    has the same.
+    """
     return int.from_bytes(hashlib.blake2b(f"world: {name}".encode(), digest_size=4).digest(), "big")

@@ -18,7 +18,8 @@ MOST_CELLS = 4_000_000
 class Room:
     """The places of a layout where the middle of a disc may be, on a grid.
 
-    The grid errs towards room: a gap that is a cell too narrow passes for one, so that what is called out of reach certainly is.
+    The grid errs towards room: a gap that is a cell too narrow passes for one, so that what is called out of
+    reach certainly is.
     """
 
     def __init__(self, layout: Layout, radius: float, boxes: np.ndarray) -> None:
@@ -31,7 +32,9 @@ class Room:
         self._labels: np.ndarray | None = None
 
     def gaps(self, x: Any, y: Any) -> np.ndarray:
-        """For places the gap between a disc there and the nearest thing or the border; negative where it does not fit."""
+        """For places the gap between a disc there and the nearest thing or the border; negative where it does
+        not fit.
+        """
         left, low, right, high = self.border
         gap = np.minimum(np.minimum(x - left, right - x), np.minimum(y - low, high - y))
         for x0, y0, x1, y1 in self.boxes:
@@ -40,7 +43,9 @@ class Room:
         return np.asarray(gap - self.radius)
 
     def near_middle(self) -> tuple[float, float] | None:
-        """The place nearest the middle of the arena where the disc stands free by half its radius (else: free at all); None: nowhere."""
+        """The place nearest the middle of the arena where the disc stands free by half its radius (else: free
+        at all); None: nowhere.
+        """
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         left, low, right, high = self.border
         far = (x - (left + right) / 2) ** 2 + (y - (low + high) / 2) ** 2

@@ -16,7 +16,9 @@ TOUCH = 1e-5
 
 @dataclass(frozen=True)
 class Box:
-    """Something solid that stands parallel to both axes: its middle, its size, its colour (red, green, blue, 0 to 1); `fixed`: no hand moves it."""
+    """Something solid that stands parallel to both axes: its middle, its size, its colour (red, green, blue,
+    0 to 1); `fixed`: no hand moves it.
+    """
 
     name: str
     center: tuple[float, float]
@@ -26,7 +28,10 @@ class Box:
 
     def gap(self, x: float, y: float) -> float:
         """How far a place lies from it; 0 inside."""
-        return math.hypot(max(abs(x - self.center[0]) - self.size[0] / 2, 0.0), max(abs(y - self.center[1]) - self.size[1] / 2, 0.0))
+        return math.hypot(
+            max(abs(x - self.center[0]) - self.size[0] / 2, 0.0),
+            max(abs(y - self.center[1]) - self.size[1] / 2, 0.0),
+        )
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,9 @@ class Mark:
 
 @dataclass(frozen=True)
 class Body:
-    """Something round that moves by itself: its middle, where it looks (rad; 0 along x, counter-clockwise), its radius."""
+    """Something round that moves by itself: its middle, where it looks (rad; 0 along x, counter-clockwise),
+    its radius.
+    """
 
     name: str
     center: tuple[float, float]
@@ -74,8 +81,8 @@ class Scene:
         return things[name]
 
     def require_room(self, name: str, center: Sequence[float], size: Sequence[float] | None = None) -> None:
-        """Refuse a place where something of that name does not fit: with its middle beyond the border or inside a box, or (with a size) on a body or
-        a mark.
+        """Refuse a place where something of that name does not fit: with its middle beyond the border or
+        inside a box, or (with a size) on a body or a mark.
         """
         x, y = pair(f"{name}.center", center)
         left, low, right, high = self.border
@@ -88,7 +95,10 @@ class Scene:
                 raise WorldError(f"{at} lies inside {box.name!r}", where=name)
         if size is None:
             return
-        here, slack = Box(name, (x, y), pair(f"{name}.size", size), (0, 0, 0)), TOUCH * max(right - left, high - low)
+        here, slack = (
+            Box(name, (x, y), pair(f"{name}.size", size), (0, 0, 0)),
+            TOUCH * max(right - left, high - low),
+        )
         for other, radius in (*((b, b.radius) for b in self.bodies), *((m, 0.0) for m in self.marks)):
             if other.name != name and here.gap(*other.center) < max(radius - slack, slack):
                 raise WorldError(f"at {at} it would stand on {other.name!r}", where=name)

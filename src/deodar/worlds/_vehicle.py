@@ -1,4 +1,6 @@
-"""A round vehicle with two wheels: what it is made of, and how its wheels move it, as pure functions of one copy."""
+"""A round vehicle with two wheels: what it is made of, and how its wheels move it, as pure functions of one
+copy.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,8 @@ class Infrared:
         forward: how far each sensor stands in front of the axle, m.
         left: how far it stands to the left of the middle, m.
         angles: where it looks, rad, counter-clockwise from straight ahead.
-        distances: distances at which the reading is known, m, rising; beyond the last one it stays what it is there.
+        distances: distances at which the reading is known, m, rising; beyond the last one it stays what it is
+            there.
         readings: reading at those distances, without unit.
         noise: standard deviation there, as a share of the reading.
     """
@@ -64,11 +67,13 @@ class Vehicle:
 
 
 def drive(vehicle: Vehicle, heading: Any, steps: Any) -> tuple[Any, Any]:
-    """Where the wheels take the axle: displacement (2,) in m and turn in rad, for motor steps (left, right) at constant speed.
+    """Where the wheels take the axle: displacement (2,) in m and turn in rad, for motor steps (left, right)
+    at constant speed.
 
     The axle runs on a circle; the displacement is its chord, exact for a turn of any size::
 
-        turn = (right - left) / axle,  chord = (left + right) / 2 * sin(turn / 2) / (turn / 2), at heading + turn / 2
+        turn = (right - left) / axle,
+        chord = (left + right) / 2 * sin(turn / 2) / (turn / 2), at heading + turn / 2
 
     Reference:
         Siegwart, Nourbakhsh & Scaramuzza (2011), Introduction to autonomous mobile robots, section 5.2.4.

@@ -15,7 +15,8 @@ OUTSIDE = (0.25, 0.25, 0.25)
 
 
 def sides(axes: Axes, boxes: Any, scale: float) -> tuple[Any, Any]:
-    """For each box and each of two axes, the share (boxes, samples) of the sample's cell that the box covers along it.
+    """For each box and each of two axes, the share (boxes, samples) of the sample's cell that the box covers
+    along it.
 
     The share of a cell of the plane that a box covers is the product of both.
 
@@ -25,7 +26,10 @@ def sides(axes: Axes, boxes: Any, scale: float) -> tuple[Any, Any]:
         scale: metres in a unit of axes that name no unit of length of their own.
     """
     across = 0 if axes[1].name != "x" else 1
-    one, other = (_along(axes[d], boxes[:, k], boxes[:, k + 2], UNITS.get(axes[d].unit, scale)) for d, k in ((0, across), (1, 1 - across)))
+    one, other = (
+        _along(axes[d], boxes[:, k], boxes[:, k + 2], UNITS.get(axes[d].unit, scale))
+        for d, k in ((0, across), (1, 1 - across))
+    )
     return one, other
 
 
@@ -49,4 +53,6 @@ def require_plane(sensor: str, axes: Axes, channels: bool) -> None:
     wanted = 3 if channels else 2
     if len(axes) != wanted or (channels and axes[2].samples != 3):
         more = " and three channels" if channels else ""
-        raise WorldError(f"is seen over two dimensions{more}, not over {[a.samples for a in axes]} samples", where=sensor)
+        raise WorldError(
+            f"is seen over two dimensions{more}, not over {[a.samples for a in axes]} samples", where=sensor
+        )

@@ -42,14 +42,26 @@ WRAP = 2.0**15
 def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
     """The sensors of a vehicle in an arena."""
     out = {
-        "infrared": Signal("infrared sensors, from the right of the front clockwise; large when near", (vehicle.infrared.count,), each=True),
+        "infrared": Signal(
+            "infrared sensors, from the right of the front clockwise; large when near",
+            (vehicle.infrared.count,),
+            each=True,
+        ),
         "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True),
         "heading": Signal("where it looks; 0 along x, counter-clockwise", (), "rad", each=True),
-        "pose": Signal("true x, y and heading, for records and figures", (3,), f"{unit}, {unit}, rad", each=True),
+        "pose": Signal(
+            "true x, y and heading, for records and figures", (3,), f"{unit}, {unit}, rad", each=True
+        ),
         "encoders": Signal("motor steps that the left and the right wheel counted", (2,), "step", each=True),
         "touching": Signal("1 while it touches something, else 0", (), each=True),
-        "obstacles": Signal("over two dimensions: the share of a sample's cell that something stands on, or that lies outside", each=True),
-        "above": Signal("the arena from above without the vehicle; the last axis is red, green, blue", each=True),
+        "obstacles": Signal(
+            "over two dimensions: the share of a sample's cell that something stands on, or that lies"
+            " outside",
+            each=True,
+        ),
+        "above": Signal(
+            "the arena from above without the vehicle; the last axis is red, green, blue", each=True
+        ),
     }
     return out | {"goal": Signal("x and y of the goal", (2,), unit, each=True)} if goal else out
 
@@ -71,15 +83,18 @@ class Arena(PureWorld):
         \mathrm{place} = \text{true place} + \mathrm{place\_noise}\, \xi
 
     Parameters:
-        layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME in a file of several, or a dictionary.
-        start: x, y and heading (rad), or a row of these for each trial; none: the file's, else the free place nearest the middle.
+        layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME in a file
+            of several, or a dictionary.
+        start: x, y and heading (rad), or a row of these for each trial; none: the file's, else the free place
+            nearest the middle.
         goal: x and y, or a row for each trial; none: the file's.
         unit: of all lengths that are given or read: m, cm or mm.
         vehicle: what drives in it; by default an e-puck.
         period: ms between two exchanges with the model.
         contact: `slide` along what is touched, or `stick` to it.
-        reflection: how well things reflect infrared: they are read as if they stood at their distance divided by it. 0.6 is a fit: with 1 the
-            published planner stops at the gaps of 10 cm of its large maze, which it passed.
+        reflection: how well things reflect infrared: they are read as if they stood at their distance divided
+            by it. 0.6 is a fit: with 1 the published planner stops at the gaps of 10 cm of its large maze,
+            which it passed.
         place_noise: standard deviation of the place sense, in `unit`.
         place_every: periods for which a reading of the place is held.
         infrared_noise: factor on the noise of the infrared sensors; 0 silences it.
@@ -87,11 +102,13 @@ class Arena(PureWorld):
         encoder_noise: standard deviation of what an encoder counts in a period, as a share of it.
 
     Shapes:
-        `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and `above` are sampled over the model's axes,
-        x the one called x, else the first. The file's plane x,z (y up) is turned so that x here is -z, y here -x, and heading 0 looks along -z.
+        `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and
+        `above` are sampled over the model's axes, x the one called x, else the first. The file's plane x,z (y
+        up) is turned so that x here is -z, y here -x, and heading 0 looks along -z.
 
     Reference:
-        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4 and its published simulator; Mondada et al. (2009), the e-puck.
+        Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4 and its published simulator;
+        Mondada et al. (2009), the e-puck.
     """
 
     sensors: Mapping[str, Signal] = signals(EPUCK, "m", True)
@@ -126,20 +143,39 @@ class Arena(PureWorld):
         self.period = _number("period", period, above=0.0)
         self.reflection = _number("reflection", reflection, above=0.0)
         if isinstance(place_every, bool) or not isinstance(place_every, (int, np.integer)) or place_every < 1:
-            raise WorldError(f"place_every is {show(place_every)}; it is a whole number of periods, at least 1")
+            raise WorldError(
+                f"place_every is {show(place_every)}; it is a whole number of periods, at least 1"
+            )
         self.place_every = int(place_every)
-        given = {"place_noise": place_noise, "infrared_noise": infrared_noise, "slip": slip, "encoder_noise": encoder_noise}
+        given = {
+            "place_noise": place_noise,
+            "infrared_noise": infrared_noise,
+            "slip": slip,
+            "encoder_noise": encoder_noise,
+        }
         self.noise = {name: _number(name, value) for name, value in given.items()}
         self.source = "" if isinstance(layout, Mapping) else str(layout)
         self.furniture = Furniture(self.layout, self.period)
         self.places = Places(self.layout.border, unit, self.scale, self.source)
         first, where = self.layout.start, self.layout.goal
-        self.goals = rows_of("goal", goal, [self.scale] * 2) if goal is not None else None if where is None else np.asarray([where])
-        wanted = rows_of("start", start, [self.scale, self.scale, 1.0]) if start is not None else None if first is None else np.asarray([first])
+        self.goals = (
+            rows_of("goal", goal, [self.scale] * 2)
+            if goal is not None
+            else None
+            if where is None
+            else np.asarray([where])
+        )
+        wanted = (
+            rows_of("start", start, [self.scale, self.scale, 1.0])
+            if start is not None
+            else None
+            if first is None
+            else np.asarray([first])
+        )
         self.starts = self._settled(wanted)
         self.sensors = signals(vehicle, unit, self.goals is not None)
 
-    # -------------------------------------------------------------------------------- things, also while it runs
+    # ----------------------------------------------------------------------------- things, also while it runs
 
     def place(
         self,
@@ -149,20 +185,26 @@ class Arena(PureWorld):
         color: Sequence[float] = (0.72, 0.53, 0.3),
         windows: Sequence[float] | np.ndarray | None = None,
     ) -> None:
-        """Put a thing into the arena, or another one in the place of one of that name; it is there from the next period on.
+        """Put a thing into the arena, or another one in the place of one of that name; it is there from the
+        next period on.
 
         Args:
             name: what it is called.
             center: x and y of its middle.
             size: along x and y.
             color: red, green and blue, 0 to 1.
-            windows: (start, stop) in ms of the time of the run between which it stands, or a row for each trial; none: from now on.
+            windows: (start, stop) in ms of the time of the run between which it stands, or a row for each
+                trial; none: from now on.
         """
         self.furniture.place(make(name, center, size, color, self.scale), windows)
 
     def move(self, name: str, center: Sequence[float]) -> None:
         """Put a thing elsewhere: x and y of its middle. What is called `goal` and is no thing is the goal."""
-        if name == GOAL and self.goals is not None and name not in [t.name for t in self.furniture.things if t is not None]:
+        if (
+            name == GOAL
+            and self.goals is not None
+            and name not in [t.name for t in self.furniture.things if t is not None]
+        ):
             self.aim(center)
         else:
             self.furniture.move(name, center, self.scale)
@@ -172,7 +214,10 @@ class Arena(PureWorld):
         self.furniture.remove(name)
 
     def aim(self, goal: Sequence[float]) -> None:
-        """Put the goal elsewhere, for all copies: x and y. Refused inside a thing, outside the arena, and where the arena had no goal."""
+        """Put the goal elsewhere, for all copies: x and y.
+
+        Refused inside a thing, outside the arena, and where the arena had no goal.
+        """
         if self.goals is None:
             raise WorldError("the arena has no goal to move", fix="Give it one: Arena(..., goal=(x, y))")
         goals = rows_of("goal", goal, [self.scale] * 2)
@@ -190,41 +235,90 @@ class Arena(PureWorld):
         self.furniture, self.goals = kept
 
     def scene(self) -> Scene:
-        """The arena from above, in its unit: what stands in it now for the first copy, its goals, and the vehicle of each copy once it has begun."""
+        """The arena from above, in its unit: what stands in it now for the first copy, its goals, and the
+        vehicle of each copy once it has begun.
+        """
         state, trials = (self._now(), self._trials) if hasattr(self, "_state") else (None, (0,))
         now = 0 if state is None else int(np.asarray(state["tick"])[0])
         scale, k = self.scale, trials[0]
         standing = self.furniture.there(now, k)
-        boxes = tuple(Box(t.name, (t.center[0] / scale, t.center[1] / scale), (t.size[0] / scale, t.size[1] / scale), t.color) for t in standing)
+        boxes = tuple(
+            Box(
+                t.name,
+                (t.center[0] / scale, t.center[1] / scale),
+                (t.size[0] / scale, t.size[1] / scale),
+                t.color,
+            )
+            for t in standing
+        )
         goals = () if self.goals is None else tuple((float(x), float(y)) for x, y in self.goals / scale)
-        marks = tuple(Mark(GOAL if len(goals) == 1 else f"{GOAL} {n}", goal, len(goals) > 1) for n, goal in enumerate(goals))
+        marks = tuple(
+            Mark(GOAL if len(goals) == 1 else f"{GOAL} {n}", goal, len(goals) > 1)
+            for n, goal in enumerate(goals)
+        )
         bodies: list[Body] = []
         if state is not None:
-            places, headings, name = np.asarray(state["position"]) / scale, np.asarray(state["heading"]), self.vehicle.name
+            places, headings, name = (
+                np.asarray(state["position"]) / scale,
+                np.asarray(state["heading"]),
+                self.vehicle.name,
+            )
             for n, trial in enumerate(trials):
                 called = name if len(trials) == 1 else f"{name} {trial}"
-                bodies.append(Body(called, (float(places[n, 0]), float(places[n, 1])), float(headings[n]), self.vehicle.radius / scale))
+                bodies.append(
+                    Body(
+                        called,
+                        (float(places[n, 0]), float(places[n, 1])),
+                        float(headings[n]),
+                        self.vehicle.radius / scale,
+                    )
+                )
         border = self.layout.border
-        return Scene(self.unit, (border[0] / scale, border[1] / scale, border[2] / scale, border[3] / scale), boxes, marks, tuple(bodies))
+        return Scene(
+            self.unit,
+            (border[0] / scale, border[1] / scale, border[2] / scale, border[3] / scale),
+            boxes,
+            marks,
+            tuple(bodies),
+        )
 
-    # -------------------------------------------------------------------------------- arrays
+    # ------------------------------------------------------------------------------------------------- arrays
 
     def shared(self) -> dict[str, np.ndarray]:
-        numbers = {name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()}
+        numbers = {
+            name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()
+        }
         return {"boxes": self.furniture.boxes(), "colours": self.furniture.colours(), **numbers}
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         goals = np.zeros((1, 2)) if self.goals is None else self.goals
-        return {"start": of(trials, self.starts, "start"), "goal": of(trials, goals, "goal"), "windows": self.furniture.times(trials)}
+        return {
+            "start": of(trials, self.starts, "start"),
+            "goal": of(trials, goals, "goal"),
+            "windows": self.furniture.times(trials),
+        }
 
     def structure(self) -> Hashable:
-        return (self.vehicle, self.period, self.contact, self.place_every, self.scale, len(self.furniture.things), self.goals is not None)
+        return (
+            self.vehicle,
+            self.period,
+            self.contact,
+            self.place_every,
+            self.scale,
+            len(self.furniture.things),
+            self.goals is not None,
+        )
 
-    # -------------------------------------------------------------------------------- one copy
+    # ----------------------------------------------------------------------------------------------- one copy
 
     def start(self, shared: Tree, own: Tree) -> Tree:
         zero = jnp.zeros((), shared["boxes"].dtype)
-        state = {"position": own["start"][:2], "heading": wrapped(own["start"][2]), "encoders": jnp.stack([zero, zero]), "touching": zero}
+        state = {
+            "position": own["start"][:2],
+            "heading": wrapped(own["start"][2]),
+            "encoders": jnp.stack([zero, zero]),
+            "touching": zero,
+        }
         tick = jnp.uint32(0)
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
 
@@ -235,7 +329,14 @@ class Arena(PureWorld):
         ordered = limited(self.vehicle, motors["left"], motors["right"]) * (self.period / 1000)
         rolled = ordered * (1 + shared["slip"] * deviates["slip"][:2])
         way, turn = drive(self.vehicle, state["heading"], rolled)
-        position, touched = move(state["position"], way, boxes, _there(own, state["tick"]), self.vehicle.radius, self.contact == "stick")
+        position, touched = move(
+            state["position"],
+            way,
+            boxes,
+            _there(own, state["tick"]),
+            self.vehicle.radius,
+            self.contact == "stick",
+        )
         counted = state["encoders"] + rolled * (1 + shared["encoder_noise"] * deviates["encoders"][:2])
         new = {
             "position": position,
@@ -246,15 +347,26 @@ class Arena(PureWorld):
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
     def _deviates(self, own: Tree, tick: Any, dtype: Any) -> dict[str, Any]:
-        """Standard normal deviates of a period for each noise, as many as the largest needs: one graph for all compiles faster."""
+        """Standard normal deviates of a period for each noise, as many as the largest needs: one graph for
+        all compiles faster.
+        """
         keys = jnp.stack([own["keys"][name] for name in self.noises])
         drawn = jax.vmap(lambda key: normal((max(2, self.vehicle.infrared.count),), key, tick, dtype))(keys)
         return dict(zip(self.noises, drawn, strict=True))
 
-    def _sensed(self, shared: Tree, own: Tree, body: Tree, tick: Any, deviates: Mapping[str, Any], held: Any) -> Tree:
+    def _sensed(
+        self, shared: Tree, own: Tree, body: Tree, tick: Any, deviates: Mapping[str, Any], held: Any
+    ) -> Tree:
         """The state with what the noisy sensors read in it, so that one period has one reading."""
         boxes = shared["boxes"]
-        seen = distances(self.vehicle.infrared, body["position"], body["heading"], boxes, _there(own, tick), shared["reflection"])
+        seen = distances(
+            self.vehicle.infrared,
+            body["position"],
+            body["heading"],
+            boxes,
+            _there(own, tick),
+            shared["reflection"],
+        )
         place = body["position"] + self.scale * shared["place_noise"] * deviates["place"][:2]
         fresh = tick % jnp.uint32(self.place_every) == 0
         factor = shared["infrared_noise"] * deviates["infrared"][: self.vehicle.infrared.count]
@@ -282,7 +394,11 @@ class Arena(PureWorld):
         if starts is None:
             found = room.near_middle()
             if found is None:
-                raise WorldError(f"the {self.vehicle.name} fits nowhere: it is {2 * radius / self.scale:g} {self.unit} wide", where=self.source)
+                raise WorldError(
+                    f"the {self.vehicle.name} fits nowhere: it is {2 * radius / self.scale:g} {self.unit}"
+                    " wide",
+                    where=self.source,
+                )
             starts = np.asarray([(*found, 0.0)])
         problems = self.places.misplaced(starts, "start", radius, standing)
         if self.goals is not None:
@@ -290,17 +406,28 @@ class Arena(PureWorld):
             for k in range(0 if problems else max(len(starts), len(self.goals))):
                 start, goal = starts[k % len(starts)], self.goals[k % len(self.goals)]
                 if not room.joined(start[:2], goal):
-                    problems.append(self.places.fault("goal", self.goals, k, f"is out of reach from {self.places.shown(start)}"))
+                    problems.append(
+                        self.places.fault(
+                            "goal", self.goals, k, f"is out of reach from {self.places.shown(start)}"
+                        )
+                    )
         if problems:
             raise WorldError(problems)
         return starts
 
-    # -------------------------------------------------------------------------------- records
+    # ------------------------------------------------------------------------------------------------ records
 
     def describe(self) -> dict[str, Any]:
-        settings: dict[str, Any] = {"unit": self.unit, "vehicle": self.vehicle.name, "period": self.period, "contact": self.contact}
+        settings: dict[str, Any] = {
+            "unit": self.unit,
+            "vehicle": self.vehicle.name,
+            "period": self.period,
+            "contact": self.contact,
+        }
         said: dict[str, Any] = {
-            "settings": settings | {"reflection": self.reflection, "place_every": self.place_every, **self.noise},
+            "settings": (
+                settings | {"reflection": self.reflection, "place_every": self.place_every, **self.noise}
+            ),
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
             "layout": self.layout.to_data(),
@@ -346,5 +473,8 @@ def _there(own: Tree, tick: Any) -> Any:
 def _number(name: str, given: Any, above: float | None = None) -> float:
     value = real(given)
     if value is None or not math.isfinite(value) or value < 0 or (above is not None and value <= above):
-        raise WorldError(f"{name} is {show(given)}; it is a finite number, {'above 0' if above is not None else '0 or above'}")
+        raise WorldError(
+            f"{name} is {show(given)}; it is a finite number,"
+            f" {'above 0' if above is not None else '0 or above'}"
+        )
     return float(value)

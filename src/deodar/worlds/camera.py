@@ -19,7 +19,8 @@ from deodar.worlds._image import PICTURE, frame, sampled
 
 @register
 class Camera(World):
-    r"""What a camera sees now: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+    r"""What a camera sees now: one sensor, `picture`, over two dimensions and the channels red, green and
+    blue.
 
     Values are means of the newest picture, 0 to 1. The camera runs by the wall clock: pace the model to it
     (`session.run_live`). A run in it cannot be repeated; record what the sensor shows, and replay that
@@ -46,7 +47,9 @@ class Camera(World):
     def __init__(self, number: int | str = 0, period: float = 40.0, patience: float = 3.0) -> None:
         known = isinstance(number, (int, np.integer)) and not isinstance(number, bool) and number >= 0
         if not known and not (isinstance(number, str) and number):
-            raise WorldError(f"the number of a camera is {show(number)}; it is a whole number, 0 for the first")
+            raise WorldError(
+                f"the number of a camera is {show(number)}; it is a whole number, 0 for the first"
+            )
         for name, given in (("period", period), ("patience", patience)):
             value = real(given)
             if value is None or not 0 < value < math.inf:
@@ -77,7 +80,12 @@ class Camera(World):
         return frame(self._open().size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Any]:
-        return {"world": "Camera", "number": self.number, "size": list(self._open().size), "period": self.period}
+        return {
+            "world": "Camera",
+            "number": self.number,
+            "size": list(self._open().size),
+            "period": self.period,
+        }
 
     @classmethod
     def open(cls, argument: str) -> Camera:
@@ -85,7 +93,10 @@ class Camera(World):
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Camera:
-        raise WorldError("what a camera saw is gone", fix="Record what the sensor shows, and replay that: --world recording:RECORD")
+        raise WorldError(
+            "what a camera saw is gone",
+            fix="Record what the sensor shows, and replay that: --world recording:RECORD",
+        )
 
     def _open(self) -> _capture.Eye:
         if self._eye is None:

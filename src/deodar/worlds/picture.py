@@ -24,7 +24,8 @@ MOST_PIXELS = 100_000_000
 
 @register
 class Picture(World):
-    r"""A photograph that stands still: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+    r"""A photograph that stands still: one sensor, `picture`, over two dimensions and the channels red, green
+    and blue.
 
     Values are 0 to 1, and 0 beside the picture. The picture keeps its shape: it fills the longer side of
     the axes' area and lies in the middle of the other.
@@ -33,7 +34,8 @@ class Picture(World):
         y(x, y, c) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
-        file: path of a picture file that Pillow can read, or an array (height, width, 3), values 0 to 255 or 0 to 1.
+        file: path of a picture file that Pillow can read, or an array (height, width, 3), values 0 to 255 or
+            0 to 1.
 
     Shapes:
         x runs over columns from the left, y over rows from the top.
@@ -97,16 +99,25 @@ def _read(path: Path) -> np.ndarray:
     from PIL import Image, UnidentifiedImageError
 
     if not os.path.isfile(path):
-        raise WorldError("there is no such picture", where=str(path), fix="Name a file that Pillow can read, such as a .jpg or .png")
+        raise WorldError(
+            "there is no such picture",
+            where=str(path),
+            fix="Name a file that Pillow can read, such as a .jpg or .png",
+        )
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # the bound below is ours
             opened = Image.open(path)
         with opened as picture:
             if picture.width * picture.height > MOST_PIXELS:
-                raise WorldError(f"has {picture.width} x {picture.height} pixels; at most {MOST_PIXELS} are read", where=str(path))
+                raise WorldError(
+                    f"has {picture.width} x {picture.height} pixels; at most {MOST_PIXELS} are read",
+                    where=str(path),
+                )
             return _array(np.asarray(picture.convert("RGB")))
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
-        raise WorldError(f"cannot be read as a picture ({type(error).__name__}: {error})", where=str(path)) from None
+        raise WorldError(
+            f"cannot be read as a picture ({type(error).__name__}: {error})", where=str(path)
+        ) from None
     except Image.DecompressionBombError:
         raise WorldError("has too many pixels", where=str(path)) from None

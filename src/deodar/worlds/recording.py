@@ -36,18 +36,26 @@ class Recording(World):
         file: where it was read from; "" where it was not.
 
     Shapes:
-        Each sensor has the axes it was recorded over. Where trials were recorded, each copy of a model reads its own trial.
+        Each sensor has the axes it was recorded over. Where trials were recorded, each copy of a model reads
+        its own trial.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.2 (recorded input in the place of sensors).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.2 (recorded input in the
+        place of sensors).
     """
 
     def __init__(self, record: xarray.Dataset, file: str = "") -> None:
         if not isinstance(record, xarray.Dataset) or "time" not in record.dims:
-            raise WorldError("is no record of a run", where=file, fix="Give what simulate returned, or name a record: --world recording:run.zarr")
+            raise WorldError(
+                "is no record of a run",
+                where=file,
+                fix="Give what simulate returned, or name a record: --world recording:run.zarr",
+            )
         self.file = file
         elements = _elements(record, file)
-        self.times = np.asarray(record["time"].values, float) * _unit(str(record["time"].attrs.get("units", "ms")))
+        self.times = np.asarray(record["time"].values, float) * _unit(
+            str(record["time"].attrs.get("units", "ms"))
+        )
         if not len(self.times):
             raise WorldError("holds no time: its run was stopped before the first record", where=file)
         self.numbers = record["trial"].values.tolist() if "trial" in record.dims else None
@@ -58,17 +66,31 @@ class Recording(World):
             if element.get("kind") != "Sensor" or name not in record:
                 continue
             variable, sensor = record[name], str(element.get("sensor", "picture"))
-            strange = [str(d) for d in variable.dims if d not in ("trial", "time") and d in record.coords and "lower" not in record[d].attrs]
+            strange = [
+                str(d)
+                for d in variable.dims
+                if d not in ("trial", "time") and d in record.coords and "lower" not in record[d].attrs
+            ]
             if strange:
-                raise WorldError(f"was swept over {', '.join(strange)}", where=name, fix="Replay one point: record.sel({...})")
+                raise WorldError(
+                    f"was swept over {', '.join(strange)}",
+                    where=name,
+                    fix="Replay one point: record.sel({...})",
+                )
             lead = [d for d in ("trial", "time") if d in variable.dims]
             values = variable.transpose(*lead, ...).values
             self._readings[sensor] = values
-            sensors[sensor] = Signal(f"what {path} showed", values.shape[len(lead) :], each=self.numbers is not None)
+            sensors[sensor] = Signal(
+                f"what {path} showed", values.shape[len(lead) :], each=self.numbers is not None
+            )
         if not sensors:
-            raise WorldError("holds the output of no sensor", where=file, fix="Record it: record=['eye.output', ...]")
+            raise WorldError(
+                "holds the output of no sensor", where=file, fix="Record it: record=['eye.output', ...]"
+            )
         self.sensors = sensors
-        motors = {path: str(e.get("motor", "left")) for path, e in elements.items() if e.get("kind") == "Motor"}
+        motors = {
+            path: str(e.get("motor", "left")) for path, e in elements.items() if e.get("kind") == "Motor"
+        }
         self.motors = {name: Signal(f"taken from {path}, and does nothing") for path, name in motors.items()}
         self.period = float(np.diff(self.times).min()) if len(self.times) > 1 else None
         self._copies: list[int] = []
@@ -78,14 +100,19 @@ class Recording(World):
             missing = [t for t in trials if t not in self.numbers]
             if missing:
                 shown = ", ".join(map(str, self.numbers[:8])) + (", ..." if len(self.numbers) > 8 else "")
-                raise WorldError(f"holds no trial {missing[0]}", where=self.file or "the record", fix=f"There is: {shown}")
+                raise WorldError(
+                    f"holds no trial {missing[0]}", where=self.file or "the record", fix=f"There is: {shown}"
+                )
             self._copies = [self.numbers.index(t) for t in trials]
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
         gap = self.period or 1.0
         if time >= self.times[-1] + gap * (1 - NEAR):
-            raise WorldError(f"ends at {self.times[-1]:g} ms, and the run goes on to {time:g} ms", where=self.file or "the record")
+            raise WorldError(
+                f"ends at {self.times[-1]:g} ms, and the run goes on to {time:g} ms",
+                where=self.file or "the record",
+            )
         k = max(0, int(np.searchsorted(self.times, time + gap * NEAR, side="right")) - 1)
         values = self._readings[sensor]
         return values[self._copies, k] if self.numbers is not None else values[k]
@@ -94,14 +121,23 @@ class Recording(World):
         digest = hashlib.sha256(self.times.tobytes())
         for sensor in sorted(self._readings):
             digest.update(sensor.encode() + self._readings[sensor].tobytes())
-        return {"world": "Recording", "file": self.file, "sensors": sorted(self._readings), "sha256": digest.hexdigest()}
+        return {
+            "world": "Recording",
+            "file": self.file,
+            "sensors": sorted(self._readings),
+            "sha256": digest.hexdigest(),
+        }
 
     @classmethod
     def example(cls) -> Recording:
         """Four readings of one sensor, in two trials."""
         x, shown = Axis("x", 0, 4, 5), np.arange(200.0, dtype=np.float32).reshape(2, 20, 5)
         elements = {"eye": {"kind": "Sensor", "sensor": "light"}, "leg": {"kind": "Motor", "motor": "left"}}
-        coords: dict[str, Any] = {"trial": [0, 5], "time": ("time", np.arange(20) * 4.0, {"units": "ms"}), "x": ("x", x.points, {"lower": 0.0})}
+        coords: dict[str, Any] = {
+            "trial": [0, 5],
+            "time": ("time", np.arange(20) * 4.0, {"units": "ms"}),
+            "x": ("x", x.points, {"lower": 0.0}),
+        }
         about = {"deodar": json.dumps({"document": {"elements": elements}})}
         return cls(xarray.Dataset({"eye.output": (("trial", "time", "x"), shown)}, coords, about))
 
@@ -114,7 +150,9 @@ def _elements(record: xarray.Dataset, file: str) -> Mapping[str, Mapping[str, An
     try:
         return json.loads(record.attrs["deodar"])["document"]["elements"]
     except (KeyError, TypeError, ValueError):
-        raise WorldError("does not say what made it, so its sensors are not known", where=file or "the record") from None
+        raise WorldError(
+            "does not say what made it, so its sensors are not known", where=file or "the record"
+        ) from None
 
 
 def _unit(text: str) -> float:

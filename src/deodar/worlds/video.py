@@ -21,7 +21,8 @@ from deodar.worlds._image import PICTURE, frame, sampled
 
 @register
 class Video(World):
-    r"""A film that runs with the time of the model: one sensor, `picture`, over two dimensions and the channels red, green and blue.
+    r"""A film that runs with the time of the model: one sensor, `picture`, over two dimensions and the
+    channels red, green and blue.
 
     Values are means of the picture that the video shows at t, 0 to 1. After its end it shows its last
     picture, or begins again.
@@ -38,7 +39,8 @@ class Video(World):
         x runs over columns from the left, y over rows from the top.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1 (camera images as input).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1 (camera images as
+        input).
     """
 
     sensors: Mapping[str, Signal] = {"picture": PICTURE}
@@ -68,7 +70,13 @@ class Video(World):
         return frame(self.size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Any]:
-        said = {"world": "Video", "file": self.name, "size": list(self.size), "period": self.period, "loop": self.loop}
+        said = {
+            "world": "Video",
+            "file": self.name,
+            "size": list(self.size),
+            "period": self.period,
+            "loop": self.loop,
+        }
         with open(self.name, "rb") as file:
             return {**said, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
 
@@ -82,7 +90,9 @@ class Video(World):
 
     @classmethod
     def example(cls) -> Video:
-        """A red square that crosses a grey ground in a second; written anew into the folder of temporary files."""
+        """A red square that crosses a grey ground in a second; written anew into the folder of temporary
+        files.
+        """
         return cls(_capture.example(), loop=True)
 
     @staticmethod

@@ -1,4 +1,5 @@
-"""A simulator in the manner of cosivina, in plain NumPy: elements in the order of a list, in place, with the time counted first.
+"""A simulator in the manner of cosivina, in plain NumPy: elements in the order of a list, in place, with the
+time counted first.
 
 Written from a description of its semantics; nothing of deodar is used.
 """
@@ -57,11 +58,19 @@ class Sim:
         match kind:
             case "NeuralField":
                 u = np.full(size, float(p["h"]))
-                return {"activation": u, "output": self.sigmoid(u, p["beta"]), "h": np.full((1, 1), float(p["h"]))}
+                return {
+                    "activation": u,
+                    "output": self.sigmoid(u, p["beta"]),
+                    "h": np.full((1, 1), float(p["h"])),
+                }
             case "SingleNodeDynamics":
                 u = np.full((1, 1), float(p["h"]))
                 g = self.sigmoid(u, p["beta"])
-                return {"activation": u, "output": g, "rateOfChange": (-u + p["h"] + p["selfExcitation"] * g) / p["tau"]}
+                return {
+                    "activation": u,
+                    "output": g,
+                    "rateOfChange": (-u + p["h"] + p["selfExcitation"] * g) / p["tau"],
+                }
             case "GaussStimulus1D" | "GaussStimulus2D" | "GaussStimulus3D":
                 return {"output": self.bell(p)}
             case "BoostStimulus":
@@ -70,7 +79,11 @@ class Sim:
                 return {"output": np.array(p["pattern"], float).reshape(size)}
             case "SumAllDimensions" | "LateralInteractions1D" | "LateralInteractions2D":
                 rows, columns = size
-                sums = {"horizontalSum": np.zeros((1, rows)), "verticalSum": np.zeros((1, columns)), "fullSum": np.zeros((1, 1))}
+                sums = {
+                    "horizontalSum": np.zeros((1, rows)),
+                    "verticalSum": np.zeros((1, columns)),
+                    "fullSum": np.zeros((1, 1)),
+                }
                 return sums | {"output": np.zeros(size)}
             case "AdaptiveWeightMatrix":
                 self.memory[label] = np.zeros(size)
@@ -113,7 +126,9 @@ class Sim:
         else:
             y = np.ones(())
             for n, c in zip(p["size"], "YXZ", strict=False):
-                y = y[..., None] * gauss(np.arange(1, n + 1) - p[f"position{c}"], p[f"sigma{c}"], n if p[f"circular{c}"] else None)
+                y = y[..., None] * gauss(
+                    np.arange(1, n + 1) - p[f"position{c}"], p[f"sigma{c}"], n if p[f"circular{c}"] else None
+                )
         if p["normalized"] and y.sum() > 0:
             y = y / y.sum()
         return p["amplitude"] * y
@@ -134,27 +149,50 @@ class Sim:
             case "SingleNodeDynamics":
                 u = o["activation"] + dt * o["rateOfChange"]
                 g = self.sigmoid(u, p["beta"])
-                return {"activation": u, "output": g, "rateOfChange": (-u + p["h"] + p["selfExcitation"] * g + sum(x)) / p["tau"]}
+                return {
+                    "activation": u,
+                    "output": g,
+                    "rateOfChange": (-u + p["h"] + p["selfExcitation"] * g + sum(x)) / p["tau"],
+                }
             case "MemoryTrace":
                 active = x[0] > p["threshold"]
                 if not active.any():
                     return {"activeRegions": active * 1.0}
                 y = o["output"]
-                return {"activeRegions": active * 1.0, "output": y + active * (x[0] - y) / p["tauBuild"] - ~active * y / p["tauDecay"]}
+                return {
+                    "activeRegions": active * 1.0,
+                    "output": y + active * (x[0] - y) / p["tauBuild"] - ~active * y / p["tauDecay"],
+                }
             case "GaussKernel1D" | "MexicanHatKernel1D" | "LateralInteractions1D":
                 n = p["size"][1]
                 up, wide = p.get("amplitudeExc", p.get("amplitude")), p.get("sigmaExc", p.get("sigma"))
                 down, wider = p.get("amplitudeInh", 0), p.get("sigmaInh", 0)
-                reach = math.ceil(p["cutoffFactor"] * (max((up != 0) * wide, (down != 0) * wider) if kind != "GaussKernel1D" else wide))
+                reach = math.ceil(
+                    p["cutoffFactor"]
+                    * (max((up != 0) * wide, (down != 0) * wider) if kind != "GaussKernel1D" else wide)
+                )
                 args = (p["circular"], p["normalized"], reach)
                 y = (up * line(n, wide, *args) - down * line(n, wider, *args)) @ x[0][0]
-                return {"output": y[None] + p.get("amplitudeGlobal", 0) * x[0].sum(), "fullSum": x[0].sum()[None, None]}
+                return {
+                    "output": y[None] + p.get("amplitudeGlobal", 0) * x[0].sum(),
+                    "fullSum": x[0].sum()[None, None],
+                }
             case "GaussKernel2D" | "MexicanHatKernel2D" | "LateralInteractions2D":
                 y = p.get("amplitudeGlobal", 0) * x[0].sum() * np.ones(p["size"])
-                parts = [("", p["amplitude"])] if "amplitude" in p else [("Exc", p["amplitudeExc"]), ("Inh", -p["amplitudeInh"])]
+                parts = (
+                    [("", p["amplitude"])]
+                    if "amplitude" in p
+                    else [("Exc", p["amplitudeExc"]), ("Inh", -p["amplitudeInh"])]
+                )
                 for name, amplitude in parts:
                     m = [
-                        line(n, p[f"sigma{name}{c}"], p[f"circular{c}"], p["normalized"], math.ceil(p["cutoffFactor"] * p[f"sigma{name}{c}"]))
+                        line(
+                            n,
+                            p[f"sigma{name}{c}"],
+                            p[f"circular{c}"],
+                            p["normalized"],
+                            math.ceil(p["cutoffFactor"] * p[f"sigma{name}{c}"]),
+                        )
                         for n, c in zip(p["size"], "YX", strict=True)
                     ]
                     y = y + amplitude * m[0] @ x[0] @ m[1].T
@@ -162,7 +200,10 @@ class Sim:
             case "KernelFFT":
                 y = p["amplitudeGlobal"] * x[0].sum() * np.ones(p["size"])
                 long = [d for d, n in enumerate(p["size"]) if n > 1]
-                for amplitude, sigmas in ((p["amplitudeExc"], p["sigmaExc"]), (-p["amplitudeInh"], p["sigmaInh"])):
+                for amplitude, sigmas in (
+                    (p["amplitudeExc"], p["sigmaExc"]),
+                    (-p["amplitudeInh"], p["sigmaInh"]),
+                ):
                     z = x[0]
                     for k, d in enumerate(long):
                         n, sigma = p["size"][d], np.ravel(sigmas)[k]
@@ -170,7 +211,9 @@ class Sim:
                             m = line(n, sigma, True, p["normalized"], n)
                         else:
                             pad = int(p["paddingFactor"] * sigma)
-                            m = line(n + 2 * pad, sigma, True, p["normalized"], n + 2 * pad)[pad : pad + n, pad : pad + n]
+                            m = line(n + 2 * pad, sigma, True, p["normalized"], n + 2 * pad)[
+                                pad : pad + n, pad : pad + n
+                            ]
                         z = np.moveaxis(np.tensordot(m, z, axes=(1, d)), 0, d)
                     y = y + amplitude * z
                 return {"output": y}
@@ -182,7 +225,11 @@ class Sim:
             case "ExpandDimension2D":
                 rows, columns = p["size"]
                 y = np.ravel(x[0])
-                return {"output": np.tile(y, (rows, 1)) if p["expandDimension"] == 1 else np.tile(y[:, None], (1, columns))}
+                return {
+                    "output": np.tile(y, (rows, 1))
+                    if p["expandDimension"] == 1
+                    else np.tile(y[:, None], (1, columns))
+                }
             case "Transpose":
                 return {"output": x[0].T}
             case "SumInputs":
@@ -209,7 +256,9 @@ class Sim:
                 y = o["output"].copy()
                 for k, moment in enumerate(p["storingTimes"]):
                     if moment == t:
-                        y[(k, slice(None)) if p["size"][0] == 1 else (..., k)] = x[0][0] if p["size"][0] == 1 else x[0]
+                        y[(k, slice(None)) if p["size"][0] == 1 else (..., k)] = (
+                            x[0][0] if p["size"][0] == 1 else x[0]
+                        )
                 return {"output": y}
             case "DynamicVariable":
                 return {"state": o["state"] + dt / p["tau"] * sum(x)}
@@ -218,7 +267,9 @@ class Sim:
                 patterns = np.array(p["stimulusPatterns"], float)
                 if not begun:
                     return {"output": np.zeros(p["stimulusSize"])}
-                return {"output": patterns[begun[-1]][None] if patterns.ndim == 2 else patterns[:, :, begun[-1]]}
+                return {
+                    "output": patterns[begun[-1]][None] if patterns.ndim == 2 else patterns[:, :, begun[-1]]
+                }
             case "ScalarToGaussian":
                 n, place = p["size"][1], p["inputScale"] * x[0].item() + p["inputOffset"]
                 y = gauss(np.arange(1, n + 1) - place, p["sigma"], n if p["circular"] else None)[None]
@@ -228,7 +279,9 @@ class Sim:
                 w, pre, post = self.memory[label], np.ravel(x[0]), np.ravel(x[1])
                 rewarded = len(x) < 3 or x[2].item() > 0.9
                 if rewarded:
-                    change = (pre[:, None] - w) * post[None, :]  # the default, which cosivina does not call instar
+                    change = (pre[:, None] - w) * post[
+                        None, :
+                    ]  # the default, which cosivina does not call instar
                     self.memory[label] = w + dt * p["learningRate"] * change
                 return {"output": (pre @ w).reshape(x[1].shape)}
             case "DiagonalSum":
@@ -250,14 +303,24 @@ class Sim:
             case "TimedGaussStimulus1D" | "TimedGaussStimulus2D":
                 return {"output": on(p["onTimes"], t) * self.bell(p)}
             case "TimedCustomStimulus":
-                return {"output": on(p["onTimes"], t) * np.array(p["stimulusPattern"], float).reshape(p["size"])}
+                return {
+                    "output": on(p["onTimes"], t) * np.array(p["stimulusPattern"], float).reshape(p["size"])
+                }
             case "TimedBoost":
                 found = [k for k, (a, b) in enumerate(p["onTimes"]) if a <= t <= b]
                 amplitudes = np.ravel(p["amplitude"])
-                return {"output": np.full((1, 1), float(amplitudes[min(found[0], len(amplitudes) - 1)]) if found else 0.0)}
+                return {
+                    "output": np.full(
+                        (1, 1), float(amplitudes[min(found[0], len(amplitudes) - 1)]) if found else 0.0
+                    )
+                }
             case "TimedSwitch":
                 return {"output": on(p["onTimes"], t) * x[0]}
         return {}
 
     def sums(self, x):
-        return {"horizontalSum": x.sum(axis=1)[None], "verticalSum": x.sum(axis=0)[None], "fullSum": x.sum()[None, None]}
+        return {
+            "horizontalSum": x.sum(axis=1)[None],
+            "verticalSum": x.sum(axis=0)[None],
+            "fullSum": x.sum()[None, None],
+        }

@@ -25,27 +25,75 @@ FIELD = {"tau": 6, "h": -1.5, "beta": 2.0}
 RANDOM = np.random.default_rng(5)
 DOG = {"amplitudeExc": 1.3, "amplitudeInh": 0.7, "normalized": 1, "cutoffFactor": 1.5}
 DOG_1D = {**DOG, "size": ROW, "sigmaExc": 1.2, "sigmaInh": 2.7}
-DOG_2D = {**DOG, "size": PLANE, "sigmaExcX": 1.2, "sigmaExcY": 0.7, "sigmaInhX": 2.7, "sigmaInhY": 1.9, "circularX": 1, "circularY": 0}
-FFT = {"amplitudeExc": 1.3, "amplitudeInh": 0.7, "amplitudeGlobal": -0.02, "normalized": 1, "paddingFactor": 5}
+DOG_2D = {
+    **DOG,
+    "size": PLANE,
+    "sigmaExcX": 1.2,
+    "sigmaExcY": 0.7,
+    "sigmaInhX": 2.7,
+    "sigmaInhY": 1.9,
+    "circularX": 1,
+    "circularY": 0,
+}
+FFT = {
+    "amplitudeExc": 1.3,
+    "amplitudeInh": 0.7,
+    "amplitudeGlobal": -0.02,
+    "normalized": 1,
+    "paddingFactor": 5,
+}
 CODE = {"size": ROW, "inputScale": 30.0, "inputOffset": -1.5, "sigma": 1.3, "amplitude": 2.0}
 BELL = {"size": ROW, "sigma": 1.7, "amplitude": 2.0, "position": 11.3, "circular": 1, "normalized": 0}
-BELL_2D = {"size": PLANE, "sigmaX": 1.7, "sigmaY": 2.0, "amplitude": 2.0, "positionX": 11.3, "positionY": 2, "circularX": 1, "circularY": 0}
+BELL_2D = {
+    "size": PLANE,
+    "sigmaX": 1.7,
+    "sigmaY": 2.0,
+    "amplitude": 2.0,
+    "positionX": 11.3,
+    "positionY": 2,
+    "circularX": 1,
+    "circularY": 0,
+}
 U, V, W = ("u", "output"), ("v", "output"), ("w", "output")
 
 # class, parameters, inputs, size of the output, component that is read
 CASES = {
-    "kernel": ("GaussKernel1D", {"size": ROW, "sigma": 1.4, "amplitude": 2, "circular": 0, "normalized": 1, "cutoffFactor": 3}, [U], ROW),
-    "kernel on a ring": ("GaussKernel1D", {"size": ROW, "sigma": 3, "amplitude": 2, "circular": 1, "normalized": 1, "cutoffFactor": 5}, [U], ROW),
+    "kernel": (
+        "GaussKernel1D",
+        {"size": ROW, "sigma": 1.4, "amplitude": 2, "circular": 0, "normalized": 1, "cutoffFactor": 3},
+        [U],
+        ROW,
+    ),
+    "kernel on a ring": (
+        "GaussKernel1D",
+        {"size": ROW, "sigma": 3, "amplitude": 2, "circular": 1, "normalized": 1, "cutoffFactor": 5},
+        [U],
+        ROW,
+    ),
     "kernel of its height": (
         "GaussKernel1D",
         {"size": ROW, "sigma": 1.4, "amplitude": 2, "circular": 1, "normalized": 0, "cutoffFactor": 1},
         [U],
         ROW,
     ),
-    "kernel of one sample": ("GaussKernel1D", {"size": ROW, "sigma": 0, "amplitude": 2, "circular": 1, "normalized": 1, "cutoffFactor": 5}, [U], ROW),
+    "kernel of one sample": (
+        "GaussKernel1D",
+        {"size": ROW, "sigma": 0, "amplitude": 2, "circular": 1, "normalized": 1, "cutoffFactor": 5},
+        [U],
+        ROW,
+    ),
     "plane kernel": (
         "GaussKernel2D",
-        {"size": PLANE, "sigmaX": 1.2, "sigmaY": 2, "amplitude": -1, "circularX": 1, "circularY": 0, "normalized": 1, "cutoffFactor": 2},
+        {
+            "size": PLANE,
+            "sigmaX": 1.2,
+            "sigmaY": 2,
+            "amplitude": -1,
+            "circularX": 1,
+            "circularY": 0,
+            "normalized": 1,
+            "cutoffFactor": 2,
+        },
         [V],
         PLANE,
     ),
@@ -53,22 +101,70 @@ CASES = {
     "mexican hat on a line": ("MexicanHatKernel1D", {**DOG_1D, "circular": 0, "normalized": 0}, [U], ROW),
     "plane mexican hat": ("MexicanHatKernel2D", DOG_2D, [V], PLANE),
     "lateral": ("LateralInteractions1D", {**DOG_1D, "circular": 1, "amplitudeGlobal": -0.1}, [U], ROW),
-    "lateral without inhibition": ("LateralInteractions1D", {**DOG_1D, "circular": 1, "amplitudeInh": 0, "amplitudeGlobal": -0.1}, [U], ROW),
-    "lateral sum": ("LateralInteractions1D", {**DOG_1D, "circular": 1, "amplitudeGlobal": -0.1}, [U], ONE, "fullSum"),
+    "lateral without inhibition": (
+        "LateralInteractions1D",
+        {**DOG_1D, "circular": 1, "amplitudeInh": 0, "amplitudeGlobal": -0.1},
+        [U],
+        ROW,
+    ),
+    "lateral sum": (
+        "LateralInteractions1D",
+        {**DOG_1D, "circular": 1, "amplitudeGlobal": -0.1},
+        [U],
+        ONE,
+        "fullSum",
+    ),
     "plane lateral": ("LateralInteractions2D", {**DOG_2D, "amplitudeGlobal": -0.02}, [V], PLANE),
-    "plane lateral, horizontal": ("LateralInteractions2D", {**DOG_2D, "amplitudeGlobal": -0.02}, [V], [1, M], "horizontalSum"),
-    "plane lateral, vertical": ("LateralInteractions2D", {**DOG_2D, "amplitudeGlobal": -0.02}, [V], ROW, "verticalSum"),
+    "plane lateral, horizontal": (
+        "LateralInteractions2D",
+        {**DOG_2D, "amplitudeGlobal": -0.02},
+        [V],
+        [1, M],
+        "horizontalSum",
+    ),
+    "plane lateral, vertical": (
+        "LateralInteractions2D",
+        {**DOG_2D, "amplitudeGlobal": -0.02},
+        [V],
+        ROW,
+        "verticalSum",
+    ),
     "fourier": ("KernelFFT", {**FFT, "size": ROW, "sigmaExc": 3, "sigmaInh": 4, "circular": 1}, [U], ROW),
-    "fourier on a line": ("KernelFFT", {**FFT, "size": ROW, "sigmaExc": 2, "sigmaInh": 3, "circular": 0}, [U], ROW),
-    "fourier in a plane": ("KernelFFT", {**FFT, "size": PLANE, "sigmaExc": [[1], [2]], "sigmaInh": [[2], [3]], "circular": [[1], [1]]}, [V], PLANE),
-    "fourier of heights": ("KernelFFT", {**FFT, "size": ROW, "sigmaExc": 3, "sigmaInh": 4, "circular": 1, "normalized": 0}, [U], ROW),
+    "fourier on a line": (
+        "KernelFFT",
+        {**FFT, "size": ROW, "sigmaExc": 2, "sigmaInh": 3, "circular": 0},
+        [U],
+        ROW,
+    ),
+    "fourier in a plane": (
+        "KernelFFT",
+        {**FFT, "size": PLANE, "sigmaExc": [[1], [2]], "sigmaInh": [[2], [3]], "circular": [[1], [1]]},
+        [V],
+        PLANE,
+    ),
+    "fourier of heights": (
+        "KernelFFT",
+        {**FFT, "size": ROW, "sigmaExc": 3, "sigmaInh": 4, "circular": 1, "normalized": 0},
+        [U],
+        ROW,
+    ),
     "transpose": ("Transpose", {"size": [N, 1]}, [U], [N, 1]),
     "sums": ("SumAllDimensions", {"size": PLANE}, [V], ONE, "fullSum"),
     "horizontal sum": ("SumAllDimensions", {"size": PLANE}, [V], [1, M], "horizontalSum"),
     "vertical sum": ("SumAllDimensions", {"size": PLANE}, [V], ROW, "verticalSum"),
     "sum over rows": ("SumDimension", {"sumDimensions": 1, "size": ROW, "amplitude": -0.3}, [V], ROW),
-    "sum over columns": ("SumDimension", {"sumDimensions": 2, "size": [1, M], "amplitude": 0.3, "dimensionOrder": [1, 2]}, [V], [1, M]),
-    "sum over columns as a column": ("SumDimension", {"sumDimensions": 2, "size": [M, 1], "amplitude": 0.3}, [V], [M, 1]),
+    "sum over columns": (
+        "SumDimension",
+        {"sumDimensions": 2, "size": [1, M], "amplitude": 0.3, "dimensionOrder": [1, 2]},
+        [V],
+        [1, M],
+    ),
+    "sum over columns as a column": (
+        "SumDimension",
+        {"sumDimensions": 2, "size": [M, 1], "amplitude": 0.3},
+        [V],
+        [M, 1],
+    ),
     "sum over all": ("SumDimension", {"sumDimensions": [1, 2], "size": ONE, "amplitude": 0.3}, [V], ONE),
     "expand along rows": ("ExpandDimension2D", {"expandDimension": 1, "size": [M, N]}, [U], PLANE),
     "expand along columns": ("ExpandDimension2D", {"expandDimension": 2, "size": [N, M]}, [U], [N, M]),
@@ -83,14 +179,46 @@ CASES = {
     "square": ("PointwiseProduct", {"size": ROW}, [U, U], ROW),
     "rectification": ("HalfWaveRectification", {"size": ROW}, [("u", "activation")], ROW),
     "sigmoid": ("Sigmoid", {"size": ROW, "beta": 1.5, "threshold": -0.5}, [("u", "activation")], ROW),
-    "weights": ("WeightMatrix", {"size": [N, 5], "weights": RANDOM.normal(size=(N, 5)).tolist()}, [U], [1, 5]),
-    "square weights": ("WeightMatrix", {"size": [N, N], "weights": (0.2 * RANDOM.normal(size=(N, N))).tolist()}, [U], ROW),
-    "weights from a number": ("WeightMatrix", {"size": [1, 5], "weights": [1, 2, 3, 4, 5]}, [("n", "output")], [1, 5]),
+    "weights": (
+        "WeightMatrix",
+        {"size": [N, 5], "weights": RANDOM.normal(size=(N, 5)).tolist()},
+        [U],
+        [1, 5],
+    ),
+    "square weights": (
+        "WeightMatrix",
+        {"size": [N, N], "weights": (0.2 * RANDOM.normal(size=(N, N))).tolist()},
+        [U],
+        ROW,
+    ),
+    "weights from a number": (
+        "WeightMatrix",
+        {"size": [1, 5], "weights": [1, 2, 3, 4, 5]},
+        [("n", "output")],
+        [1, 5],
+    ),
     "learning": ("AdaptiveWeightMatrix", {"size": [N, M], "learningRate": 0.2}, [U, ("w", "output")], [1, M]),
-    "gated learning": ("AdaptiveWeightMatrix", {"size": [N, M], "learningRate": 0.5}, [U, ("w", "output"), ("n", "output")], [1, M]),
+    "gated learning": (
+        "AdaptiveWeightMatrix",
+        {"size": [N, M], "learningRate": 0.5},
+        [U, ("w", "output"), ("n", "output")],
+        [1, M],
+    ),
     "trace": ("MemoryTrace", {"size": ROW, "tauBuild": 5, "tauDecay": 20, "threshold": 0.3}, [U], ROW),
-    "where the trace grows": ("MemoryTrace", {"size": ROW, "tauBuild": 5, "tauDecay": 20, "threshold": 0.3}, [U], ROW, "activeRegions"),
-    "variable": ("DynamicVariable", {"size": ROW, "tau": 7, "initialState": 0.3}, [U, ("half", "output")], ROW, "state"),
+    "where the trace grows": (
+        "MemoryTrace",
+        {"size": ROW, "tauBuild": 5, "tauDecay": 20, "threshold": 0.3},
+        [U],
+        ROW,
+        "activeRegions",
+    ),
+    "variable": (
+        "DynamicVariable",
+        {"size": ROW, "tau": 7, "initialState": 0.3},
+        [U, ("half", "output")],
+        ROW,
+        "state",
+    ),
     "variable from a pattern": (
         "DynamicVariable",
         {"size": ROW, "tau": -4, "initialState": np.linspace(-0.5, 0.5, N)[None].tolist()},
@@ -99,27 +227,81 @@ CASES = {
         "state",
     ),
     "number to peak": ("ScalarToGaussian", {**CODE, "circular": 1, "normalized": 0}, [("n", "output")], ROW),
-    "number to peak on a line": ("ScalarToGaussian", {**CODE, "circular": 0, "normalized": 0}, [("n", "activation")], ROW),
-    "number to peak of its integral": ("ScalarToGaussian", {**CODE, "circular": 0, "normalized": 1}, [("n", "activation")], ROW),
-    "number to peak, its place": ("ScalarToGaussian", {**CODE, "circular": 1, "normalized": 1}, [("n", "output")], ONE, "position"),
+    "number to peak on a line": (
+        "ScalarToGaussian",
+        {**CODE, "circular": 0, "normalized": 0},
+        [("n", "activation")],
+        ROW,
+    ),
+    "number to peak of its integral": (
+        "ScalarToGaussian",
+        {**CODE, "circular": 0, "normalized": 1},
+        [("n", "activation")],
+        ROW,
+    ),
+    "number to peak, its place": (
+        "ScalarToGaussian",
+        {**CODE, "circular": 1, "normalized": 1},
+        [("n", "output")],
+        ONE,
+        "position",
+    ),
     "sequence": (
         "CustomStimulusSequence",
-        {"stimulusSize": ROW, "stimulusPatterns": RANDOM.normal(size=(4, N)).tolist(), "startTimes": [3.4, 6, 6, 11]},
+        {
+            "stimulusSize": ROW,
+            "stimulusPatterns": RANDOM.normal(size=(4, N)).tolist(),
+            "startTimes": [3.4, 6, 6, 11],
+        },
         [],
         ROW,
     ),
     "sequence from the start": (
         "CustomStimulusSequence",
-        {"stimulusSize": ROW, "stimulusPatterns": RANDOM.normal(size=(3, N)).tolist(), "startTimes": [-5, 0, 7]},
+        {
+            "stimulusSize": ROW,
+            "stimulusPatterns": RANDOM.normal(size=(3, N)).tolist(),
+            "startTimes": [-5, 0, 7],
+        },
         [],
         ROW,
     ),
-    "diagonal sum": ("DiagonalSum", {"inputSize": [N, N], "amplitude": 0.4}, [("square plane", "output")], [1, 2 * N - 1]),
-    "diagonal expansion": ("DiagonalExpansion", {"inputSize": [1, 2 * N - 1], "amplitude": 1}, [("long", "output")], [N, N]),
-    "shift": ("ShiftInput", {"size": ROW, "shiftValue": [0, 3], "amplitude": 1, "circular": 0, "fillValue": 0}, [U], ROW),
-    "shift back": ("ShiftInput", {"size": ROW, "shiftValue": [0, 0, -2], "amplitude": 1, "circular": 0, "fillValue": 0.5}, [U], ROW),
-    "shift on a ring": ("ShiftInput", {"size": ROW, "shiftValue": [0, 5], "amplitude": 1, "circular": 1, "fillValue": 0}, [U], ROW),
-    "node": ("SingleNodeDynamics", {**FIELD, "selfExcitation": 2.5, "noiseLevel": 0, "range": [-10, 10], "resolution": 0.1}, [("n", "output")], ONE),
+    "diagonal sum": (
+        "DiagonalSum",
+        {"inputSize": [N, N], "amplitude": 0.4},
+        [("square plane", "output")],
+        [1, 2 * N - 1],
+    ),
+    "diagonal expansion": (
+        "DiagonalExpansion",
+        {"inputSize": [1, 2 * N - 1], "amplitude": 1},
+        [("long", "output")],
+        [N, N],
+    ),
+    "shift": (
+        "ShiftInput",
+        {"size": ROW, "shiftValue": [0, 3], "amplitude": 1, "circular": 0, "fillValue": 0},
+        [U],
+        ROW,
+    ),
+    "shift back": (
+        "ShiftInput",
+        {"size": ROW, "shiftValue": [0, 0, -2], "amplitude": 1, "circular": 0, "fillValue": 0.5},
+        [U],
+        ROW,
+    ),
+    "shift on a ring": (
+        "ShiftInput",
+        {"size": ROW, "shiftValue": [0, 5], "amplitude": 1, "circular": 1, "fillValue": 0},
+        [U],
+        ROW,
+    ),
+    "node": (
+        "SingleNodeDynamics",
+        {**FIELD, "selfExcitation": 2.5, "noiseLevel": 0, "range": [-10, 10], "resolution": 0.1},
+        [("n", "output")],
+        ONE,
+    ),
     "rate of a node": (
         "SingleNodeDynamics",
         {**FIELD, "selfExcitation": 2.5, "noiseLevel": 0},
@@ -137,10 +319,20 @@ CASES = {
     "pattern": ("CustomStimulus", {"size": PLANE, "pattern": RANDOM.normal(size=(M, N)).tolist()}, [], PLANE),
     "row pattern": ("CustomStimulus", {"size": ROW, "pattern": RANDOM.normal(size=N).tolist()}, [], ROW),
     "timed stimulus": ("TimedGaussStimulus1D", {**BELL, "onTimes": TIMES}, [], ROW),
-    "timed plane stimulus": ("TimedGaussStimulus2D", {**BELL_2D, "normalized": 0, "onTimes": [2, 5]}, [], PLANE),
+    "timed plane stimulus": (
+        "TimedGaussStimulus2D",
+        {**BELL_2D, "normalized": 0, "onTimes": [2, 5]},
+        [],
+        PLANE,
+    ),
     "timed stimulus from the start": ("TimedGaussStimulus1D", {**BELL, "onTimes": [[0, 0], [0, 3]]}, [], ROW),
     "timed stimulus that is never on": ("TimedGaussStimulus1D", {**BELL, "onTimes": []}, [], ROW),
-    "timed pattern": ("TimedCustomStimulus", {"size": ROW, "stimulusPattern": RANDOM.normal(size=N).tolist(), "onTimes": TIMES}, [], ROW),
+    "timed pattern": (
+        "TimedCustomStimulus",
+        {"size": ROW, "stimulusPattern": RANDOM.normal(size=N).tolist(), "onTimes": TIMES},
+        [],
+        ROW,
+    ),
     "timed boost": ("TimedBoost", {"amplitude": 1.5, "onTimes": TIMES}, [], ONE),
     "timed boosts": ("TimedBoost", {"amplitude": [[1.5], [-2], [0.7]], "onTimes": TIMES}, [], ONE),
     "switch": ("TimedSwitch", {"size": ROW, "onTimes": TIMES}, [U], ROW),
@@ -153,9 +345,19 @@ DRIVE = [
     ("half", "BoostStimulus", {"amplitude": 0.4}, []),
     ("n", "NeuralField", {**FIELD, "size": ONE}, [("half", "output"), ("total", "output")]),
     ("total", "SumDimension", {"sumDimensions": [1, 2], "size": ONE, "amplitude": 0.2}, [U]),
-    ("u", "NeuralField", {**FIELD, "size": ROW}, [("bell", "output"), ("scaled", "output"), ("kernel", "output"), ("timed boost", "output")]),
+    (
+        "u",
+        "NeuralField",
+        {**FIELD, "size": ROW},
+        [("bell", "output"), ("scaled", "output"), ("kernel", "output"), ("timed boost", "output")],
+    ),
     ("scaled", "ScaleInput", {"size": ROW, "amplitude": 0.7}, [U]),
-    ("v", "NeuralField", {**FIELD, "size": PLANE}, [("plane bell", "output"), U, ("n", "output"), ("plane mexican hat", "output")]),
+    (
+        "v",
+        "NeuralField",
+        {**FIELD, "size": PLANE},
+        [("plane bell", "output"), U, ("n", "output"), ("plane mexican hat", "output")],
+    ),
     ("w", "NeuralField", {**FIELD, "size": [1, M]}, [("n", "output"), ("learning", "output")]),
     ("turned", "Transpose", {"size": [N, 1]}, [U]),
     ("square plane", "SumInputs", {"size": [N, N]}, [U, ("turned", "output")]),
@@ -170,7 +372,14 @@ def everything(seed):
     parts = list(DRIVE)
     for name, (kind, p, inputs, size, *component) in CASES.items():
         parts.append((name, kind, p, inputs))
-        parts.append((f"reads {name}", "NeuralField", {**FIELD, "size": size}, [(name, component[0] if component else "output")]))
+        parts.append(
+            (
+                f"reads {name}",
+                "NeuralField",
+                {**FIELD, "size": size},
+                [(name, component[0] if component else "output")],
+            )
+        )
     if seed == "reversed":
         parts.reverse()
     elif seed:
@@ -183,28 +392,54 @@ def test_every_class_in_every_place(seed, dt, t0, tmp_path):
     parts = everything(seed)
     done = read(written(tmp_path, [element(a, k, p, i) for a, k, p, i in parts], dt, t0))
     assert problems(done.model.document) == [] and not done.report.losses
-    plain = Sim([(a, k, p | ({"onTimes": _plain(p["onTimes"])} if "onTimes" in p else {}), i) for a, k, p, i in parts], dt, t0)
+    plain = Sim(
+        [
+            (a, k, p | ({"onTimes": _plain(p["onTimes"])} if "onTimes" in p else {}), i)
+            for a, k, p, i in parts
+        ],
+        dt,
+        t0,
+    )
     labels = [a for a, k, _, _ in parts if k in ("NeuralField", "SingleNodeDynamics")]
-    data = dd.simulate(done.model, STEPS * dt, record=[f"{dd.quote(a)}.activation" for a in labels], precision="float64")
+    data = dd.simulate(
+        done.model, STEPS * dt, record=[f"{dd.quote(a)}.activation" for a in labels], precision="float64"
+    )
     for step in range(1, STEPS + 1):
         plain.step()
         for label in labels:
             wanted = plain.out[label]["activation"]
             found = data[f"{label}.activation"].isel(time=step).values
             assert abs(found.reshape(wanted.shape) - wanted).max() < 1e-9, (label, step)
-    still = [a for a in labels if a.startswith("reads") and abs(plain.out[a]["activation"] - FIELD["h"]).max() < 1e-4]
+    still = [
+        a
+        for a in labels
+        if a.startswith("reads") and abs(plain.out[a]["activation"] - FIELD["h"]).max() < 1e-4
+    ]
     assert all("never" in a for a in still), still
 
 
 def _plain(times):
     return (
-        np.array([[float(str(v).replace("_Inf_", "inf")) for v in row] for row in (times if np.ndim(times[:1]) == 2 else [times])]) if times else []
+        np.array(
+            [
+                [float(str(v).replace("_Inf_", "inf")) for v in row]
+                for row in (times if np.ndim(times[:1]) == 2 else [times])
+            ]
+        )
+        if times
+        else []
     )
 
 
 def test_the_cases_cover_what_is_translated():
     there = {kind for kind, *_ in CASES.values()} | {"NormalNoise"}
-    further = {"GaussKernel3D", "GaussStimulus3D", "MexicanHatKernel3D", "LateralInteractions3D", "LateralInteractionsShifted1D"}
+    further = {
+        "GaussKernel3D",
+        "GaussStimulus3D",
+        "MexicanHatKernel3D",
+        "LateralInteractions3D",
+        "LateralInteractionsShifted1D",
+    }
     further |= {
         "RunningHistory",
         "History",
@@ -219,14 +454,22 @@ def test_the_cases_cover_what_is_translated():
 
 def test_noise_has_the_strength_of_cosivina(tmp_path):
     """Noise of strength q changes a field by q sqrt(dt) / tau in a step."""
-    parts = [element("u", "NeuralField", {"size": [1, 2000], "tau": 10, "h": 0, "beta": 4}, [("noise", "output")])]
-    model = dd.load(written(tmp_path, [*parts, element("noise", "NormalNoise", {"size": [1, 2000], "amplitude": 3})], dt=4))
+    parts = [
+        element("u", "NeuralField", {"size": [1, 2000], "tau": 10, "h": 0, "beta": 4}, [("noise", "output")])
+    ]
+    model = dd.load(
+        written(
+            tmp_path, [*parts, element("noise", "NormalNoise", {"size": [1, 2000], "amplitude": 3})], dt=4
+        )
+    )
     s = dd.Session(model, precision="float64")
     s.step(1)
     assert s.read("u.activation").std() == pytest.approx(3 * 2 / 10, rel=0.05)
 
 
-@pytest.mark.parametrize("kind", ["CameraGrabber", "AttractorDynamics", "MobileRobotArena", "Interpolation1D", "GausKernel1D"])
+@pytest.mark.parametrize(
+    "kind", ["CameraGrabber", "AttractorDynamics", "MobileRobotArena", "Interpolation1D", "GausKernel1D"]
+)
 def test_what_is_missing_keeps_its_place(kind, tmp_path):
     parts = [
         element("u", "NeuralField", {**FIELD, "size": ROW}, [("it", "output")]),
@@ -239,13 +482,17 @@ def test_what_is_missing_keeps_its_place(kind, tmp_path):
     dd.Session(done.model).step(2)
 
 
-NAMES = """AdaptiveWeightMatrix AttractorDynamics BoostStimulus CameraGrabber ColorExtraction Convolution CustomStimulus CustomStimulusSequence
-DiagonalExpansion DiagonalSum DynamicRobotController DynamicVariable ExpandDimension ExpandDimension2D FastFourierTransform GaussKernel1D
-GaussKernel2D GaussKernel3D GaussStimulus1D GaussStimulus2D GaussStimulus3D HalfWaveRectification HebbianConnection History ImageLoader
-Interpolation1D KernelFFT KernelInverseFFT LFP LateralInteractions1D LateralInteractions2D LateralInteractions3D LateralInteractionsDiscrete
-LateralInteractionsShifted1D MemoryTrace MexicanHatKernel1D MexicanHatKernel2D MexicanHatKernel3D MobileRobotArena NeuralField NormalNoise
-PointwiseProduct RunningHistory ScalarToGaussian ScaleInput ShiftInput Sigmoid SingleNodeDynamics SumAllDimensions SumDimension SumInputs
-TimedBoost TimedCustomStimulus TimedGaussStimulus1D TimedGaussStimulus2D TimedSwitch Transpose WeightMatrix"""
+NAMES = """
+AdaptiveWeightMatrix AttractorDynamics BoostStimulus CameraGrabber ColorExtraction Convolution CustomStimulus
+CustomStimulusSequence DiagonalExpansion DiagonalSum DynamicRobotController DynamicVariable ExpandDimension
+ExpandDimension2D FastFourierTransform GaussKernel1D GaussKernel2D GaussKernel3D GaussStimulus1D
+GaussStimulus2D GaussStimulus3D HalfWaveRectification HebbianConnection History ImageLoader Interpolation1D
+KernelFFT KernelInverseFFT LFP LateralInteractions1D LateralInteractions2D LateralInteractions3D
+LateralInteractionsDiscrete LateralInteractionsShifted1D MemoryTrace MexicanHatKernel1D MexicanHatKernel2D
+MexicanHatKernel3D MobileRobotArena NeuralField NormalNoise PointwiseProduct RunningHistory ScalarToGaussian
+ScaleInput ShiftInput Sigmoid SingleNodeDynamics SumAllDimensions SumDimension SumInputs TimedBoost
+TimedCustomStimulus TimedGaussStimulus1D TimedGaussStimulus2D TimedSwitch Transpose WeightMatrix
+"""
 ALL = NAMES.split()
 
 
@@ -259,6 +506,15 @@ def test_every_class_of_cosivina_is_translated_or_says_what_is_missing(tmp_path)
     for kind in MISSING:
         assert verdicts[kind] == ("dropped", f"Placeholder: {MISSING[kind]}")
     lost = {kind for kind in CLASSES if verdicts[kind][0] != "carried"}
-    given = {"CustomStimulus", "TimedCustomStimulus", "CustomStimulusSequence", "WeightMatrix", "History"}  # patterns, weights, times must be
-    assert lost == given | {"ScalarToGaussian", "HebbianConnection"}  # no peak on one sample; learning needs two inputs
+    given = {
+        "CustomStimulus",
+        "TimedCustomStimulus",
+        "CustomStimulusSequence",
+        "WeightMatrix",
+        "History",
+    }  # patterns, weights, times must be
+    assert lost == given | {
+        "ScalarToGaussian",
+        "HebbianConnection",
+    }  # no peak on one sample; learning needs two inputs
     dd.simulate(done.model, 3, every=3)

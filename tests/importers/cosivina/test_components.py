@@ -1,4 +1,6 @@
-"""Components that scripts and plots of cosivina ask for by name: each is read here, or the report says that it is not."""
+"""Components that scripts and plots of cosivina ask for by name: each is read here, or the report says that
+it is not.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,27 @@ from tests.importers.cosivina.oracle import Sim
 ROWS, COLUMNS = 3, 5
 PLANE = [ROWS, COLUMNS]
 FIELD = {"size": PLANE, "tau": 5, "h": 0.5, "beta": 2}
-BELL = {"size": PLANE, "sigmaX": 1, "sigmaY": 1, "amplitude": 2, "positionX": 2, "positionY": 1, "circularX": 0, "circularY": 0, "normalized": 0}
-WIDTHS = {"sigmaExcX": 1, "sigmaExcY": 1, "sigmaInhX": 2, "sigmaInhY": 2, "circularX": 0, "circularY": 0, "normalized": 1, "cutoffFactor": 2}
+BELL = {
+    "size": PLANE,
+    "sigmaX": 1,
+    "sigmaY": 1,
+    "amplitude": 2,
+    "positionX": 2,
+    "positionY": 1,
+    "circularX": 0,
+    "circularY": 0,
+    "normalized": 0,
+}
+WIDTHS = {
+    "sigmaExcX": 1,
+    "sigmaExcY": 1,
+    "sigmaInhX": 2,
+    "sigmaInhY": 2,
+    "circularX": 0,
+    "circularY": 0,
+    "normalized": 1,
+    "cutoffFactor": 2,
+}
 LATERAL = {"size": PLANE, **WIDTHS, "amplitudeExc": 0.3, "amplitudeInh": 0.1, "amplitudeGlobal": -0.01}
 SUMS = ("horizontalSum", "verticalSum", "fullSum")
 
@@ -31,7 +52,12 @@ def told(report, label):
 def test_sums_that_no_element_reads_are_read_where_the_report_says(kind, tmp_path):
     parts = [
         ("bell", "GaussStimulus2D", BELL, []),
-        ("u", "NeuralField", FIELD, [("bell", "output"), ("it", "output")] if kind.startswith("Lat") else [("bell", "output")]),
+        (
+            "u",
+            "NeuralField",
+            FIELD,
+            [("bell", "output"), ("it", "output")] if kind.startswith("Lat") else [("bell", "output")],
+        ),
         ("it", kind, LATERAL if kind.startswith("Lat") else {"size": PLANE}, [("u", "output")]),
     ]
     done = read(written(tmp_path, [element(*part) for part in parts]))
@@ -43,7 +69,9 @@ def test_sums_that_no_element_reads_are_read_where_the_report_says(kind, tmp_pat
         plain.step()
         for component, path in paths.items():
             wanted = plain.out["it"][component]
-            assert np.allclose(data[path].isel(time=step).values.reshape(wanted.shape), wanted, rtol=0, atol=1e-12), (component, step)
+            assert np.allclose(
+                data[path].isel(time=step).values.reshape(wanted.shape), wanted, rtol=0, atol=1e-12
+            ), (component, step)
 
 
 def test_the_resting_level_is_named_as_a_parameter(tmp_path):
@@ -56,10 +84,19 @@ def test_the_resting_level_is_named_as_a_parameter(tmp_path):
 @pytest.mark.parametrize("kind", sorted(COMPONENTS))
 def test_each_component_is_a_port_or_named_in_the_report(kind, tmp_path):
     reads = [("u", "output")] * (0 if kind == "NeuralField" else 2 if kind == "HebbianConnection" else 1)
-    done = read(written(tmp_path, [element("u", "NeuralField", {"size": [1, 1]}), element("it", kind, {"size": [1, 1]}, reads)]))
+    done = read(
+        written(
+            tmp_path,
+            [element("u", "NeuralField", {"size": [1, 1]}), element("it", kind, {"size": [1, 1]}, reads)],
+        )
+    )
     own = done.model["it"].element
     if isinstance(own, Placeholder):
-        assert any(line.where == "it" and line.verdict == "dropped" for line in done.report.lines if line.part == "element")
+        assert any(
+            line.where == "it" and line.verdict == "dropped"
+            for line in done.report.lines
+            if line.part == "element"
+        )
         return
     said = told(done.report, "it")
     for component in components(kind):
@@ -71,4 +108,8 @@ def test_each_component_is_a_port_or_named_in_the_report(kind, tmp_path):
             assert len(said[component]) > 12
     for why in said.values():
         words = [word for word in why.replace(",", "").split() if word.startswith("it.")]
-        assert all(done.model.get(word) is not None for word in words if "read" not in why and not word.endswith("start"))
+        assert all(
+            done.model.get(word) is not None
+            for word in words
+            if "read" not in why and not word.endswith("start")
+        )

@@ -23,7 +23,10 @@ FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
 
 
 def tried(content: bytes | str) -> Imported | None:
-    """The file read, or its one error; anything else fails the test. A model that says it is good compiles nothing here, but is complete."""
+    """The file read, or its one error; anything else fails the test.
+
+    A model that says it is good compiles nothing here, but is complete.
+    """
     data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
     tool = tools()["cosivina"]
     try:
@@ -113,12 +116,34 @@ def test_a_file_of_100_megabytes_is_refused_before_it_is_read(tmp_path):
 
 
 def test_sizes_that_cannot_be_meant_become_placeholders(tmp_path):
-    done = read(written(tmp_path, [element("u", "NeuralField", {**FIELD, "size": [10**6, 10**6]}), element("v", "NeuralField", FIELD)]))
-    assert [(line.where, line.verdict) for line in done.report.lines if line.part == "element"] == [("u", "dropped"), ("v", "carried")]
+    done = read(
+        written(
+            tmp_path,
+            [
+                element("u", "NeuralField", {**FIELD, "size": [10**6, 10**6]}),
+                element("v", "NeuralField", FIELD),
+            ],
+        )
+    )
+    assert [(line.where, line.verdict) for line in done.report.lines if line.part == "element"] == [
+        ("u", "dropped"),
+        ("v", "carried"),
+    ]
 
 
 def test_names_are_only_names(tmp_path):
-    names = ["../../up", "/etc/passwd", "u.output", "a\nb", "..", 'q"uote', "{}", "$HOME", "u -> u (global)", " "]
+    names = [
+        "../../up",
+        "/etc/passwd",
+        "u.output",
+        "a\nb",
+        "..",
+        'q"uote',
+        "{}",
+        "$HOME",
+        "u -> u (global)",
+        " ",
+    ]
     done = read(written(tmp_path, [element(n, "NeuralField", FIELD) for n in names]))
     dd.save(done.model, tmp_path / "out" if (tmp_path / "out").mkdir() else tmp_path / "out" / "m.json")
     assert [p.name for p in (tmp_path / "out").iterdir()] == ["m.json"]
@@ -140,7 +165,12 @@ def test_a_label_that_occurs_twice_is_numbered(tmp_path):
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_loops_without_a_state_run(count, tmp_path):
     """A ring of couplings, or one that reads itself: what cosivina computes one step later."""
-    ring = [element(f"s{k}", "ScaleInput", {"size": [1, 3], "amplitude": 0.5}, [(f"s{(k + 1) % count}", "output")]) for k in range(count)]
+    ring = [
+        element(
+            f"s{k}", "ScaleInput", {"size": [1, 3], "amplitude": 0.5}, [(f"s{(k + 1) % count}", "output")]
+        )
+        for k in range(count)
+    ]
     field = element("u", "NeuralField", {**FIELD, "size": [1, 3]}, [("s0", "output")])
     done = read(written(tmp_path, [*ring, field]))
     assert problems(done.model.document) == [] and done.report.faithful
@@ -148,7 +178,14 @@ def test_loops_without_a_state_run(count, tmp_path):
 
 
 def test_a_loop_through_a_sum_runs(tmp_path):
-    kernel = {"size": [1, 3], "sigmaExc": 1, "amplitudeExc": 0.1, "sigmaInh": 1, "amplitudeInh": 0, "amplitudeGlobal": 0}
+    kernel = {
+        "size": [1, 3],
+        "sigmaExc": 1,
+        "amplitudeExc": 0.1,
+        "sigmaInh": 1,
+        "amplitudeInh": 0,
+        "amplitudeGlobal": 0,
+    }
     parts = [
         element("s", "SumInputs", {"size": [1, 3]}, [("k", "fullSum"), ("k", "output"), ("b", "output")]),
         element("k", "LateralInteractions1D", kernel, [("s", "output")]),
@@ -196,7 +233,10 @@ def test_shapes_of_no_input(shape, tmp_path):
 
 @pytest.mark.parametrize("elements", ["missing", None, [], {}, 27, "field u", True, {"label": "u"}])
 def test_a_file_whose_elements_are_lost_is_refused(elements, tmp_path):
-    body = json.loads(text([element("u", "NeuralField", FIELD)]))["simulator"] | {"nElements": 27, "elements": elements}
+    body = json.loads(text([element("u", "NeuralField", FIELD)]))["simulator"] | {
+        "nElements": 27,
+        "elements": elements,
+    }
     if elements == "missing":
         del body["elements"]
     (tmp_path / "lost.json").write_text(json.dumps({"simulator": body}))
@@ -204,9 +244,13 @@ def test_a_file_whose_elements_are_lost_is_refused(elements, tmp_path):
         dd.load(tmp_path / "lost.json")
 
 
-@pytest.mark.parametrize("elements", [None, [], {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}])
+@pytest.mark.parametrize(
+    "elements", [None, [], {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}]
+)
 def test_a_simulator_that_says_it_is_empty_is_an_empty_model(elements, tmp_path):
-    (tmp_path / "empty.json").write_text(json.dumps({"simulator": {"deltaT": 1, "nElements": 0, "elements": elements}}))
+    (tmp_path / "empty.json").write_text(
+        json.dumps({"simulator": {"deltaT": 1, "nElements": 0, "elements": elements}})
+    )
     done = read(tmp_path / "empty.json")
     assert done.report.faithful and not done.model.document.entries
 
@@ -223,12 +267,17 @@ def test_elements_that_are_counted_or_named_and_not_there_are_reported(tmp_path)
 
 def test_keys_that_occur_twice_are_reported_with_the_value_in_use(tmp_path):
     source = text([element("u", "NeuralField", FIELD)])
-    source = source.replace('"tau": 10', '"tau": 30, "tau": 20').replace('"deltaT": 1', '"deltaT": 3, "deltaT": 2, "deltaT": 1')
+    source = source.replace('"tau": 10', '"tau": 30, "tau": 20').replace(
+        '"deltaT": 1', '"deltaT": 3, "deltaT": 2, "deltaT": 1'
+    )
     (tmp_path / "twice.json").write_text(source)
     done = read(tmp_path / "twice.json")
     assert not done.report.faithful
     assert [str(line) for line in done.report.losses] == [
-        "key simulator.deltaT: approximated, it occurs 3 times, with the values 3, 2, 1; the last one is taken",
+        (
+            "key simulator.deltaT: approximated, it occurs 3 times, with the values 3, 2, 1; the last one is"
+            " taken"
+        ),
         "u: key param.tau: approximated, it occurs 2 times, with the values 30, 20; the last one is taken",
     ]
     assert done.model["u"].element.tau == 20 and done.model.document.dt == 1
@@ -242,15 +291,38 @@ def test_one_element_may_stand_without_a_list(tmp_path):
 
 
 def test_wrong_values_are_told_and_replaced(tmp_path):
-    done = read(written(tmp_path, [element("u", "NeuralField", {"size": [1, 10], "tau": "fast", "h": "_NaN_", "beta": -1, "colour": 3})], dt=-1))
+    done = read(
+        written(
+            tmp_path,
+            [
+                element(
+                    "u",
+                    "NeuralField",
+                    {"size": [1, 10], "tau": "fast", "h": "_NaN_", "beta": -1, "colour": 3},
+                )
+            ],
+            dt=-1,
+        )
+    )
     told = {(line.what, line.verdict) for line in done.report.losses}
-    assert told == {("tau", "approximated"), ("h", "approximated"), ("beta", "approximated"), ("colour", "dropped"), ("deltaT", "approximated")}
+    assert told == {
+        ("tau", "approximated"),
+        ("h", "approximated"),
+        ("beta", "approximated"),
+        ("colour", "dropped"),
+        ("deltaT", "approximated"),
+    }
     assert done.model["u"].element.tau == 10 and done.model["u"].element.resting_level == -5
 
 
 def test_connections_that_cannot_be_are_told(tmp_path):
     parts = [
-        element("u", "NeuralField", FIELD, [("absent", "output"), ("v", "noise"), ("v", "output"), ("u", "activation")]),
+        element(
+            "u",
+            "NeuralField",
+            FIELD,
+            [("absent", "output"), ("v", "noise"), ("v", "output"), ("u", "activation")],
+        ),
         element("v", "NeuralField", {**FIELD, "size": [1, 7]}),
         element("k", "ScaleInput", {"size": [1, 10], "amplitude": 1}),
     ]

@@ -1,4 +1,7 @@
-"""The work grows with the size of a file, not with its square. Work is counted in lines of the package that are executed, never in seconds."""
+"""The work grows with the size of a file, not with its square.
+
+Work is counted in lines of the package that are executed, never in seconds.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +50,10 @@ def lines(action: Callable[[], Any]) -> int:
 def from_stimuli(n: int) -> list[dict[str, Any]]:
     """One field that reads many stimuli, each several times."""
     sources = [element(f"s{k}", "GaussStimulus1D", BELL) for k in range(n // 5)]
-    return [*sources, element("u", "NeuralField", FIELD, [(f"s{k % len(sources)}", "output") for k in range(n)])]
+    return [
+        *sources,
+        element("u", "NeuralField", FIELD, [(f"s{k % len(sources)}", "output") for k in range(n)]),
+    ]
 
 
 def from_one(n: int) -> list[dict[str, Any]]:
@@ -57,10 +63,18 @@ def from_one(n: int) -> list[dict[str, Any]]:
 
 def from_later_couplings(n: int) -> list[dict[str, Any]]:
     """One field that reads couplings which are computed after it, all from one node."""
-    scaled = [element(f"k{k}", "ScaleInput", {"size": [1, 1], "amplitude": 1}, [("n", "output")]) for k in range(n // 5)]
+    scaled = [
+        element(f"k{k}", "ScaleInput", {"size": [1, 1], "amplitude": 1}, [("n", "output")])
+        for k in range(n // 5)
+    ]
     reads = [(f"k{k}", "output") for k in range(n // 5)]
     node = element("n", "NeuralField", {**FIELD, "size": [1, 1]})
-    return [element("u", "NeuralField", FIELD, reads), node, element("sum", "SumInputs", {"size": [1, 1]}, reads), *scaled]
+    return [
+        element("u", "NeuralField", FIELD, reads),
+        node,
+        element("sum", "SumInputs", {"size": [1, 1]}, reads),
+        *scaled,
+    ]
 
 
 @pytest.mark.parametrize("made", [from_stimuli, from_one, from_later_couplings])
@@ -69,7 +83,11 @@ def test_work_grows_with_the_number_of_inputs(made):
     for n in (SMALL, LARGE):
         content = text(made(n)).encode()
         models: list[dd.Model] = []
-        found.setdefault("import", []).append(lines(lambda c=content, m=models: m.append(tools()["cosivina"].read(c, "large.json", False).model)))
+        found.setdefault("import", []).append(
+            lines(
+                lambda c=content, m=models: m.append(tools()["cosivina"].read(c, "large.json", False).model)
+            )
+        )
         model = models[0]
         data = json.loads(model.to_json())
         found.setdefault("check", []).append(lines(lambda m=model: m.check()))
@@ -103,5 +121,8 @@ def test_the_same_source_many_times_is_one_gain():
     assert done.report.faithful and len(done.model.document.entries) == 3
     once = tools()["cosivina"].read(text(from_one(1)).encode(), "large.json", False)
     rest = FIELD["h"]
-    u, v = (dd.simulate(m, 1, every=1, record=["u.activation"], precision="float64")["u.activation"].values[-1] for m in (done.model, once.model))
+    u, v = (
+        dd.simulate(m, 1, every=1, record=["u.activation"], precision="float64")["u.activation"].values[-1]
+        for m in (done.model, once.model)
+    )
     assert abs((u - rest) - 20_000 * (v - rest)).max() < 1e-9 * 20_000 and (v - rest).max() > 0.05

@@ -36,7 +36,12 @@ KINDS: list[tuple[str, dict[str, Any], list[list[int]] | None, dict[str, list[in
     ("GaussKernel1D", {**KERNEL, "sigma": 1, "amplitude": 0.6}, [ROW], {}),
     ("LateralInteractions1D", {**KERNEL, **GLOBAL, "sigmaExc": 1, "sigmaInh": 2}, [ROW], {"fullSum": ONE}),
     ("GaussKernel2D", {**PLANE_KERNEL, "sigmaX": 1, "sigmaY": 0.7, "amplitude": 0.5}, [PLANE], {}),
-    ("LateralInteractions2D", {**PLANE_KERNEL, **GLOBAL, "sigmaExcX": 1, "sigmaExcY": 0.7, "sigmaInhX": 2, "sigmaInhY": 1}, [PLANE], SUMS),
+    (
+        "LateralInteractions2D",
+        {**PLANE_KERNEL, **GLOBAL, "sigmaExcX": 1, "sigmaExcY": 0.7, "sigmaInhX": 2, "sigmaInhY": 1},
+        [PLANE],
+        SUMS,
+    ),
     ("SumAllDimensions", {}, [PLANE], SUMS),
     ("SumDimension", {"sumDimensions": 1, "amplitude": 0.2}, [ROW], {}),
     ("SumDimension", {"sumDimensions": 2, "amplitude": 0.2}, [SHORT], {}),
@@ -52,8 +57,14 @@ def model(seed: int, count: int) -> list[tuple[str, str, dict[str, Any], list[tu
     """Elements of random kinds and sizes; each reads what fits, wherever it stands in the list."""
     rng = random.Random(seed)
     chosen = [(f"e{k}", rng.choice(KINDS)) for k in range(count)]
-    sizes = {label: rng.choice(sizes or [ROW, SHORT, COLUMN, PLANE, ONE]) for label, (_, _, sizes, _) in chosen}
-    given = [(label, component, size) for label, (kind, _, _, more) in chosen for component, size in _given(kind, sizes[label], more).items()]
+    sizes = {
+        label: rng.choice(sizes or [ROW, SHORT, COLUMN, PLANE, ONE]) for label, (_, _, sizes, _) in chosen
+    }
+    given = [
+        (label, component, size)
+        for label, (kind, _, _, more) in chosen
+        for component, size in _given(kind, sizes[label], more).items()
+    ]
 
     def of(size: list[int]) -> list[tuple[str, str]]:
         return [(a, c) for a, c, own in given if own == size]
@@ -72,9 +83,22 @@ def model(seed: int, count: int) -> list[tuple[str, str, dict[str, Any], list[tu
             if not first:
                 continue
             inputs = [rng.choice(first)]
-            inputs += [rng.choice(any_)] if kind == "PointwiseProduct" else rng.choices(any_, k=rng.randint(0, 2)) if kind == "SumInputs" else []
+            inputs += (
+                [rng.choice(any_)]
+                if kind == "PointwiseProduct"
+                else rng.choices(any_, k=rng.randint(0, 2))
+                if kind == "SumInputs"
+                else []
+            )
             rng.shuffle(inputs)
-        parts.append((label, kind, {**param, **({} if size == ONE and not inputs and kind != "NeuralField" else {"size": size})}, inputs))
+        parts.append(
+            (
+                label,
+                kind,
+                {**param, **({} if size == ONE and not inputs and kind != "NeuralField" else {"size": size})},
+                inputs,
+            )
+        )
     there = {label for label, *_ in parts}
     lacking = [p for p in parts if any(a not in there for a, _ in p[3])]
     return parts if not lacking else model(seed + 1000, count)
@@ -91,7 +115,9 @@ def test_a_random_model(seed, tmp_path):
     assert problems(done.model.document) == [] and not done.report.losses
     labels = [label for label, kind, *_ in parts if kind == "NeuralField"]
     assert len(labels) > 3
-    data = dd.simulate(done.model, STEPS, record=[f"{label}.activation" for label in labels], precision="float64")
+    data = dd.simulate(
+        done.model, STEPS, record=[f"{label}.activation" for label in labels], precision="float64"
+    )
     plain = Sim(parts)
     for step in range(1, STEPS + 1):
         plain.step()

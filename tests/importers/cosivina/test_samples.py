@@ -32,7 +32,10 @@ def test_every_listed_step_agrees(path):
         reference = {tuple(key.split("|")): z[key] for key in z}
     model, ports = dd.load(path), sorted({f"{dd.quote(label)}.activation" for label, _ in reference})
     for precision, near in (("float64", 1e-6), ("float32", 1e-3)):
-        early, late = (dd.simulate(model, to, record=ports, every=every, precision=precision) for to, every in ((5, 1), (300, 20)))
+        early, late = (
+            dd.simulate(model, to, record=ports, every=every, precision=precision)
+            for to, every in ((5, 1), (300, 20))
+        )
         for (label, step), wanted in reference.items():
             found = (early if int(step) <= 5 else late)[f"{label}.activation"].sel(time=float(step)).values
             assert abs(found.reshape(wanted.shape) - wanted).max() < near, (precision, label, step)

@@ -11,10 +11,22 @@ PATH = [[-45.0, 55 + 0.36 * k] for k in range(110)] + [[-50 - 0.15 * k, 95.0] fo
 def row(c, trial, **other):
     """A row of a run that goes straight to its goal."""
     made = {
-        "key": c.key(trial), "condition": c.name, "trial": trial, "success": True, "steps": 700, "arrival": 660, "length": 120.0, "shortest": 100.0,
-        "divergence": 1.1 + 0.001 * (trial % 7), "touching": 0, "touches_at_end": False, "clearance": 8.0, "shortest_clearance": 5.0,
-        "goal": [0.0, 0.0], "path": PATH,
-    }  # fmt: skip
+        "key": c.key(trial),
+        "condition": c.name,
+        "trial": trial,
+        "success": True,
+        "steps": 700,
+        "arrival": 660,
+        "length": 120.0,
+        "shortest": 100.0,
+        "divergence": 1.1 + 0.001 * (trial % 7),
+        "touching": 0,
+        "touches_at_end": False,
+        "clearance": 8.0,
+        "shortest_clearance": 5.0,
+        "goal": [0.0, 0.0],
+        "path": PATH,
+    }
     if c.method == "planner":
         made |= {
             "plan": 150 + 60 * (trial % 3),

@@ -1,4 +1,6 @@
-"""The design: the published numbers of runs, pairs that can be driven, obstacles where and when the paper has them."""
+"""The design: the published numbers of runs, pairs that can be driven, obstacles where and when the paper has
+them.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,10 @@ def runs(name, quick=False):
 
 def test_cases_1_and_2_have_five_conditions_of_a_hundred_runs_each():
     for maze, n in (("z", 96), ("large", 100)):
-        assert [runs(f"{maze}/{m}") for m in ("planner/low", "planner/high", "carrot/none", "carrot/low", "carrot/high")] == [n] * 5
+        assert [
+            runs(f"{maze}/{m}")
+            for m in ("planner/low", "planner/high", "carrot/none", "carrot/low", "carrot/high")
+        ] == [n] * 5
     assert cases.conditions(False)["z/planner/low"].left_out == (1, 34, 42, 44)
     assert cases.conditions(False)["large/planner/low"].left_out == ()
 
@@ -43,11 +48,17 @@ def test_quick_is_the_beginning_of_the_whole():
 def test_pairs_keep_their_distance_and_can_be_reached(maze):
     starts, goals = pairs.pairs(maze)
     on = pairs.reference(maze)
-    assert starts.shape == (100, 3) and goals.shape == (100, 2) and (starts[:, 2] == pairs.HEADINGS[maze]).all()
+    assert (
+        starts.shape == (100, 3) and goals.shape == (100, 2) and (starts[:, 2] == pairs.HEADINGS[maze]).all()
+    )
     for k in range(0, 100, 9):
         path = shortest_path(on, starts[k, :2], goals[k])
         # the published pairs come within 1 cm of the rule
-        assert path is not None and np.linalg.norm(path[0] - starts[k, :2]) < 1.5 and np.linalg.norm(path[-1] - goals[k]) < 1.5
+        assert (
+            path is not None
+            and np.linalg.norm(path[0] - starts[k, :2]) < 1.5
+            and np.linalg.norm(path[-1] - goals[k]) < 1.5
+        )
     if maze == "large":
         arena = cases.world(cases.conditions(True)["large/carrot/none"])
         boxes = np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale
@@ -74,12 +85,16 @@ def test_every_condition_has_a_world_for_all_its_trials():
         assert arena.own(c.trials)["start"].shape == (len(c.trials), 3)
 
 
-@pytest.mark.parametrize(("what", "rows", "columns"), [("full", (5, 25), (35, 45)), ("partial", (15, 30), (25, 55))])
+@pytest.mark.parametrize(
+    ("what", "rows", "columns"), [("full", (5, 25), (35, 45)), ("partial", (15, 30), (25, 55))]
+)
 def test_obstacles_stand_where_the_paper_has_them(what, rows, columns):
     c = cases.conditions(True)[f"{what}/planner/low"]
     arena = cases.world(c)
     thing, times = next(
-        (t, w) for t, w in zip(arena.furniture.things, arena.furniture.windows, strict=True) if t and t.name == cases.OBSTACLES[what][0]
+        (t, w)
+        for t, w in zip(arena.furniture.things, arena.furniture.windows, strict=True)
+        if t and t.name == cases.OBSTACLES[what][0]
     )
     low, high = place(rows[1], columns[0]), place(rows[0], columns[1])
     np.testing.assert_allclose(np.asarray(thing.box) * 100, [*low, *high])
@@ -89,11 +104,19 @@ def test_obstacles_stand_where_the_paper_has_them(what, rows, columns):
 
 def test_the_design_grows_by_the_planner_under_other_terms():
     found = {name: c for name, c in cases.conditions(False).items() if c.terms and c.method == "planner"}
-    kinds = ["sticking-planner/low", "sticking-planner/high", "factor-1.0-planner/high", "reflection-0.8-planner/low", "reflection-1.0-planner/low"]
+    kinds = [
+        "sticking-planner/low",
+        "sticking-planner/high",
+        "factor-1.0-planner/high",
+        "reflection-0.8-planner/low",
+        "reflection-1.0-planner/low",
+    ]
     assert list(found) == [f"{maze}/{kind}" for maze in ("z", "large") for kind in kinds]
     assert [len(c.trials) for c in found.values()] == [96] * 5 + [40] * 5
     assert cases.design(False)["planners"] == {name: c.terms for name, c in found.items()}
-    assert found["z/sticking-planner/low"].terms == {"contact": "stick"} and found["large/reflection-1.0-planner/low"].terms == {"reflection": 1.0}
+    assert found["z/sticking-planner/low"].terms == {"contact": "stick"} and found[
+        "large/reflection-1.0-planner/low"
+    ].terms == {"reflection": 1.0}
     assert found["z/factor-1.0-planner/high"].terms == {"factor": 1.0}
 
 
@@ -106,4 +129,8 @@ def test_the_terms_reach_the_world_and_the_model():
     for name in ("z/factor-1.0-planner/high", "z/planner/high", "z/planner/low"):
         model = trials._bench(name, False)[1]
         strengths[name] = model["own place"].element.amplitude
-    assert strengths == {"z/factor-1.0-planner/high": 8.0, "z/planner/high": pytest.approx(9.6), "z/planner/low": 8.0}
+    assert strengths == {
+        "z/factor-1.0-planner/high": 8.0,
+        "z/planner/high": pytest.approx(9.6),
+        "z/planner/low": 8.0,
+    }

@@ -1,4 +1,6 @@
-"""The report of rows made by hand: claims hold where they should, fail where they should, and are open where too few runs cannot tell."""
+"""The report of rows made by hand: claims hold where they should, fail where they should, and are open where
+too few runs cannot tell.
+"""
 
 from __future__ import annotations
 
@@ -55,54 +57,166 @@ def test_what_was_inferred_from_a_run_is_marked_and_not_required():
 
 def test_every_claim_says_where_its_target_comes_from():
     for c in said(lambda c, k: {}).values():
-        assert c.origin in ("printed", "ours", "none"), c.name  # the figures of the paper were not at hand to be read
+        assert c.origin in (
+            "printed",
+            "ours",
+            "none",
+        ), c.name  # the figures of the paper were not at hand to be read
         assert (c.origin == "none") == (c.target == "none"), c.name
 
 
 FAILS = [
     # what is run, and the beginning of the name of the claim that is false then
     ("opposed", lambda c, k: {"opposed": 0.2}, "3.2: opposing"),
-    ("lost goal", lambda c, k: {"success": False} if c.name.startswith("moved") else {}, "3.2: a goal may change at any time"),
-    ("long for one", lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name == "z/planner/low" else {}, "5.1: no significant difference"),
-    ("long for one", lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name == "z/planner/low" else {}, "5.1: path lengths of the five"),
-    ("one is late", lambda c, k: {"success": k != 5} if c.name == "large/planner/low" else {}, "5.1: 3000 steps"),
-    ("better carrot", lambda c, k: {"success": k % 2 > 0} if c.name == "z/tuning/400-400-slide" else {}, "following the carrot: no other"),
-    ("slow wave", lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700}, "5.2: the wave"),
-    ("slow wave", lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700}, "5.2: the robot leaves"),
-    ("slow wave", lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700}, "5.2: planning anew, motivation"),
-    ("slow wave", lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700}, "5.2: motivation to go east"),
-    ("south", lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {}, "5.2: without an obstacle"),
-    ("south", lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {}, "5.2: the plan is to go north"),
-    ("south", lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {}, "5.2: it then goes east"),
-    ("south", lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {}, "5.2: a full obstacle at t = 336"),
-    ("south", lambda c, k: {"route": "south"} if not c.many_starts else {}, "5.2: a partial obstacle during late"),
+    (
+        "lost goal",
+        lambda c, k: {"success": False} if c.name.startswith("moved") else {},
+        "3.2: a goal may change at any time",
+    ),
+    (
+        "long for one",
+        lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name == "z/planner/low" else {},
+        "5.1: no significant difference",
+    ),
+    (
+        "long for one",
+        lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name == "z/planner/low" else {},
+        "5.1: path lengths of the five",
+    ),
+    (
+        "one is late",
+        lambda c, k: {"success": k != 5} if c.name == "large/planner/low" else {},
+        "5.1: 3000 steps",
+    ),
+    (
+        "better carrot",
+        lambda c, k: {"success": k % 2 > 0} if c.name == "z/tuning/400-400-slide" else {},
+        "following the carrot: no other",
+    ),
+    (
+        "slow wave",
+        lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700},
+        "5.2: the wave",
+    ),
+    (
+        "slow wave",
+        lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700},
+        "5.2: the robot leaves",
+    ),
+    (
+        "slow wave",
+        lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700},
+        "5.2: planning anew, motivation",
+    ),
+    (
+        "slow wave",
+        lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700},
+        "5.2: motivation to go east",
+    ),
+    (
+        "south",
+        lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {},
+        "5.2: without an obstacle",
+    ),
+    (
+        "south",
+        lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {},
+        "5.2: the plan is to go north",
+    ),
+    (
+        "south",
+        lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {},
+        "5.2: it then goes east",
+    ),
+    (
+        "south",
+        lambda c, k: {"route": "south", "behaviours": ["south"]} if not c.many_starts else {},
+        "5.2: a full obstacle at t = 336",
+    ),
+    (
+        "south",
+        lambda c, k: {"route": "south"} if not c.many_starts else {},
+        "5.2: a partial obstacle during late",
+    ),
     ("south", lambda c, k: {"route": "south"} if not c.many_starts else {}, "5.2: after t = 200"),
     ("south", lambda c, k: {"route": "south"} if not c.many_starts else {}, "5.2: after t = 500"),
     ("south", lambda c, k: {"route": "south"} if not c.many_starts else {}, "5.2: a full obstacle at 200"),
     ("south", lambda c, k: {"route": "south"} if not c.many_starts else {}, "5.2: it persists more"),
     ("south", lambda c, k: {"route": "south"} if not c.many_starts else {}, "7: transient blockages"),
     ("north", lambda c, k: {"route": "north"} if not c.many_starts else {}, "5.2: an obstacle during early"),
-    ("north", lambda c, k: {"route": "north"} if not c.many_starts else {}, "5.2: a partial obstacle in the first"),
-    ("opposite", lambda c, k: {"route": "south" if c.obstacle == "full" else "north"} if c.obstacle else {}, "5.2: a short full obstacle"),
-    ("late", lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {}, "5.2: that run is at its fourth"),
+    (
+        "north",
+        lambda c, k: {"route": "north"} if not c.many_starts else {},
+        "5.2: a partial obstacle in the first",
+    ),
+    (
+        "opposite",
+        lambda c, k: {"route": "south" if c.obstacle == "full" else "north"} if c.obstacle else {},
+        "5.2: a short full obstacle",
+    ),
+    (
+        "late",
+        lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {},
+        "5.2: that run is at its fourth",
+    ),
     ("late", lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {}, "5.2: planning anew takes"),
-    ("late", lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {}, "6.2: planning anew is shorter"),
+    (
+        "late",
+        lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {},
+        "6.2: planning anew is shorter",
+    ),
     ("all stand", lambda c, k: {"still": 100} if c.obstacle else {}, "5.2: switching takes a time"),
-    ("any time", lambda c, k: {"plan": 100 + 37 * (k % 7)} if c.many_starts and c.method == "planner" else {}, "6.2: activation spreads"),
+    (
+        "any time",
+        lambda c, k: {"plan": 100 + 37 * (k % 7)} if c.many_starts and c.method == "planner" else {},
+        "6.2: activation spreads",
+    ),
     ("near walls", lambda c, k: {"clearance": 5.1}, "6.2: paths keep away"),
     ("near walls", lambda c, k: {"clearance": 5.1}, "6.2: the south route keeps farther"),
     ("all alike", lambda c, k: {}, "6.2: the narrow passage"),
-    ("short only", lambda c, k: {"success": k % 3 < 2} if c.name.startswith("large/planner") else {}, "6.2: long paths"),
+    (
+        "short only",
+        lambda c, k: {"success": k % 3 < 2} if c.name.startswith("large/planner") else {},
+        "6.2: long paths",
+    ),
     ("none fails", lambda c, k: {}, "6.4: high noise reduces"),
     ("none fails", lambda c, k: {}, "6.4: on a few occasions"),
-    ("half fail", lambda c, k: {"success": k % 2 > 0} if c.method == "planner" else {}, "6.4: on a few occasions"),
-    ("at a wall", lambda c, k: {"success": k % 9 > 0, "touches_at_end": True} if c.method == "planner" else {}, "6.4: what sticks"),
-    ("noise", lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name.endswith("planner/high") else {}, "6.4: noise has no significant"),
-    ("noise", lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name.endswith("planner/high") else {}, "6.4: noise has no effect"),
+    (
+        "half fail",
+        lambda c, k: {"success": k % 2 > 0} if c.method == "planner" else {},
+        "6.4: on a few occasions",
+    ),
+    (
+        "at a wall",
+        lambda c, k: {"success": k % 9 > 0, "touches_at_end": True} if c.method == "planner" else {},
+        "6.4: what sticks",
+    ),
+    (
+        "noise",
+        lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name.endswith("planner/high") else {},
+        "6.4: noise has no significant",
+    ),
+    (
+        "noise",
+        lambda c, k: {"divergence": 1.3 + 0.001 * (k % 5)} if c.name.endswith("planner/high") else {},
+        "6.4: noise has no effect",
+    ),
     ("all reach it", lambda c, k: {}, "7: in the large maze"),
-    ("in the open", lambda c, k: {"success": k % 9 > 0, "touches_at_end": False} if c.method == "carrot" else {}, "7: the carrot fails"),
-    ("sticks", lambda c, k: {"success": k % 2 > 0} if c.terms else {}, "Z-maze, low noise: where contact sticks, the planner"),
-    ("sticks", lambda c, k: {"success": k % 2 > 0} if c.terms else {}, "large maze, low noise: where walls reflect 1.0, the planner"),
+    (
+        "in the open",
+        lambda c, k: {"success": k % 9 > 0, "touches_at_end": False} if c.method == "carrot" else {},
+        "7: the carrot fails",
+    ),
+    (
+        "sticks",
+        lambda c, k: {"success": k % 2 > 0} if c.terms else {},
+        "Z-maze, low noise: where contact sticks, the planner",
+    ),
+    (
+        "sticks",
+        lambda c, k: {"success": k % 2 > 0} if c.terms else {},
+        "large maze, low noise: where walls reflect 1.0, the planner",
+    ),
     (
         "sticks",
         lambda c, k: {"divergence": 1.4 + 0.001 * (k % 5)} if c.terms else {},
@@ -111,17 +225,29 @@ FAILS = [
 ]
 
 
-@pytest.mark.parametrize(("change", "name"), [case[1:] for case in FAILS], ids=[f"{what}: {name[:40]}" for what, _, name in FAILS])
+@pytest.mark.parametrize(
+    ("change", "name"), [case[1:] for case in FAILS], ids=[f"{what}: {name[:40]}" for what, _, name in FAILS]
+)
 def test_each_sentence_fails_where_the_opposite_was_found(change, name):
     found = [c for c in said(change).values() if c.name.startswith(name)]
-    assert found and any(c.holds is False for c in found), [(c.name, c.value, c.interval, c.holds) for c in found]
+    assert found and any(c.holds is False for c in found), [
+        (c.name, c.value, c.interval, c.holds) for c in found
+    ]
 
 
 def test_every_sentence_with_a_target_has_its_opposite_above():
     names = tuple(name for _, _, name in FAILS)
-    rest = [c.name for c in said(lambda c, k: {}).values() if c.kind == "reported" and c.origin != "none" and not c.name.startswith(names)]
+    rest = [
+        c.name
+        for c in said(lambda c, k: {}).values()
+        if c.kind == "reported" and c.origin != "none" and not c.name.startswith(names)
+    ]
     alike = ("Z-maze", "large maze")  # the same claim for another maze, level of noise or setting
-    assert [name for name in rest if not name.startswith(alike) and not name.startswith("5.1: ") and "plan is complete" not in name] == []
+    assert [
+        name
+        for name in rest
+        if not name.startswith(alike) and not name.startswith("5.1: ") and "plan is complete" not in name
+    ] == []
 
 
 def test_no_difference_is_not_shown_by_a_large_p():
@@ -129,18 +255,42 @@ def test_no_difference_is_not_shown_by_a_large_p():
     for c in rows.values():
         if "ANOVA, p)" in c.name:
             assert c.holds is None and (c.value is None or c.value > 0.05), c.name
-    assert rows["6.4: noise has no effect on paths in the Z-maze: mean of Lp / Lo at high less at low noise, pair by pair"].holds is True
+    assert (
+        rows[
+            "6.4: noise has no effect on paths in the Z-maze: mean of Lp / Lo at high less at low noise, pair"
+            " by pair"
+        ].holds
+        is True
+    )
 
 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda c, k: {"success": k % 5 > 0} if c.name == "z/planner/high" else {}, ["Z-maze, high noise", "reaches the goal"]),
-        (lambda c, k: {"divergence": 1.3} if c.name == "z/planner/low" else {}, ["Z-maze, low noise", "mean Lp / Lo"]),
-        (lambda c, k: {"divergence": 1.18 + 0.001 * (k % 5)} if c.name == "z/planner/high" else {}, ["Z-maze: the medians"]),
-        (lambda c, k: {"route": "north"} if c.name == "full/planner/low" else {}, ["full obstacle, low noise", "before t = 130"]),
-        (lambda c, k: {"route": "south"} if c.name == "partial/planner/high" else {}, ["partial obstacle, high noise", "t = 200 to 450"]),
-        (lambda c, k: {"route": "switch"} if c.name == "full/planner/high" else {}, ["full obstacle, high noise", "after t = 500"]),
+        (
+            lambda c, k: {"success": k % 5 > 0} if c.name == "z/planner/high" else {},
+            ["Z-maze, high noise", "reaches the goal"],
+        ),
+        (
+            lambda c, k: {"divergence": 1.3} if c.name == "z/planner/low" else {},
+            ["Z-maze, low noise", "mean Lp / Lo"],
+        ),
+        (
+            lambda c, k: {"divergence": 1.18 + 0.001 * (k % 5)} if c.name == "z/planner/high" else {},
+            ["Z-maze: the medians"],
+        ),
+        (
+            lambda c, k: {"route": "north"} if c.name == "full/planner/low" else {},
+            ["full obstacle, low noise", "before t = 130"],
+        ),
+        (
+            lambda c, k: {"route": "south"} if c.name == "partial/planner/high" else {},
+            ["partial obstacle, high noise", "t = 200 to 450"],
+        ),
+        (
+            lambda c, k: {"route": "switch"} if c.name == "full/planner/high" else {},
+            ["full obstacle, high noise", "after t = 500"],
+        ),
     ],
 )
 def test_what_goes_wrong_is_said(change, words):
@@ -155,7 +305,9 @@ def test_few_runs_leave_open_what_they_cannot_tell():
     assert not failed(list(found.values()))
     assert {c.holds for c in only(found, ["case 3, full", "before t = 130"])} <= {None, True}
     wrong = required(lambda c, k: {"success": k % 2 > 0} if c.name == "z/planner/high" else {}, quick=True)
-    assert [c.name for c in failed(list(wrong.values()))] == ["Z-maze, high noise: the planner reaches the goal"]
+    assert [c.name for c in failed(list(wrong.values()))] == [
+        "Z-maze, high noise: the planner reaches the goal"
+    ]
 
 
 def test_runs_whose_obstacle_came_down_on_the_robot_are_left_out_and_counted():
@@ -170,9 +322,12 @@ def test_every_sentence_has_a_number_and_all_figures_are_drawn():
     assert len(told) > 60 and all(c.source.startswith(("Billing", "no sentence of the paper")) for c in told)
     silent = [c.name for c in told if c.value is None]
     # nothing failed, all values of a kind are alike: these have no number
-    assert all("failures" in name or "what sticks" in name or "ANOVA" in name or "F of" in name for name in silent), silent
+    assert all(
+        "failures" in name or "what sticks" in name or "ANOVA" in name or "F of" in name for name in silent
+    ), silent
     assert set(report.figures) == {
-        f"figure-{n}" for n in ("7-success", "8-divergence", "9-paths", "13-routes", "14-velocity", "15-partial", "16-full")
+        f"figure-{n}"
+        for n in ("7-success", "8-divergence", "9-paths", "13-routes", "14-velocity", "15-partial", "16-full")
     }
     assert json.loads(results(report.claims, {"quick": False}))["settings"] == {"quick": False}
 
@@ -181,4 +336,6 @@ def test_a_part_of_the_runs_gives_a_part_of_the_report():
     rows = {k: r for k, r in all_rows(True).items() if k.startswith("z/")}
     report = spa.report(rows, True)
     assert set(report.figures) == {"figure-7-success", "figure-8-divergence"}
-    assert all(line.startswith(("| z/", "| cond", "|---")) for line in report.tables["conditions"].splitlines())
+    assert all(
+        line.startswith(("| z/", "| cond", "|---")) for line in report.tables["conditions"].splitlines()
+    )

@@ -14,7 +14,9 @@ from deodar.papers.spa.route import covered, route, stillness
 def through(*cells):
     """A path of steps of 0.25 cm through rows and columns of the published fields."""
     corners = np.asarray([place(*c) for c in cells])
-    pieces = [np.linspace(a, b, int(np.linalg.norm(b - a) / 0.25) + 1) for a, b in itertools.pairwise(corners)]
+    pieces = [
+        np.linspace(a, b, int(np.linalg.norm(b - a) / 0.25) + 1) for a, b in itertools.pairwise(corners)
+    ]
     return np.concatenate(pieces)
 
 
@@ -37,7 +39,9 @@ def test_an_obstacle_that_comes_down_on_the_robot_is_seen():
     assert covered(path, "full") and covered(path, "partial") and covered(path, "narrative")
     assert not covered(path[:20], "full")
     # the lane of 10 cm that the partial obstacle leaves is not under it
-    assert not covered(through((10, 60), (10, 20)), "partial") and covered(through((13, 60), (13, 20)), "partial")
+    assert not covered(through((10, 60), (10, 20)), "partial") and covered(
+        through((13, 60), (13, 20)), "partial"
+    )
     assert not covered(path[:0], "full")
 
 

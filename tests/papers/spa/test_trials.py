@@ -22,7 +22,12 @@ def four(monkeypatch):
 
 def test_the_carrot_drives_to_its_goals(four):
     rows = trials.carrot("z/carrot/low", True)
-    assert [r["key"] for r in rows] == ["z/carrot/low/000", "z/carrot/low/002", "z/carrot/low/003", "z/carrot/low/004"]
+    assert [r["key"] for r in rows] == [
+        "z/carrot/low/000",
+        "z/carrot/low/002",
+        "z/carrot/low/003",
+        "z/carrot/low/004",
+    ]
     for r in rows:
         assert r["success"] and 0.95 < r["divergence"] < 3 and r["steps"] >= r["arrival"] + trials.STAY - 1
         assert r["length"] == pytest.approx(path_length(r["path"]), rel=0.03) and r["clearance"] >= 3.69

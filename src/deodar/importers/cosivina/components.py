@@ -1,4 +1,5 @@
-"""The components that each class of cosivina offers to other elements, to plots and to scripts, in the order in which cosivina lists them.
+"""The components that each class of cosivina offers to other elements, to plots and to scripts, in the order
+in which cosivina lists them.
 
 Classes that are not listed have one, `output`.
 """
@@ -28,9 +29,25 @@ COMPONENTS: Mapping[str, tuple[str, ...]] = {
     "GaussKernel3D": ("kernelX", "kernelY", "kernelZ", "output"),
     "MexicanHatKernel1D": KERNEL,
     "MexicanHatKernel2D": ("kernelExcY", "kernelExcX", "kernelInhY", "kernelInhX", "output"),
-    "MexicanHatKernel3D": ("kernelExcY", "kernelExcX", "kernelExcZ", "kernelInhY", "kernelInhX", "kernelInhZ", "output"),
+    "MexicanHatKernel3D": (
+        "kernelExcY",
+        "kernelExcX",
+        "kernelExcZ",
+        "kernelInhY",
+        "kernelInhX",
+        "kernelInhZ",
+        "output",
+    ),
     "LateralInteractions1D": ("kernel", "amplitudeGlobal", "fullSum", "output"),
-    "LateralInteractions2D": ("kernelExcY", "kernelExcX", "kernelInhY", "kernelInhX", "amplitudeGlobal", "output", *SUMS),
+    "LateralInteractions2D": (
+        "kernelExcY",
+        "kernelExcX",
+        "kernelInhY",
+        "kernelInhX",
+        "amplitudeGlobal",
+        "output",
+        *SUMS,
+    ),
     "LateralInteractions3D": (
         *("kernelExcY", "kernelExcX", "kernelExcZ", "kernelInhY", "kernelInhX", "kernelInhZ"),
         *("amplitudeGlobal", "output", "fullSum"),

@@ -1,10 +1,13 @@
 """Connections, with what the order of the file means.
 
-cosivina computes its elements in the order of the list and in place: an element reads what those before it have made in this step, and what
-those after it made in the step before; all but stimuli, fields and filled borders begin with zero. Here a step leads from t to t + dt, so that
+cosivina computes its elements in the order of the list and in place: an element reads what those before it
+have made in this step, and what those after it made in the step before; all but stimuli, fields and filled
+borders begin with zero. Here a step leads from t to t + dt, so that
 
-* a state that comes before its reader is read as `current`, one that comes after it (or is the reader itself) as `previous`;
-* a coupling or a timed stimulus that comes before its reader is read as it is, one that comes after it as `delayed`, from zero.
+* a state that comes before its reader is read as `current`, one that comes after it (or is the reader itself)
+  as `previous`;
+* a coupling or a timed stimulus that comes before its reader is read as it is, one that comes after it as
+  `delayed`, from zero.
 """
 
 from __future__ import annotations
@@ -54,7 +57,9 @@ class Wiring:
         """Every connection, in the order of the file."""
         for e in self.elements:
             piece = self.pieces[e.label]
-            self.connections += [(a, "output", b, rest[0] if rest else "input", "") for a, b, *rest in piece.inner]
+            self.connections += [
+                (a, "output", b, rest[0] if rest else "input", "") for a, b, *rest in piece.inner
+            ]
             arriving: dict[Inlet, list[tuple[Outlet, str, str]]] = {}
             for k, source in enumerate(e.sources):
                 self.connect(e, k, source, arriving)
@@ -64,25 +69,41 @@ class Wiring:
             for inlet, found in arriving.items():
                 self.join(e, inlet, found)
 
-    def connect(self, e: Foreign, k: int, s: Source, arriving: dict[Inlet, list[tuple[Outlet, str, str]]]) -> None:
+    def connect(
+        self, e: Foreign, k: int, s: Source, arriving: dict[Inlet, list[tuple[Outlet, str, str]]]
+    ) -> None:
         """One input of the file: which outlet goes to which inlets, as the report has it."""
         piece, what = self.pieces[e.label], f"{s.label}.{s.component}" if s.component else s.label
-        inlets = piece.inlets[0 if piece.sums else k] if piece.inlets and (piece.sums or k < len(piece.inlets)) else []
+        inlets = (
+            piece.inlets[0 if piece.sums else k]
+            if piece.inlets and (piece.sums or k < len(piece.inlets))
+            else []
+        )
         source = self.pieces.get(s.label)
         if source is None:
             self.drop(e, what, "there is no such element")
             return
         outlet = source.outlets.get(s.component) if s.component else next(iter(source.outlets.values()), None)
         if outlet is None:
-            self.drop(e, what, f"{s.label!r} gives no {s.component!r} here; it gives {', '.join(source.outlets)}")
+            self.drop(
+                e, what, f"{s.label!r} gives no {s.component!r} here; it gives {', '.join(source.outlets)}"
+            )
             return
         if not inlets:
             self.lines.append(
-                Line(e.label, "connection", what, "carried", f"without effect, as in cosivina: {e.kind} does not read its input {k + 1}")
+                Line(
+                    e.label,
+                    "connection",
+                    what,
+                    "carried",
+                    f"without effect, as in cosivina: {e.kind} does not read its input {k + 1}",
+                )
             )
             return
         if any(not _compatible(outlet.dims, inlet.dims) for inlet in inlets):
-            sizes = " into ".join(str([1 if a is None else a.samples for a in dims]) for dims in (outlet.dims, inlets[0].dims))
+            sizes = " into ".join(
+                str([1 if a is None else a.samples for a in dims]) for dims in (outlet.dims, inlets[0].dims)
+            )
             self.drop(e, what, f"its size does not fit: {sizes}")
             return
         for inlet in inlets:
@@ -105,7 +126,11 @@ class Wiring:
             name = self.names.new(f"nothing to {inlet.name}")
             self.extra.append(Boost(name, axes(inlet.dims), 0.0))
             self.connections.append((name, "output", inlet.name, inlet.port, ""))
-            self.lines.append(Line(e.label, "connection", "input", "approximated", "nothing is connected to it; zero arrives"))
+            self.lines.append(
+                Line(
+                    e.label, "connection", "input", "approximated", "nothing is connected to it; zero arrives"
+                )
+            )
             return
         whole = any(outlet.dims == inlet.dims for outlet, *_ in found)
         times = Counter((outlet.name, outlet.port, reads) for outlet, reads, _ in found)
@@ -114,12 +139,16 @@ class Wiring:
             count = times.pop((name, port, reads), 0)
             if not count:
                 continue  # counted with the first of its kind
-            if reads == "delayed" and (outlet.initial or self.rings.get(e.label, -1) == self.rings.get(source, -2)):
+            if reads == "delayed" and (
+                outlet.initial or self.rings.get(e.label, -1) == self.rings.get(source, -2)
+            ):
                 name, port, reads = self.delay(outlet), "output", "previous"
             renamed = _fits(outlet.dims, inlet.dims) != axes(outlet.dims)
             if renamed or (k == 0 and inlet.whole and not whole):
                 through = self.names.new(f"{outlet.name} to {inlet.name}")
-                self.extra.append(projection(through, axes(outlet.dims), inlet.dims, _fits(outlet.dims, inlet.dims)))
+                self.extra.append(
+                    projection(through, axes(outlet.dims), inlet.dims, _fits(outlet.dims, inlet.dims))
+                )
                 self.connections.append((name, port, through, "input", reads))
                 name, port, reads = through, "output", ""
             if count > 1:
@@ -130,7 +159,9 @@ class Wiring:
             self.connections.append((name, port, inlet.name, inlet.port, reads))
 
     def delay(self, outlet: Outlet) -> str:
-        """A register of its own: where a loop of couplings is closed, whose axes must be stated, and where it does not begin with zero."""
+        """A register of its own: where a loop of couplings is closed, whose axes must be stated, and where it
+        does not begin with zero.
+        """
         key = (outlet.name, outlet.port)
         if key not in self.delays:
             self.delays[key] = self.names.new(f"{outlet.name} before")
@@ -139,10 +170,16 @@ class Wiring:
         return self.delays[key]
 
     def _rings(self) -> dict[str, int]:
-        """For each element that follows its inputs in the same instant a number, shared by those that lie in one loop of such elements."""
-        followers = [e for e in self.elements if not any(o.state for o in self.pieces[e.label].outlets.values())]
+        """For each element that follows its inputs in the same instant a number, shared by those that lie in
+        one loop of such elements.
+        """
+        followers = [
+            e for e in self.elements if not any(o.state for o in self.pieces[e.label].outlets.values())
+        ]
         number = {e.label: k for k, e in enumerate(followers)}
-        pairs = [(number[s.label], number[e.label]) for e in followers for s in e.sources if s.label in number]
+        pairs = [
+            (number[s.label], number[e.label]) for e in followers for s in e.sources if s.label in number
+        ]
         rows, columns = zip(*pairs, strict=True) if pairs else ((), ())
         graph = coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(followers), len(followers)))
         _, found = connected_components(graph, connection="strong")
@@ -153,22 +190,32 @@ class Wiring:
         self.lines.append(Line(e.label, "connection", what, "dropped", why))
 
     def _noisy(self) -> set[str]:
-        """Elements made of noise alone, all of whose readers come before them: whether they read the noise of this step or of the last is
-        the same to everybody, and needs no register.
+        """Elements made of noise alone, all of whose readers come before them: whether they read the noise of
+        this step or of the last is the same to everybody, and needs no register.
         """
         found: set[str] = set()
         for e in self.elements:
             noise = any(o.noise for o in self.pieces[e.label].outlets.values())
-            chained = bool(e.sources) and e.kind.startswith("GaussKernel") and all(s.label in found for s in e.sources)
+            chained = (
+                bool(e.sources)
+                and e.kind.startswith("GaussKernel")
+                and all(s.label in found for s in e.sources)
+            )
             if noise or chained:
                 found.add(e.label)
-        return {n for n in found if all(self.place[t] < self.place[n] for t in self.feeds.get(n, ()) if t not in found)}
+        return {
+            n
+            for n in found
+            if all(self.place[t] < self.place[n] for t in self.feeds.get(n, ()) if t not in found)
+        }
 
 
 def _compatible(given: Dims, wanted: Dims) -> bool:
     """Whether one size can be expanded to another, dimension by dimension."""
     longer = max(len(given), len(wanted))
-    pairs = zip(given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True)
+    pairs = zip(
+        given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True
+    )
     return all(a is None or (b is not None and shape((a,)) == shape((b,))) for a, b in pairs)
 
 

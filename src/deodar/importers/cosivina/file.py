@@ -1,4 +1,6 @@
-"""The file of a cosivina simulator as plain data: labels, classes, parameters and inputs, in the file's order."""
+"""The file of a cosivina simulator as plain data: labels, classes, parameters and inputs, in the file's
+order.
+"""
 
 from __future__ import annotations
 
@@ -23,12 +25,21 @@ MOST_ELEMENTS = 4000
 MOST_INPUTS = 20000
 """The same for connections."""
 
-WORDS = {"_Inf_": math.inf, "-_Inf_": -math.inf, "_NaN_": math.nan, "Inf": math.inf, "-Inf": -math.inf, "NaN": math.nan}
+WORDS = {
+    "_Inf_": math.inf,
+    "-_Inf_": -math.inf,
+    "_NaN_": math.nan,
+    "Inf": math.inf,
+    "-Inf": -math.inf,
+    "NaN": math.nan,
+}
 
 
 @dc.dataclass(frozen=True)
 class Source:
-    """One input of an element: the label of its source and the source's component; "" where the file names none."""
+    """One input of an element: the label of its source and the source's component; "" where the file names
+    none.
+    """
 
     label: str
     component: str = ""
@@ -36,7 +47,9 @@ class Source:
 
 @dc.dataclass(frozen=True)
 class Foreign:
-    """One element of the file: its place in the list, its label and class, its parameters as they stand there, and its inputs in order."""
+    """One element of the file: its place in the list, its label and class, its parameters as they stand
+    there, and its inputs in order.
+    """
 
     place: int
     label: str
@@ -47,7 +60,9 @@ class Foreign:
 
 @dc.dataclass(frozen=True)
 class Simulator:
-    """The file: the step, the time at the start, the elements in their order, and what is to be said about reading it."""
+    """The file: the step, the time at the start, the elements in their order, and what is to be said about
+    reading it.
+    """
 
     step: float
     start: float
@@ -69,28 +84,43 @@ def parse(content: bytes) -> Simulator:
     data = _json(content)
     root = cast("dict[str, Any]", data) if isinstance(data, dict) else {}
     inside = root.get("simulator", root)
-    if not isinstance(inside, dict) or not {"elements", "elementLabels", "nElements"} & set(cast(Any, inside)):
-        raise DocumentError("holds no simulator of cosivina", fix='It is an object {"simulator": {"deltaT": ..., "elements": [...]}}')
+    if not isinstance(inside, dict) or not {"elements", "elementLabels", "nElements"} & set(
+        cast(Any, inside)
+    ):
+        raise DocumentError(
+            "holds no simulator of cosivina",
+            fix='It is an object {"simulator": {"deltaT": ..., "elements": [...]}}',
+        )
     body = cast("dict[str, Any]", inside)
     lines = [_repeated(data, found) for found in repeated(data)]
     step, start = _time(body, "deltaT", 1.0, lines), _time(body, "tZero", 0.0, lines)
     found = _entries(body.get("elements"))
     count = _counted(body)
     if not found and not (count == 0 and empty(body.get("elements"))):
-        there = f"its elements are {show(body['elements'])}" if "elements" in body else "it has no list of elements"
+        there = (
+            f"its elements are {show(body['elements'])}"
+            if "elements" in body
+            else "it has no list of elements"
+        )
         said = f", and nElements is {show(body['nElements'])}" if "nElements" in body else ""
-        raise DocumentError(f"holds no elements: {there}{said}", fix="Save the simulator again with saveSettings")
+        raise DocumentError(
+            f"holds no elements: {there}{said}", fix="Save the simulator again with saveSettings"
+        )
     lines += _census(body, found, count)
     if len(found) > MOST_ELEMENTS:
         raise DocumentError(f"holds {len(found)} elements; at most {MOST_ELEMENTS} are read")
-    elements = tuple(e for place, entry in enumerate(found) if (e := _element(place, entry, lines)) is not None)
+    elements = tuple(
+        e for place, entry in enumerate(found) if (e := _element(place, entry, lines)) is not None
+    )
     if sum(len(e.sources) for e in elements) > MOST_INPUTS:
         raise DocumentError(f"holds more than {MOST_INPUTS} connections")
     return Simulator(step, start, _unique(elements, lines), tuple(lines))
 
 
 def array(value: Any) -> np.ndarray | None:
-    """The numbers that a value holds, in any of the ways of writing them; None where it holds something else, or lists of unequal length."""
+    """The numbers that a value holds, in any of the ways of writing them; None where it holds something else,
+    or lists of unequal length.
+    """
     try:
         found = np.array(_plain(value), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
@@ -106,7 +136,7 @@ def empty(value: Any) -> bool:
     return found is not None and found.size == 0
 
 
-# ------------------------------------------------------------------------------------------------ parts of the file
+# ------------------------------------------------------------------------------------------ parts of the file
 
 
 def _json(content: bytes) -> Any:
@@ -114,9 +144,13 @@ def _json(content: bytes) -> Any:
         try:
             data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False, object_pairs_hook=collect)
         except UnicodeDecodeError:
-            data = json.loads(content.decode("latin-1"), strict=False, object_pairs_hook=collect)  # older MATLAB wrote the system's own characters
+            data = json.loads(
+                content.decode("latin-1"), strict=False, object_pairs_hook=collect
+            )  # older MATLAB wrote the system's own characters
     except json.JSONDecodeError as error:
-        raise DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
+        raise DocumentError(
+            f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}"
+        ) from None
     except RecursionError:
         raise DocumentError(f"is nested deeper than {DEEPEST} levels") from None
     except ValueError:
@@ -130,7 +164,9 @@ def _json(content: bytes) -> Any:
 
 
 def _repeated(data: Any, found: Repeated) -> Line:
-    """What became of a key that occurs more than once: where it is inside an element, the element's label says so."""
+    """What became of a key that occurs more than once: where it is inside an element, the element's label
+    says so.
+    """
     label, path = "", list[Any]()
     for step in found.path:
         data = data[step]
@@ -139,7 +175,13 @@ def _repeated(data: Any, found: Repeated) -> Line:
             label, path = _text(cast("dict[str, Any]", data).get("label")), []
     what = ".".join(str(step) for step in (*path, found.key))
     values = ", ".join(show(value) for value in found.values)
-    return Line(label, "key", what, "approximated", f"it occurs {len(found.values)} times, with the values {values}; the last one is taken")
+    return Line(
+        label,
+        "key",
+        what,
+        "approximated",
+        f"it occurs {len(found.values)} times, with the values {values}; the last one is taken",
+    )
 
 
 def _inside(item: Any) -> list[Any]:
@@ -161,7 +203,11 @@ def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> 
 def _counted(body: dict[str, Any]) -> int | None:
     """How many elements there are by nElements; None where it does not say."""
     numbers = array(body.get("nElements"))
-    return int(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 and 0 <= numbers.reshape(-1)[0] < 1e9 else None
+    return (
+        int(numbers.reshape(-1)[0])
+        if numbers is not None and numbers.size == 1 and 0 <= numbers.reshape(-1)[0] < 1e9
+        else None
+    )
 
 
 def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[Line]:
@@ -171,11 +217,21 @@ def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[L
         why = f"it is {show(body['nElements'])}, and the list of elements holds {len(found)}"
         lines.append(Line("", "file", "nElements", "approximated", why))
     listed = body.get("elementLabels")
-    labels = [listed] if isinstance(listed, str) else cast("list[Any]", listed) if isinstance(listed, list) else []
+    labels = (
+        [listed] if isinstance(listed, str) else cast("list[Any]", listed) if isinstance(listed, list) else []
+    )
     there = {_text(cast("dict[str, Any]", e).get("label")) for e in found if isinstance(e, dict)}
     for label in dict.fromkeys(_text(v) for v in labels):
         if label and label not in there:
-            lines.append(Line(label, "element", "unknown", "dropped", "elementLabels names it, the list of elements does not hold it"))
+            lines.append(
+                Line(
+                    label,
+                    "element",
+                    "unknown",
+                    "dropped",
+                    "elementLabels names it, the list of elements does not hold it",
+                )
+            )
     return lines
 
 
@@ -198,12 +254,26 @@ def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
     body = cast("dict[str, Any]", entry)
     label, kind = _text(body.get("label")) or f"element {place + 1}", _text(body.get("class")) or "unknown"
     if _text(body.get("label")) != body.get("label"):
-        lines.append(Line(label, "element", show(body.get("label")), "approximated", f"this is no label; it is called {label!r}"))
+        lines.append(
+            Line(
+                label,
+                "element",
+                show(body.get("label")),
+                "approximated",
+                f"this is no label; it is called {label!r}",
+            )
+        )
     param = body.get("param")
     param = param[0] if isinstance(param, list) and len(cast(Any, param)) == 1 else param
-    values = {_text(k): v for k, v in cast("dict[str, Any]", param).items()} if isinstance(param, dict) and not empty(param) else {}
+    values = (
+        {_text(k): v for k, v in cast("dict[str, Any]", param).items()}
+        if isinstance(param, dict) and not empty(param)
+        else {}
+    )
     if not isinstance(param, dict) and not empty(param):
-        lines.append(Line(label, "parameter", "param", "dropped", f"it is {show(param)}, not a set of parameters"))
+        lines.append(
+            Line(label, "parameter", "param", "dropped", f"it is {show(param)}, not a set of parameters")
+        )
     return Foreign(place, label, kind, values, tuple(_sources(label, body.get("input"), lines)))
 
 
@@ -220,7 +290,9 @@ def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
         source, component = body.get("label"), body.get("component")
         if isinstance(source, list):  # a list of structures may be stored as a structure of lists
             several = cast("list[Any]", source)
-            parts = cast("list[Any]", component) if isinstance(component, list) else [component] * len(several)
+            parts = (
+                cast("list[Any]", component) if isinstance(component, list) else [component] * len(several)
+            )
             return [Source(_text(s), _text(c)) for s, c in zip(several, parts, strict=False) if not empty(s)]
         if empty(source):
             return []
@@ -242,7 +314,15 @@ def _unique(elements: tuple[Foreign, ...], lines: list[Line]) -> tuple[Foreign, 
                 numbers[e.label] = numbers.get(e.label, 1) + 1
                 label = f"{e.label} ({numbers[e.label]})"
             taken.add(label)
-            lines.append(Line(label, "element", e.kind, "approximated", f"a second element labelled {e.label!r}; connections lead to the first"))
+            lines.append(
+                Line(
+                    label,
+                    "element",
+                    e.kind,
+                    "approximated",
+                    f"a second element labelled {e.label!r}; connections lead to the first",
+                )
+            )
             e = dc.replace(e, label=label)
         seen.add(e.label)
         out.append(e)
@@ -257,7 +337,7 @@ def _text(value: Any) -> str:
     return "".join(c if c.isprintable() else " " for c in text).strip()
 
 
-# ------------------------------------------------------------------------------------------------ values
+# ----------------------------------------------------------------------------------------------------- values
 
 
 def _plain(value: Any) -> Any:
@@ -278,7 +358,12 @@ def _plain(value: Any) -> Any:
         if "_ArrayData_" not in body or body.get("_ArrayIsComplex_") or body.get("_ArrayIsSparse_"):
             raise ValueError("no array")
         data = np.array(_plain(body["_ArrayData_"]), dtype=np.float64)
-        size = [int(n) for n in np.atleast_1d(np.array(_plain(body.get("_ArraySize_", list(data.shape))), dtype=np.float64))]
+        size = [
+            int(n)
+            for n in np.atleast_1d(
+                np.array(_plain(body.get("_ArraySize_", list(data.shape))), dtype=np.float64)
+            )
+        ]
         if math.prod(size) != data.size or any(n < 0 for n in size):
             raise ValueError("an array of another size than it says")
         return data.reshape(size, order="C" if data.ndim == len(size) and data.ndim > 1 else "F").tolist()

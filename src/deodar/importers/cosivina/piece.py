@@ -1,4 +1,6 @@
-"""What an element of the file becomes: elements of ours, where its inputs go, and where its components are read."""
+"""What an element of the file becomes: elements of ours, where its inputs go, and where its components are
+read.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,8 @@ from deodar.numerics.axes import Axis
 
 @dc.dataclass(frozen=True)
 class Inlet:
-    """Where an input goes: an element of ours and its port, the dimensions that may arrive, whether all of them must, and, where it is not
-    the one that the file names, the component that is read.
+    """Where an input goes: an element of ours and its port, the dimensions that may arrive, whether all of
+    them must, and, where it is not the one that the file names, the component that is read.
     """
 
     name: str
@@ -78,9 +80,19 @@ class Piece:
 
 
 class Bench:
-    """What translating one element needs to know: its parameters, the axes, the step, who reads it, and what was said on the way."""
+    """What translating one element needs to know: its parameters, the axes, the step, who reads it, and what
+    was said on the way.
+    """
 
-    def __init__(self, simulator: Simulator, dims: Dimensions, element: Foreign, asked: set[str], names: Names, bugs: bool) -> None:
+    def __init__(
+        self,
+        simulator: Simulator,
+        dims: Dimensions,
+        element: Foreign,
+        asked: set[str],
+        names: Names,
+        bugs: bool,
+    ) -> None:
         self.simulator = simulator
         self.step = simulator.step
         self.element = element
@@ -101,13 +113,20 @@ class Bench:
         return self._dims.of(counts)
 
     def source(self, k: int) -> Dims | None:
-        """Dimensions of what an input brings, as its source declares them; None where there is no such input."""
+        """Dimensions of what an input brings, as its source declares them; None where there is no such
+        input.
+        """
         if k >= len(self.element.sources):
             return None
         s = self.element.sources[k]
         found = self.simulator.by_label.get(s.label)
         passed: set[str] = set()
-        while found is not None and found.kind == "HebbianConnection" and len(found.sources) > 1 and found.label not in passed:
+        while (
+            found is not None
+            and found.kind == "HebbianConnection"
+            and len(found.sources) > 1
+            and found.label not in passed
+        ):
             passed.add(found.label)  # its size is that of its second input, and not in the file
             s = found.sources[1]
             found = self.simulator.by_label.get(s.label)
@@ -128,12 +147,22 @@ def axes(dims: Dims) -> tuple[Axis, ...]:
     return tuple(a for a in dims if a is not None)
 
 
-def projection(name: str, source: Sequence[Axis], target: Dims, places: Sequence[Axis | None], reduce: str = "sum") -> Project:
-    """A projection in which each axis of the source becomes the axis of the same place, or is added up where that is None."""
+def projection(
+    name: str, source: Sequence[Axis], target: Dims, places: Sequence[Axis | None], reduce: str = "sum"
+) -> Project:
+    """A projection in which each axis of the source becomes the axis of the same place, or is added up where
+    that is None.
+    """
     here = axes(target)
-    names = {a.name: b.name for a, b in zip(source, places, strict=True) if b is not None and a.name != b.name}
+    names = {
+        a.name: b.name for a, b in zip(source, places, strict=True) if b is not None and a.name != b.name
+    }
     # an axis that is added up must not be taken for one of the target's
-    names |= {a.name: f"{a.name} added up" for a, b in zip(source, places, strict=True) if b is None and a.name in [c.name for c in here]}
+    names |= {
+        a.name: f"{a.name} added up"
+        for a, b in zip(source, places, strict=True)
+        if b is None and a.name in [c.name for c in here]
+    }
     return Project(here, reduce, names, name=name)
 
 

@@ -1,7 +1,8 @@
 """Sizes of outputs as cosivina declares them, and the axes that stand for them.
 
-Dimension 1 is called y, dimension 2 x, as in cosivina's own parameters (`sigmaY`, `positionX`), further ones z and w. A dimension of one
-sample is no axis: a row is one axis, a single number none. Samples lie at 1, 2, ..., as positions are counted there, so that the step is 1.
+Dimension 1 is called y, dimension 2 x, as in cosivina's own parameters (`sigmaY`, `positionX`), further ones
+z and w. A dimension of one sample is no axis: a row is one axis, a single number none. Samples lie at 1, 2,
+..., as positions are counted there, so that the step is 1.
 """
 
 from __future__ import annotations
@@ -51,7 +52,13 @@ def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:
             return (side, side)
         case "RunningHistory" | "History", _:
             times = array(e.values.get("storingTimes"))
-            slots = size(e.values.get("timeSlots"))[-1] if e.kind == "RunningHistory" else times.size if times is not None else 1
+            slots = (
+                size(e.values.get("timeSlots"))[-1]
+                if e.kind == "RunningHistory"
+                else times.size
+                if times is not None
+                else 1
+            )
             return (slots, columns) if rows == 1 else (*own, slots)
         case _:
             given = next((e.values[key] for key in (*SIZES[:1], *SIZES[2:]) if key in e.values), None)
@@ -74,7 +81,9 @@ class Dimensions:
         self.common = [max(used, key=lambda n: (used[n], n), default=0) for used in self.used]
 
     def of(self, counts: Sequence[int]) -> Dims:
-        """The axes of a size. All of one length wrap, or none: what most kernels and stimuli over this length do.
+        """The axes of a size.
+
+        All of one length wrap, or none: what most kernels and stimuli over this length do.
 
         Raises:
             TooLarge: where a size is too large to be meant.

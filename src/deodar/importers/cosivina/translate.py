@@ -1,4 +1,6 @@
-"""From a file of cosivina to a model: pieces for the elements, connections in the order of the file, a report."""
+"""From a file of cosivina to a model: pieces for the elements, connections in the order of the file, a
+report.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +38,18 @@ def read(content: bytes, name: str, bugs: bool = False) -> Imported:
     translation = Translation(simulator, bugs)
     report = Report("cosivina", name, translation.lines(), translation.met)
     title = PurePath(name).stem
-    doc = edit.describe(Document(title or "cosivina"), time_unit="ms", dt=simulator.step, t0=simulator.start, notes=report.text())
-    doc, by = _add(doc, [element for piece in translation.pieces.values() for element in piece.elements] + translation.wiring.extra)
+    doc = edit.describe(
+        Document(title or "cosivina"),
+        time_unit="ms",
+        dt=simulator.step,
+        t0=simulator.start,
+        notes=report.text(),
+    )
+    doc, by = _add(
+        doc,
+        [element for piece in translation.pieces.values() for element in piece.elements]
+        + translation.wiring.extra,
+    )
     for source, port, target, entrance, reads in translation.wiring.connections:
         doc = edit.connect(doc, by[source], port, by[target], entrance, reads)
     return Imported(Model(document=doc), report)
@@ -62,18 +74,31 @@ class Translation:
         self.wiring.connect_all()
 
     def piece(self, e: Foreign) -> Piece:
-        """The counterpart of one element; a placeholder where there is none, or where its parameters do not go together."""
-        bench = Bench(self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.names, self.bugs)
+        """The counterpart of one element; a placeholder where there is none, or where its parameters do not
+        go together.
+        """
+        bench = Bench(
+            self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.names, self.bugs
+        )
         try:
-            found = CLASSES[e.kind](bench) if e.kind in CLASSES else placeholder(e, self.dimensions, list(CLASSES))
+            found = (
+                CLASSES[e.kind](bench)
+                if e.kind in CLASSES
+                else placeholder(e, self.dimensions, list(CLASSES))
+            )
         except (Unfit, TooLarge) as error:
             found = placeholder(e, self.dimensions, list(CLASSES), str(error))
         except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
-            found = placeholder(e, self.dimensions, list(CLASSES), f"its parameters do not go together ({error})")
+            found = placeholder(
+                e, self.dimensions, list(CLASSES), f"its parameters do not go together ({error})"
+            )
         self.met += bench.met
         self.said.append(Line(e.label, "element", e.kind, found.verdict, found.why))
         if isinstance(found.elements[0], Placeholder):
-            self.said += [Line(e.label, "parameter", name, "dropped", "its element is a placeholder") for name in e.values]
+            self.said += [
+                Line(e.label, "parameter", name, "dropped", "its element is a placeholder")
+                for name in e.values
+            ]
         else:
             self.said += bench.values.rest()
             self.said += _shown(e, found)
@@ -85,13 +110,23 @@ class Translation:
 
 
 def _shown(e: Foreign, piece: Piece) -> list[Line]:
-    """Where the components of an element are read, which scripts and plots of cosivina ask for by name; those of the same name are left out."""
+    """Where the components of an element are read, which scripts and plots of cosivina ask for by name; those
+    of the same name are left out.
+    """
     lines: list[Line] = []
     for component in components(e.kind):
         outlet = piece.outlets.get(component)
         if outlet is not None:
             if (outlet.name, outlet.port) != (e.label, component):
-                lines.append(Line(e.label, "component", component, "carried", f"read {display((outlet.name, outlet.port))}"))
+                lines.append(
+                    Line(
+                        e.label,
+                        "component",
+                        component,
+                        "carried",
+                        f"read {display((outlet.name, outlet.port))}",
+                    )
+                )
         elif component in piece.elsewhere:
             lines.append(Line(e.label, "component", component, "carried", piece.elsewhere[component]))
         else:

@@ -40,7 +40,9 @@ class Values:
         return inside
 
     def width(self, name: str, default: float = 1.0) -> float:
-        """The width of a Gaussian in samples; 0 means a single sample, which a width far below the step is."""
+        """The width of a Gaussian in samples; 0 means a single sample, which a width far below the step
+        is.
+        """
         return max(self.number(name, default, 0.0), NARROWEST)
 
     def flag(self, name: str, default: bool) -> bool:
@@ -52,7 +54,12 @@ class Values:
         if name not in self.element.values:
             return list(default)
         found = array(self.element.values[name])
-        if found is None or found.size not in (1, count) or not np.isfinite(found).all() or np.abs(found).max() > LARGEST:
+        if (
+            found is None
+            or found.size not in (1, count)
+            or not np.isfinite(found).all()
+            or np.abs(found).max() > LARGEST
+        ):
             self._instead(name, list(default))
             return list(default)
         self.say(name)
@@ -94,7 +101,9 @@ class Values:
         """All lines; what nobody read was dropped."""
         for name in self.element.values:
             if name not in self.lines:
-                self.say(name, "dropped", f"{self.element.kind} has no such parameter, or it has no effect here")
+                self.say(
+                    name, "dropped", f"{self.element.kind} has no such parameter, or it has no effect here"
+                )
         return list(self.lines.values())
 
     def _instead(self, name: str, default: Any) -> Any:
@@ -103,7 +112,9 @@ class Values:
 
 
 def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
-    """A size as cosivina means it: at least two whole numbers, one number is a row, ones at the end do not count."""
+    """A size as cosivina means it: at least two whole numbers, one number is a row, ones at the end do not
+    count.
+    """
     found = array(value)
     if found is None or found.size == 0 or found.size > 4 or not np.isfinite(found).all():
         return tuple(default)
@@ -115,7 +126,8 @@ def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
 
 
 def ticks(periods: Sequence[tuple[float, float]], start: float, step: float) -> list[tuple[int, int]]:
-    """The steps in which moments lie that belong to closed periods: first and last, counted from 1; periods without a step are left out.
+    """The steps in which moments lie that belong to closed periods: first and last, counted from 1; periods
+    without a step are left out.
 
     A step belongs to a period if its moment does, to a millionth of a step.
     """

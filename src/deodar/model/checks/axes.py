@@ -30,22 +30,36 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 def _axis(n: Node, a: Axis) -> Iterator[Problem]:
     if a.periodic and a.samples > 2 and _round(a.range / (a.samples - 1)) and not _round(a.range / a.samples):
         what = (
-            f"the periodic axis {a.name!r} counts its end twice: {a.lower:g} and {a.upper:g} are one place, so {a.samples} samples lie"
-            f" {a.range / a.samples:g} apart, not {a.range / (a.samples - 1):g}"
+            f"the periodic axis {a.name!r} counts its end twice: {a.lower:g} and {a.upper:g} are one place,"
+            f" so {a.samples} samples lie {a.range / a.samples:g} apart, not {a.range / (a.samples - 1):g}"
         )
         yield warning(n, what, f"Write samples={a.samples - 1}")
     unit = a.unit.lower()
-    whole, other = (360.0, "rad") if unit in DEGREES else (2 * math.pi, "deg") if unit in RADIANS else (0.0, "")
-    turns = {t for radians, degrees in CIRCLES for t in ((radians,) if unit in DEGREES else (degrees,))} if whole else set[float]()
+    whole, other = (
+        (360.0, "rad") if unit in DEGREES else (2 * math.pi, "deg") if unit in RADIANS else (0.0, "")
+    )
+    turns = (
+        {t for radians, degrees in CIRCLES for t in ((radians,) if unit in DEGREES else (degrees,))}
+        if whole
+        else set[float]()
+    )
     if any(math.isclose(a.range, t, rel_tol=1e-3) for t in turns):
-        what = f"the axis {a.name!r} is {a.range:g} long, a turn or half of one in {other}, but its unit is {a.unit}"
+        what = (
+            f"the axis {a.name!r} is {a.range:g} long, a turn or half of one in {other}, but its unit is"
+            f" {a.unit}"
+        )
         yield warning(n, what, f"Write unit={other!r}, or the bounds in {a.unit}")
     elif whole and not a.periodic and math.isclose(a.range, whole, rel_tol=1e-4):
-        what = f"the axis {a.name!r} is a whole circle ({a.range:g} {a.unit}), but its ends do not meet: kernels take them for far apart"
+        what = (
+            f"the axis {a.name!r} is a whole circle ({a.range:g} {a.unit}), but its ends do not meet: kernels"
+            " take them for far apart"
+        )
         yield warning(n, what, f"Write periodic=True and samples={a.samples - 1}")
 
 
 def _round(step: float) -> bool:
-    """Whether a step is a number that a person would choose: a whole number, or a few halves, fifths or tenths of one."""
+    """Whether a step is a number that a person would choose: a whole number, or a few halves, fifths or
+    tenths of one.
+    """
     scaled = step / 10 ** math.floor(math.log10(step))
     return any(math.isclose(scaled, k, rel_tol=1e-9) for k in (1, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5, 8, 9))

@@ -12,7 +12,12 @@ from deodar.errors import Problem
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 
-NEEDED = {"gate": "it never learns", "factor": "its output is always 0", "post": "it never learns anything", "error": "its gains never change"}
+NEEDED = {
+    "gate": "it never learns",
+    "factor": "its output is always 0",
+    "post": "it never learns anything",
+    "error": "its gains never change",
+}
 """Ports whose silence makes an element useless, and how."""
 
 IDLE = ("Motor", "MemoryTrace", "Attractor", "DelayLine", "History", "TransientDetector", "Delay")
@@ -20,14 +25,18 @@ IDLE = ("Motor", "MemoryTrace", "Attractor", "DelayLine", "History", "TransientD
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Ports that nothing reaches, sources that nothing reads, signals and motors that occur twice, parameters that drive nothing."""
+    """Ports that nothing reaches, sources that nothing reads, signals and motors that occur twice, parameters
+    that drive nothing.
+    """
     for n in wiring.declared:
         yield from _ports(wiring, n)
         yield from _twice(wiring, n)
     motors: dict[str, Node] = {}
     for n in wiring.declared:
         if isinstance(n.element, Motor) and (first := motors.setdefault(n.element.motor, n)) is not n:
-            what = f"tells the motor {n.element.motor!r}, which {first.path} tells as well: only one of them can"
+            what = (
+                f"tells the motor {n.element.motor!r}, which {first.path} tells as well: only one of them can"
+            )
             yield warning(n, what, "Name another motor, or connect both signals to one element")
     for knob in wiring.doc.knobs:
         if not knob.links and wiring.driven:
@@ -39,13 +48,27 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
     e = n.element
     for port in e.ports():
         if port in NEEDED and not n.reads.get(port) and n.id in wiring.driven:
-            yield warning(n, f"nothing is connected to its port {port!r}, so {NEEDED[port]}", f"Connect it: model.connect(..., '{n.path}.{port}')")
+            yield warning(
+                n,
+                f"nothing is connected to its port {port!r}, so {NEEDED[port]}",
+                f"Connect it: model.connect(..., '{n.path}.{port}')",
+            )
     if type(e).__name__ in IDLE and not n.reads.get("input"):
-        yield warning(n, "nothing is connected to it, so it does nothing", f"Connect it: model.connect(..., {n.path!r}); or remove it")
-    if not e.ports() and not isinstance(e, Sensor) and not wiring.readers[n.id]:  # what a sensor reads may be wanted for the record alone
+        yield warning(
+            n,
+            "nothing is connected to it, so it does nothing",
+            f"Connect it: model.connect(..., {n.path!r}); or remove it",
+        )
+    if (
+        not e.ports() and not isinstance(e, Sensor) and not wiring.readers[n.id]
+    ):  # what a sensor reads may be wanted for the record alone
         yield warning(n, "nothing reads it", f"Connect it: model.connect({n.path!r}, ...); or remove it")
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
-        yield warning(n, f"stands in for {e.missing or 'what is missing'} and gives 0 to what reads it", "Put an element in its place that does it")
+        yield warning(
+            n,
+            f"stands in for {e.missing or 'what is missing'} and gives 0 to what reads it",
+            "Put an element in its place that does it",
+        )
 
 
 def _twice(wiring: Wiring, n: Node) -> Iterator[Problem]:

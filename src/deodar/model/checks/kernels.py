@@ -15,10 +15,14 @@ from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.numerics.kernels.shifted import Shifted
 
 NARROW = 0.4
-"""Widths in grid steps below which a Gaussian acts on its own place alone: neighbours get less than 5 % of what it gets (a guess)."""
+"""Widths in grid steps below which a Gaussian acts on its own place alone: neighbours get less than 5 % of
+what it gets (a guess).
+"""
 
 WIDE = 2.0
-"""Lengths of an axis from which a Gaussian on it is nearly flat: at least 88 % of its height everywhere (a guess)."""
+"""Lengths of an axis from which a Gaussian on it is nearly flat: at least 88 % of its height everywhere (a
+guess).
+"""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
@@ -32,7 +36,10 @@ def check(wiring: Wiring) -> Iterator[Problem]:
         for name in ("global_inhibition", "inhibition") if n.element.stateful else ():
             value: Any = getattr(n.element, name, 0.0)
             if value < 0:
-                what = f"{name} is {value:g}: it is counted positive and subtracted, so a negative one excites everything that is on"
+                what = (
+                    f"{name} is {value:g}: it is counted positive and subtracted, so a negative one excites"
+                    " everything that is on"
+                )
                 yield warning(n, what, f"Write {name}={-value:g}")
 
 
@@ -42,34 +49,59 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
     if isinstance(kernel, Shifted):
         for axis, by in zip(axes, per_axis(kernel.shift, axes), strict=True):
             if not axis.periodic and abs(by) > axis.range:
-                what = f"{where}: the shift {by:g} is longer than the axis {axis.name!r} ({axis.range:g}), so it acts on no place"
+                what = (
+                    f"{where}: the shift {by:g} is longer than the axis {axis.name!r} ({axis.range:g}), so it"
+                    " acts on no place"
+                )
                 yield warning(n, what, f"Take a shift below {axis.range:g}")
         return
     if isinstance(kernel, MexicanHat):
         if kernel.inhibition < 0 or kernel.excitation < 0:
             name = "inhibition" if kernel.inhibition < 0 else "excitation"
             does = "excites" if kernel.inhibition < 0 else "inhibits"
-            what = f"{where}: {name} is {getattr(kernel, name):g}, and both are counted positive, so it {does}"
+            what = (
+                f"{where}: {name} is {getattr(kernel, name):g}, and both are counted positive, so it {does}"
+            )
             yield warning(n, what, f"Write {name}={-getattr(kernel, name):g}")
         elif kernel.inhibition > kernel.excitation and not kernel.normalized:
-            what = f"{where}: inhibits at its centre, since inhibition {kernel.inhibition:g} is larger than excitation {kernel.excitation:g}"
+            what = (
+                f"{where}: inhibits at its centre, since inhibition {kernel.inhibition:g} is larger than"
+                f" excitation {kernel.excitation:g}"
+            )
             yield warning(n, what, "Exchange the two, or make the excitation the larger one")
-        pairs = zip(per_axis(kernel.sigma_excitation, axes), per_axis(kernel.sigma_inhibition, axes), strict=True)
+        pairs = zip(
+            per_axis(kernel.sigma_excitation, axes), per_axis(kernel.sigma_inhibition, axes), strict=True
+        )
         if kernel.inhibition > 0 and axes and all(float(b) <= float(a) for a, b in pairs):
-            what = f"{where}: sigma_inhibition is not larger than sigma_excitation, so neighbours inhibit and places further off excite"
+            what = (
+                f"{where}: sigma_inhibition is not larger than sigma_excitation, so neighbours inhibit and"
+                " places further off excite"
+            )
             yield warning(n, what, "Make sigma_inhibition the larger one")
     if not isinstance(kernel, (Gaussian, MexicanHat)):
         return
     excites = isinstance(kernel, MexicanHat) or kernel.amplitude > 0
     for width in kernel.widths():
         pairs = [(axis, float(s)) for axis, s in zip(axes, per_axis(width, axes), strict=True)]
-        if pairs and all(s < NARROW * axis.step for axis, s in pairs):  # narrow on one of several axes may be meant: no blur along hue
+        if pairs and all(
+            s < NARROW * axis.step for axis, s in pairs
+        ):  # narrow on one of several axes may be meant: no blur along hue
             axis, s = pairs[0]
-            what = f"{where}: a sigma of {s:g} is narrower than the step {axis.step:g} of the axis {axis.name!r}: no place reaches its neighbours"
-            yield warning(n, what, f"Take a sigma of {axis.step:g} or more, or more samples; widths are in units of the axis")
+            what = (
+                f"{where}: a sigma of {s:g} is narrower than the step {axis.step:g} of the axis"
+                f" {axis.name!r}: no place reaches its neighbours"
+            )
+            yield warning(
+                n,
+                what,
+                f"Take a sigma of {axis.step:g} or more, or more samples; widths are in units of the axis",
+            )
             return
         for axis, s in pairs if excites else ():
             if s >= WIDE * axis.range:
-                what = f"{where}: a sigma of {s:g} is wider than the axis {axis.name!r} ({axis.range:g}), so the kernel is the same everywhere"
+                what = (
+                    f"{where}: a sigma of {s:g} is wider than the axis {axis.name!r} ({axis.range:g}), so the"
+                    " kernel is the same everywhere"
+                )
                 yield warning(n, what, f"Take a sigma far below {axis.range:g}")
                 return

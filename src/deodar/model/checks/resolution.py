@@ -19,9 +19,11 @@ from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.step import Step
 
 STEEP, STEEP_BEYOND = 5.0, 10.0
-"""Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over one axis, and over several, where edges
-cross samples at different places. Measured by the boost that erases a memory: on a line it is 3 % to 14 % off at 5.5 and below 1 % off at 3.7
-(`python benchmarks/resolution.py edges`), on a plane 5 % off at 14 and 1.5 % at 7 (`--dimensions 2`)."""
+"""Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over
+one axis, and over several, where edges cross samples at different places. Measured by the boost that erases a
+memory: on a line it is 3 % to 14 % off at 5.5 and below 1 % off at 3.7 (`python benchmarks/resolution.py
+edges`), on a plane 5 % off at 14 and 1.5 % at 7 (`--dimensions 2`).
+"""
 
 WIDTHS = np.linspace(0.05, 12.0, 240)
 """Widths of a peak that are tried, in widths of the excitation."""
@@ -44,19 +46,35 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             continue
         most, at = max(steep, key=lambda pair: pair[0])
         finite = math.isfinite(most)
-        edge = f"from sample to sample of {at.name!r} beta times activation changes by {most:.2g}" if finite else "its sigmoid is a step"
-        what = f"holds peaks without input whose edges are narrower than a sample ({edge}): peaks stick to samples, and thresholds depend on the grid"
-        finer = " and ".join(f"samples={math.ceil(axis.samples * s / limit)} on {axis.name!r}" for s, axis in steep) if finite else ""
+        edge = (
+            f"from sample to sample of {at.name!r} beta times activation changes by {most:.2g}"
+            if finite
+            else "its sigmoid is a step"
+        )
+        what = (
+            f"holds peaks without input whose edges are narrower than a sample ({edge}): peaks stick to"
+            " samples, and thresholds depend on the grid"
+        )
+        finer = (
+            " and ".join(
+                f"samples={math.ceil(axis.samples * s / limit)} on {axis.name!r}" for s, axis in steep
+            )
+            if finite
+            else ""
+        )
         yield warning(n, what, 'Write quadrature="cell"' + (f"; or {finer}" if finer else ""))
 
 
 def steepness(field: Field) -> list[float]:
-    """Along each axis, by how much beta u changes from sample to sample at the edge of a peak that needs no input; empty where none is known.
+    """Along each axis, by how much beta u changes from sample to sample at the edge of a peak that needs no
+    input; empty where none is known.
 
-    A region of g = 1 with straight borders stands for the peak (Amari 1977 on a line). Its width is the largest at which activation at the border
-    is at the threshold and falls with the width: u = theta there, so that h - theta + integral of k over the region - c volume = 0. The slope at
-    the border is k(0) - k(width), times the part of the kernel that the region covers along other axes. Known for kernels that are sums of Gaussians
-    and for sigmoids that saturate; an estimate, since true peaks are round and their edges not sharp.
+    A region of g = 1 with straight borders stands for the peak (Amari 1977 on a line). Its width is the
+    largest at which activation at the border is at the threshold and falls with the width: u = theta there,
+    so that h - theta + integral of k over the region - c volume = 0. The slope at the border is k(0) -
+    k(width), times the part of the kernel that the region covers along other axes. Known for kernels that are
+    sums of Gaussians and for sigmoids that saturate; an estimate, since true peaks are round and their edges
+    not sharp.
     """
     axes, terms, beta = tuple(field.axes), _terms(field), _beta(field)
     main = max(terms, key=lambda t: t[0], default=(0.0, []))
@@ -83,9 +101,19 @@ def steepness(field: Field) -> list[float]:
 
 
 def _beta(field: Field) -> float:
-    """Four times the steepest slope of a sigmoid that saturates (the beta of a logistic one); 0 for others."""
+    """Four times the steepest slope of a sigmoid that saturates (the beta of a logistic one); 0 for
+    others.
+    """
     g = field.sigmoid
-    return g.beta if isinstance(g, Logistic) else 2 * g.beta if isinstance(g, Absolute) else math.inf if isinstance(g, Step) else 0.0
+    return (
+        g.beta
+        if isinstance(g, Logistic)
+        else 2 * g.beta
+        if isinstance(g, Absolute)
+        else math.inf
+        if isinstance(g, Step)
+        else 0.0
+    )
 
 
 def _terms(field: Field) -> list[tuple[float, list[float]]]:
@@ -93,12 +121,21 @@ def _terms(field: Field) -> list[tuple[float, list[float]]]:
     found: list[tuple[float, list[float]]] = []
     for k in field.kernel:
         if isinstance(k, MexicanHat):
-            parts = [(k.excitation, k.sigma_excitation, k.normalized), (-k.inhibition, k.sigma_inhibition, k.normalized)]
+            parts = [
+                (k.excitation, k.sigma_excitation, k.normalized),
+                (-k.inhibition, k.sigma_inhibition, k.normalized),
+            ]
         elif isinstance(k, (Gaussian, TruncatedGaussian)):
             parts = [(k.amplitude, k.sigma, k.normalized)]
         else:
             return []
         for amplitude, sigma, normalized in parts:
             sigmas = [float(s) for s in per_axis(sigma, field.axes)]
-            found.append((amplitude * (1.0 if normalized else math.prod(math.sqrt(2 * math.pi) * s for s in sigmas)), sigmas))
+            found.append(
+                (
+                    amplitude
+                    * (1.0 if normalized else math.prod(math.sqrt(2 * math.pi) * s for s in sigmas)),
+                    sigmas,
+                )
+            )
     return found

@@ -32,8 +32,15 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                 reported |= {m.id for m, _ in loop}
                 gain = math.prod(g for _, g in loop)
                 names = " -> ".join([m.path for m, _ in loop] + [n.path])
-                what = f"grows without bound: once round the loop {names} a signal is multiplied by {gain:.3g}"
-                yield warning(n, what, "Make the product of its gains smaller than 1, or take a sigmoid that saturates: Logistic()")
+                what = (
+                    f"grows without bound: once round the loop {names} a signal is multiplied by {gain:.3g}"
+                )
+                yield warning(
+                    n,
+                    what,
+                    "Make the product of its gains smaller than 1, or take a sigmoid that saturates:"
+                    " Logistic()",
+                )
         if isinstance(e, Field) and e.axes:
             yield from _spread(wiring, n, e)
             yield from _tie(wiring, n, e)
@@ -56,7 +63,9 @@ def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
     e = start.element
     if isinstance(e, Field) and isinstance(e.sigmoid, (Linear, SemiLinear)):
         parts = [kernel.bounds(tuple(e.axes)) for kernel in e.kernel]
-        gain = e.sigmoid.slope * (sum(a + b for a, b in parts) - e.global_inhibition * math.prod(a.step * a.samples for a in e.axes))
+        gain = e.sigmoid.slope * (
+            sum(a + b for a, b in parts) - e.global_inhibition * math.prod(a.step * a.samples for a in e.axes)
+        )
         border = 1.2 if e.axes else 1.0  # near a border a part of the kernel is lost
         if border < gain < math.inf:
             return [(start, gain)]
@@ -73,7 +82,9 @@ def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
 
 
 def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
-    """The edge of a wide peak gets half the kernel: where that lifts it over its threshold, and nothing inhibits, the peak widens to the ends."""
+    """The edge of a wide peak gets half the kernel: where that lifts it over its threshold, and nothing
+    inhibits, the peak widens to the ends.
+    """
     if isinstance(e.sigmoid, (Linear, SemiLinear)) or wiring.arriving(n)[0] < 0:
         return
     parts = [kernel.bounds(tuple(e.axes)) for kernel in e.kernel]
@@ -83,10 +94,15 @@ def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     if any(a for a, _ in parts) or not 0 < edge < math.inf or e.global_inhibition * whole > 0.5 * edge:
         return
     what = (
-        f"a peak in it spreads over the whole field: half of its kernel's integral ({sum(b for _, b in parts) / 2:.3g}) exceeds the resting level"
-        f" {e.resting_level:g}, and nothing inhibits what lies further off"
+        "a peak in it spreads over the whole field: half of its kernel's integral"
+        f" ({sum(b for _, b in parts) / 2:.3g}) exceeds the resting level {e.resting_level:g}, and nothing"
+        " inhibits what lies further off"
     )
-    yield warning(n, what, f"Give it global_inhibition (about {edge / (0.2 * whole):.2g}), a MexicanHat, or a weaker kernel")
+    yield warning(
+        n,
+        what,
+        f"Give it global_inhibition (about {edge / (0.2 * whole):.2g}), a MexicanHat, or a weaker kernel",
+    )
 
 
 def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
@@ -94,7 +110,14 @@ def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     found = sorted(wiring.sources(n), key=wiring.declared.index)
     if e.noise > 0 or e.global_inhibition <= 0 or len(found) < 2:
         return
-    same = {dc.replace(m.element, name="", center=0.0) for m in found if isinstance(m.element, (GaussianStimulus, BoxStimulus))}
+    same = {
+        dc.replace(m.element, name="", center=0.0)
+        for m in found
+        if isinstance(m.element, (GaussianStimulus, BoxStimulus))
+    }
     if len(same) == 1 and all(isinstance(m.element, (GaussianStimulus, BoxStimulus)) for m in found):
-        what = f"its inputs {' and '.join(m.path for m in found)} are equal, they compete, and noise is 0: rounding decides which one wins"
+        what = (
+            f"its inputs {' and '.join(m.path for m in found)} are equal, they compete, and noise is 0:"
+            " rounding decides which one wins"
+        )
         yield warning(n, what, "Give it noise, such as noise=0.1, or make one input stronger")

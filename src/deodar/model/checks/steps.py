@@ -20,8 +20,9 @@ from deodar.numerics.windows import Window
 from deodar.parameters import FrozenArray, parameters
 
 COARSE = 0.4
-"""Share of a time constant from which a step is called long: the Euler method then relaxes by a quarter too fast. A step of just the time constant
-is left alone: it copies the input, and is written on purpose."""
+"""Share of a time constant from which a step is called long: the Euler method then relaxes by a quarter too
+fast. A step of just the time constant is left alone: it copies the input, and is written on purpose.
+"""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
@@ -41,7 +42,10 @@ def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
         yield dc.replace(problem, fix=f"{stated}{problem.fix}")
     for limit in step_limits(n.element):
         if limit.role == "time constant" and COARSE * limit.value < step < limit.value * (1 - 1e-9):
-            what = f"the step of {step:g} {unit} is long for {limit.path} = {limit.value:g}: the Euler method is inaccurate from {COARSE:g} of it"
+            what = (
+                f"the step of {step:g} {unit} is long for {limit.path} = {limit.value:g}: the Euler method is"
+                f" inaccurate from {COARSE:g} of it"
+            )
             yield warning(n, what, f"Write dt={limit.value / n.every / 10:g}, a tenth of {limit.path}")
     for p in parameters(type(n.element)):
         value: Any = getattr(n.element, p.name)
@@ -49,7 +53,10 @@ def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
             what = f"{p.name} = {value:g} {unit} is shorter than the step of {step:g}, and counts as one step"
             yield warning(n, what, f"Give it in {unit}, or take a smaller step")
     if isinstance(n.element, MemoryTrace) and n.element.tau_build > n.element.tau_decay:
-        what = f"tau_build = {n.element.tau_build:g} is longer than tau_decay = {n.element.tau_decay:g}: it forgets faster than it learns"
+        what = (
+            f"tau_build = {n.element.tau_build:g} is longer than tau_decay = {n.element.tau_decay:g}: it"
+            " forgets faster than it learns"
+        )
         yield warning(n, what, "Exchange the two")
 
 
@@ -60,9 +67,14 @@ def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
             continue
         if w.stop <= wiring.doc.t0:
             what = f"windows.{k} ends at {w.stop:g}: it is over before the run begins at {wiring.doc.t0:g}"
-            yield warning(n, what, f"Windows are times on the document's clock: begin at {wiring.doc.t0:g} or later")
+            yield warning(
+                n, what, f"Windows are times on the document's clock: begin at {wiring.doc.t0:g} or later"
+            )
         elif w.stop - w.start < step * (1 - 1e-9):
-            what = f"windows.{k} is {w.stop - w.start:g} {wiring.doc.time_unit} long, shorter than the step of {step:g}: it may never be on"
+            what = (
+                f"windows.{k} is {w.stop - w.start:g} {wiring.doc.time_unit} long, shorter than the step of"
+                f" {step:g}: it may never be on"
+            )
             yield warning(n, what, f"Give start and stop in {wiring.doc.time_unit}, or take a smaller step")
 
 
@@ -74,7 +86,10 @@ def _learning(n: Node) -> Iterator[Problem]:
         what = "its rate is 0 and its weights begin at 0: it learns nothing, and gives 0"
         yield warning(n, what, "Give it a rate, such as 0.01, or weights: start=...")
     if isinstance(e, Hebbian) and 0 < e.saturation < e.initial and e.start is None:
-        what = f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first thing learned makes them smaller"
+        what = (
+            f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first thing"
+            " learned makes them smaller"
+        )
         yield warning(n, what, f"Write initial={e.saturation:g} or less, or a larger saturation")
 
 
@@ -86,14 +101,37 @@ def _series(n: Node, step: float) -> Iterator[Problem]:
             what = f"its times from {first:g} to {last:g} all lie inside one step of {step:g}"
             yield warning(n, what, "Give times in the document's time unit")
         elif 0 < e.period < last:
-            yield warning(n, f"its period is {e.period:g}, so its moments from there to {last:g} are never reached", f"Write period={last:g}, or 0")
+            yield warning(
+                n,
+                f"its period is {e.period:g}, so its moments from there to {last:g} are never reached",
+                f"Write period={last:g}, or 0",
+            )
     if isinstance(e, MovingGaussian):
         every = zip(e.axes, *(per_axis(v, e.axes) for v in (e.center, e.sigma, e.velocity)), strict=True)
         for axis, center, sigma, velocity in every:
             c, s, v = float(center), float(sigma), float(velocity)
             if abs(v) * step > 2 * s:
-                what = f"its velocity of {v:g} carries it {abs(v) * step:g} in one step of {step:g}, further than its width: it jumps"
-                yield warning(n, what, f"Give the velocity in units of the axis {axis.name!r} per unit of the document's time")
-            elif e.waypoints is None and not axis.periodic and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0)):
-                what = f"begins at {c:g}, beyond the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its velocity {v:g} never brings it there"
-                yield warning(n, what, f"Take a center between {axis.lower:g} and {axis.upper:g}, or another sign of the velocity")
+                what = (
+                    f"its velocity of {v:g} carries it {abs(v) * step:g} in one step of {step:g}, further"
+                    " than its width: it jumps"
+                )
+                yield warning(
+                    n,
+                    what,
+                    f"Give the velocity in units of the axis {axis.name!r} per unit of the document's time",
+                )
+            elif (
+                e.waypoints is None
+                and not axis.periodic
+                and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0))
+            ):
+                what = (
+                    f"begins at {c:g}, beyond the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its"
+                    f" velocity {v:g} never brings it there"
+                )
+                yield warning(
+                    n,
+                    what,
+                    f"Take a center between {axis.lower:g} and {axis.upper:g}, or another sign of the"
+                    " velocity",
+                )

@@ -14,7 +14,9 @@ from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Part, Recompile, parameters
 
 WIDEST = 1e12
-"""Widths and shifts beyond this multiple of an axis are a problem: single precision cannot square much larger ones (a guess, far above any use)."""
+"""Widths and shifts beyond this multiple of an axis are a problem: single precision cannot square much larger
+ones (a guess, far above any use).
+"""
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,10 @@ class Kernel(Part):
 
     boundary: Annotated[
         Sequence[str] | None,
-        Recompile(choices=BOUNDARIES, meaning="what lies beyond the border, one for all axes or one for each; none: the axis decides"),
+        Recompile(
+            choices=BOUNDARIES,
+            meaning="what lies beyond the border, one for all axes or one for each; none: the axis decides",
+        ),
     ] = dc.field(default=None, kw_only=True)
 
     def terms(self) -> Sequence[Term]:
@@ -45,7 +50,8 @@ class Kernel(Part):
         raise NotImplementedError
 
     def widths(self) -> Sequence[Any]:
-        """For a kernel that is a sum of Gaussians, their widths (each one number, or one for each axis), in the order of the terms; else none.
+        """For a kernel that is a sum of Gaussians, their widths (each one number, or one for each axis), in
+        the order of the terms; else none.
 
         Such a kernel is smooth: few waves carry it, and how few can be told from its widths.
         """
@@ -69,12 +75,20 @@ class Kernel(Part):
             yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"
         for p in parameters(type(self)):
             value = getattr(self, p.name)
-            if p.form != "per_axis" or value is None or (isinstance(value, tuple) and len(value) != len(axes)):
+            if (
+                p.form != "per_axis"
+                or value is None
+                or (isinstance(value, tuple) and len(value) != len(axes))
+            ):
                 continue
-            for axis, v in zip(axes, value if isinstance(value, tuple) else (value,) * len(axes), strict=True):
+            for axis, v in zip(
+                axes, value if isinstance(value, tuple) else (value,) * len(axes), strict=True
+            ):
                 if abs(v) > WIDEST * axis.range:
                     yield (
-                        f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r} ({axis.range:g}): a kernel so wide is one number at"
-                        f" all places. Give at most {WIDEST * axis.range:g}; for an input that is the same everywhere take a Project([]) and a Gain"
+                        f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r}"
+                        f" ({axis.range:g}): a kernel so wide is one number at all places. Give at most"
+                        f" {WIDEST * axis.range:g}; for an input that is the same everywhere take a"
+                        " Project([]) and a Gain"
                     )
                     break

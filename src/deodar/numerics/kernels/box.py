@@ -26,13 +26,15 @@ class Box(Kernel):
     A cell that the edge cuts counts in part.
 
     Equation:
-        k(d) = \begin{cases} \mathrm{amplitude} & |d_i| < \frac{\mathrm{width}_i}{2} \ \forall i \\ 0 & \text{else} \end{cases}
+        k(d) = \begin{cases} \mathrm{amplitude} & |d_i| < \frac{\mathrm{width}_i}{2} \ \forall i \\ 0 &
+            \text{else} \end{cases}
 
     Parameters:
         amplitude: weight inside, per unit of the axes; if normalized, the integral over all distances.
         width: full width in axis units, one or one for each axis; > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
+            see zero.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -41,12 +43,17 @@ class Box(Kernel):
         no reference
     """
 
-    amplitude: Annotated[float, Live("activation", meaning="weight inside, or the integral if normalized")] = 1.0
+    amplitude: Annotated[
+        float, Live("activation", meaning="weight inside, or the integral if normalized")
+    ] = 1.0
     width: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="full width")] = 10.0
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
 
     def bounds(self, axes: Axes) -> Interval:
-        return signed(self.amplitude * (1.0 if self.normalized else math.prod(float(w) for w in per_axis(self.width, axes))))
+        return signed(
+            self.amplitude
+            * (1.0 if self.normalized else math.prod(float(w) for w in per_axis(self.width, axes)))
+        )
 
     def terms(self) -> Sequence[Term]:
         def along(d: int, lag: Any, period: float | None, step: float) -> Any:
@@ -58,11 +65,15 @@ class Box(Kernel):
 
 
 def _covered(lag: Any, width: Any, period: float | None, step: float) -> Any:
-    """Share of the cell around `lag` that lies inside the box; on a ring the box may wind round it several times."""
+    """Share of the cell around `lag` that lies inside the box; on a ring the box may wind round it several
+    times.
+    """
     if period is None:
         return _overlap(lag, width, step)
     turns = jnp.floor(width / period)
-    lag = lag - jnp.mod(turns, 2) * period / 2  # after an odd number of turns the ends meet opposite the centre
+    lag = (
+        lag - jnp.mod(turns, 2) * period / 2
+    )  # after an odd number of turns the ends meet opposite the centre
     near = lag - period * jnp.round(lag / period)
     rest = width - turns * period
     return turns + sum(_overlap(near + k * period, rest, step) for k in (-1, 0, 1))

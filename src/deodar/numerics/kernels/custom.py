@@ -23,7 +23,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Custom(Kernel):
-    r"""Any weights: an array around distance zero, symmetric or not, one axis of the array for each axis of the field.
+    r"""Any weights: an array around distance zero, symmetric or not, one axis of the array for each axis of
+    the field.
 
     Linear between samples, zero beyond them.
 
@@ -32,27 +33,37 @@ class Custom(Kernel):
             \frac{d}{\mathrm{spacing}}\right]
 
     Parameters:
-        weights: array with an odd number of samples on every axis; its middle is distance zero; per unit of the axes.
+        weights: array with an odd number of samples on every axis; its middle is distance zero; per unit of
+            the axes.
         amplitude: factor.
-        spacing: distance of neighbouring samples in axis units, one or one for each axis; none: the field's grid step
-            (the kernel then changes with the grid).
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+        spacing: distance of neighbouring samples in axis units, one or one for each axis; none: the field's
+            grid step (the kernel then changes with the grid).
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
+            see zero.
 
     Shapes:
         weights: one odd number of samples for each axis of the field.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (k, without an assumption on its form).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (k, without an assumption on
+        its form).
     """
 
-    weights: Annotated[ArrayLike, Rebuild("activation", meaning="weights around distance zero")] = FrozenArray([0.25, 0.5, 0.25])
+    weights: Annotated[ArrayLike, Rebuild("activation", meaning="weights around distance zero")] = (
+        FrozenArray([0.25, 0.5, 0.25])
+    )
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
-    spacing: Annotated[PerAxis | None, Recompile("axis", lower=1e-9, meaning="distance of neighbouring samples")] = None
+    spacing: Annotated[
+        PerAxis | None, Recompile("axis", lower=1e-9, meaning="distance of neighbouring samples")
+    ] = None
 
     def bounds(self, axes: Axes) -> Interval:
         if self.spacing is not None or not isinstance(self.weights, FrozenArray):
             return ANY
-        up, down = (float(part.sum()) * cell(axes) for part in (np.maximum(self.weights.data, 0), np.minimum(self.weights.data, 0)))
+        up, down = (
+            float(part.sum()) * cell(axes)
+            for part in (np.maximum(self.weights.data, 0), np.minimum(self.weights.data, 0))
+        )
         return hull(signed(self.amplitude * up), signed(self.amplitude * down))
 
     def polarity(self) -> Sign:

@@ -33,20 +33,24 @@ class Gaussian(Kernel):
         k(d) = \mathrm{amplitude} \prod_i \exp\!\left( -\frac{d_i^2}{2 \sigma_i^2} \right)
 
     Parameters:
-        amplitude: weight at the centre, per unit of the axes; if normalized, the integral over all distances. On a node
-            the self-excitation.
+        amplitude: weight at the centre, per unit of the axes; if normalized, the integral over all distances.
+            On a node the self-excitation.
         sigma: width in axis units, one or one for each axis; > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
+            see zero.
 
     Shapes:
         One number for each distance; any number of axes.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2; Lomp et al. (2016), Front. Neurorobot. 10:14, eqs. 1 and 10.
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2; Lomp et al. (2016), Front. Neurorobot. 10:14,
+        eqs. 1 and 10.
     """
 
-    amplitude: Annotated[float, Live("activation", meaning="weight at the centre, or the integral if normalized")] = 1.0
+    amplitude: Annotated[
+        float, Live("activation", meaning="weight at the centre, or the integral if normalized")
+    ] = 1.0
     sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width")] = 5.0
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
 
@@ -77,7 +81,8 @@ def profile(lag: Any, sigma: Any, period: float | None) -> Any:
         return jnp.exp(-0.5 * (lag / sigma) ** 2)
     near = (lag - period * jnp.round(lag / period))[..., None]
     images = jnp.sum(jnp.exp(-0.5 * ((near + period * jnp.arange(-4, 5)) / sigma) ** 2), axis=-1)
-    # wide kernels: the same sum as a Fourier series, whose terms vanish where those of the images do not (Poisson)
+    # wide kernels: the same sum as a Fourier series, whose terms vanish where those of the images do not
+    # (Poisson)
     turns = 2 * math.pi / period * jnp.arange(1, 5)
     waves = jnp.sum(jnp.exp(-0.5 * (turns * sigma) ** 2) * jnp.cos(turns * near), axis=-1)
     series = math.sqrt(2 * math.pi) * sigma / period * (1 + 2 * waves)
@@ -85,15 +90,20 @@ def profile(lag: Any, sigma: Any, period: float | None) -> Any:
 
 
 def integral(sigma: Any, step: float) -> Any:
-    """Sum over an endless grid times its step: sqrt(2 pi) sigma where the grid resolves the Gaussian, step where not."""
+    """Sum over an endless grid times its step: sqrt(2 pi) sigma where the grid resolves the Gaussian, step
+    where not.
+    """
     ratio = step / sigma
-    # below two steps the sum is taken as it stands (20 terms reach ten widths), above it equals the integral to 1e-34
+    # below two steps the sum is taken as it stands (20 terms reach ten widths), above it equals the integral
+    # to 1e-34
     lattice = jnp.sum(jnp.exp(-0.5 * (jnp.arange(1, 21) * ratio) ** 2))
     return jnp.where(ratio > 0.5, step * (1 + 2 * lattice), math.sqrt(2 * math.pi) * sigma)
 
 
 def unresolved(sigma: Any, step: float) -> Any:
-    """What brings the samples of a Gaussian to its true integral: 1 where the grid resolves it, from one step per sigma (to 5e-9)."""
+    """What brings the samples of a Gaussian to its true integral: 1 where the grid resolves it, from one step
+    per sigma (to 5e-9).
+    """
     return jnp.where(sigma < step, math.sqrt(2 * math.pi) * sigma / integral(sigma, step), 1.0)
 
 

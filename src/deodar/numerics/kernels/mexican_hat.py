@@ -33,7 +33,8 @@ class MexicanHat(Kernel):
         inhibition: weight of the inhibition at the centre, counted positive (its integral if normalized).
         sigma_inhibition: its width in axis units, one or one for each axis; > 0.
         normalized: whether the weights are integrals.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
+            see zero.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -43,13 +44,20 @@ class MexicanHat(Kernel):
     """
 
     excitation: Annotated[float, Live("activation", meaning="weight of the excitation")] = 15.0
-    sigma_excitation: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the excitation")] = 5.0
+    sigma_excitation: Annotated[
+        PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the excitation")
+    ] = 5.0
     inhibition: Annotated[float, Live("activation", meaning="weight of the inhibition")] = 8.0
-    sigma_inhibition: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the inhibition")] = 10.0
+    sigma_inhibition: Annotated[
+        PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the inhibition")
+    ] = 10.0
     normalized: Annotated[bool, Recompile(meaning="whether the weights are integrals")] = False
 
     def bounds(self, axes: Axes) -> Interval:
-        up, down = (1.0 if self.normalized else volume(s, axes) for s in (self.sigma_excitation, self.sigma_inhibition))
+        up, down = (
+            1.0 if self.normalized else volume(s, axes)
+            for s in (self.sigma_excitation, self.sigma_inhibition)
+        )
         return hull(signed(self.excitation * up), signed(-self.inhibition * down))
 
     def terms(self) -> Sequence[Term]:

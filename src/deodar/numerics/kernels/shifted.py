@@ -32,8 +32,8 @@ class Shifted(Kernel):
         One number for each distance; any number of axes.
 
     Reference:
-        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), appendix A
-        (the shifts between its fields).
+        Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), appendix
+        A (the shifts between its fields).
     """
 
     kernel: Annotated[Kernel, Recompile(meaning="the inner kernel")] = Gaussian()
@@ -56,7 +56,10 @@ class Shifted(Kernel):
         if type(self.kernel).__name__ == "Custom":
             yield "kernel", "a custom array cannot be shifted; shift the array itself"
         if self.kernel.boundary is not None:
-            yield "kernel.boundary", "belongs to the shifted kernel: write Shifted(kernel, shift, boundary=...)"
+            yield (
+                "kernel.boundary",
+                "belongs to the shifted kernel: write Shifted(kernel, shift, boundary=...)",
+            )
 
     def misfits(self, axes: Axes) -> Iterator[str]:
         yield from super().misfits(axes)

@@ -25,7 +25,8 @@ ROUNDING = 1e-5
 @register
 @dataclass(frozen=True)
 class TruncatedGaussian(Kernel):
-    r"""A Gaussian kernel of finite reach, normalised over the samples that it reaches: the kernel of many published simulations.
+    r"""A Gaussian kernel of finite reach, normalised over the samples that it reaches: the kernel of many
+    published simulations.
 
     The reach is rounded up to whole steps and no longer than the axis. If normalized, each factor is
     divided by its sum over these samples times the step. On a ring d_i is the shorter way round.
@@ -36,13 +37,16 @@ class TruncatedGaussian(Kernel):
         \mathrm{reach}_i = \max(\mathrm{cutoff}\, \sigma_i, \mathrm{least}_i)
 
     Parameters:
-        amplitude: weight at the centre, per unit of the axes; if normalized, the sum over all samples reached times the steps.
-            On a node the self-excitation.
-        sigma: width in axis units, one or one for each axis; > 0. Far below the step the kernel acts on its own cell alone.
+        amplitude: weight at the centre, per unit of the axes; if normalized, the sum over all samples reached
+            times the steps. On a node the self-excitation.
+        sigma: width in axis units, one or one for each axis; > 0. Far below the step the kernel acts on its
+            own cell alone.
         cutoff: reach as a multiple of the width; >= 0.
-        least: reach at the least, in axis units, one or one for each axis: for a narrow Gaussian that ends where a wider one does.
+        least: reach at the least, in axis units, one or one for each axis: for a narrow Gaussian that ends
+            where a wider one does.
         normalized: whether the amplitude is the kernel's integral.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others see zero.
+        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
+            see zero.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -51,14 +55,19 @@ class TruncatedGaussian(Kernel):
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2, sampled and cut off.
     """
 
-    amplitude: Annotated[float, Live("activation", neutral=0.0, meaning="weight at the centre, or the integral if normalized")] = 1.0
+    amplitude: Annotated[
+        float, Live("activation", neutral=0.0, meaning="weight at the centre, or the integral if normalized")
+    ] = 1.0
     sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width")] = 5.0
     cutoff: Annotated[float, Rebuild(lower=0, meaning="reach as a multiple of the width")] = 5.0
     least: Annotated[PerAxis, Rebuild("axis", lower=0, meaning="reach at the least")] = 0.0
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
 
     def bounds(self, axes: Axes) -> Interval:
-        wide = math.prod(math.sqrt(2 * math.pi) * float(s) + a.step for s, a in zip(per_axis(self.sigma, axes), axes, strict=True))
+        wide = math.prod(
+            math.sqrt(2 * math.pi) * float(s) + a.step
+            for s, a in zip(per_axis(self.sigma, axes), axes, strict=True)
+        )
         return signed(self.amplitude * (1.0 if self.normalized else wide))
 
     def terms(self) -> Sequence[Term]:

@@ -22,13 +22,18 @@ class SigmoidFunction(Part):
         raise NotImplementedError
 
     def ends(self, u: Any) -> tuple[Any, ...] | None:
-        """What `mean` needs at an end of a range of activation and what is costly: neighbouring ranges share it. None where nothing is."""
+        """What `mean` needs at an end of a range of activation and what is costly: neighbouring ranges share
+        it. None where nothing is.
+        """
         return None
 
-    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
+    def mean(
+        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
+    ) -> Any:
         """The mean of g over the activations between a and b, g(a) where they are equal; same shape.
 
-        A sigmoid that knows its antiderivative gives the exact mean; this is Gauss-Legendre's rule with five points.
+        A sigmoid that knows its antiderivative gives the exact mean; this is Gauss-Legendre's rule with five
+        points.
 
         Args:
             a: one end.
@@ -38,7 +43,9 @@ class SigmoidFunction(Part):
         """
         places, weights = np.polynomial.legendre.leggauss(POINTS)
         middle, half = 0.5 * (a + b), 0.5 * (b - a)
-        return sum(float(w) / 2 * self(middle + float(p) * half) for p, w in zip(places, weights, strict=True))
+        return sum(
+            float(w) / 2 * self(middle + float(p) * half) for p, w in zip(places, weights, strict=True)
+        )
 
     def bounds(self, u: Interval) -> Interval:
         """Between which values the output lies for activation in an interval."""

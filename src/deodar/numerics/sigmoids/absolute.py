@@ -16,7 +16,8 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Absolute(SigmoidFunction):
-    r"""A sigmoid without an exponential; it approaches 0 and 1 slowly, so that a field at rest leaves some output.
+    r"""A sigmoid without an exponential; it approaches 0 and 1 slowly, so that a field at rest leaves some
+    output.
 
     Equation:
         g(u) = \frac{1}{2} \left( 1 + \frac{\beta (u - \theta)}{1 + \beta |u - \theta|} \right)
@@ -32,15 +33,21 @@ class Absolute(SigmoidFunction):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 2.
     """
 
-    beta: Annotated[float, Live("1/activation", lower=1e-6, upper=1e6, meaning="steepness at the threshold")] = 100.0
+    beta: Annotated[
+        float, Live("1/activation", lower=1e-6, upper=1e6, meaning="steepness at the threshold")
+    ] = 100.0
     threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
 
     def __call__(self, u: Any) -> Any:
         v = self.beta * (u - self.threshold)
         return 0.5 * (1.0 + v / (1.0 + jnp.abs(v)))
 
-    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
-        """(1 + (F(b) - F(a)) / (v(b) - v(a))) / 2 with F = |v| - log(1 + |v|), v = beta (u - theta); on one side of theta as a single logarithm."""
+    def mean(
+        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
+    ) -> Any:
+        """(1 + (F(b) - F(a)) / (v(b) - v(a))) / 2 with F = |v| - log(1 + |v|), v = beta (u - theta); on one
+        side of theta as a single logarithm.
+        """
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         wa, wb = jnp.abs(va), jnp.abs(vb)
         low, d = jnp.minimum(wa, wb), jnp.abs(wb - wa)
@@ -48,7 +55,9 @@ class Absolute(SigmoidFunction):
         safe = jnp.where(share > 0, share, 1.0)
         one_side = 1.0 - jnp.where(share > 0, jnp.log1p(safe) / safe, 1.0) / (1.0 + low)
         crosses = (va < 0) != (vb < 0)
-        signed = (vb - jnp.sign(vb) * jnp.log1p(wb)) * jnp.sign(vb) - (va - jnp.sign(va) * jnp.log1p(wa)) * jnp.sign(va)
+        signed = (vb - jnp.sign(vb) * jnp.log1p(wb)) * jnp.sign(vb) - (
+            va - jnp.sign(va) * jnp.log1p(wa)
+        ) * jnp.sign(va)
         over = signed / jnp.where(crosses, vb - va, 1.0)
         return 0.5 * (1.0 + jnp.where(crosses, over, jnp.where(va + vb > 0, one_side, -one_side)))
 

@@ -36,7 +36,9 @@ class Linear(SigmoidFunction):
     def __call__(self, u: Any) -> Any:
         return self.slope * (u - self.threshold)
 
-    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
+    def mean(
+        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
+    ) -> Any:
         """The output in the middle."""
         return self(0.5 * (a + b))
 

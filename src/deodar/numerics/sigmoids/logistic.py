@@ -14,11 +14,25 @@ from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
 
-_SERIES = (-0.00853880788, 0.0440882267, -0.107679777, 0.17745109, -0.244954163, 0.33275472, -0.499974049, 0.999999806)
-"""log(1 + y) / y for 0 <= y <= 1, highest power first: a polynomial fitted to a relative error of 2e-7. It vectorises, log1p does not."""
+_SERIES = (
+    -0.00853880788,
+    0.0440882267,
+    -0.107679777,
+    0.17745109,
+    -0.244954163,
+    0.33275472,
+    -0.499974049,
+    0.999999806,
+)
+"""log(1 + y) / y for 0 <= y <= 1, highest power first: a polynomial fitted to a relative error of 2e-7.
+
+It vectorises, log1p does not.
+"""
 
 _NEAR, _NEAR_DOUBLE = 0.01, 1e-5
-"""Ranges of beta u shorter than this take the Taylor series of the mean, in single and double precision: where both forms have the same error."""
+"""Ranges of beta u shorter than this take the Taylor series of the mean, in single and double precision:
+where both forms have the same error.
+"""
 
 
 @register
@@ -41,7 +55,9 @@ class Logistic(SigmoidFunction):
         Front. Neurosci. 7:276, eq. 3.
     """
 
-    beta: Annotated[float, Live("1/activation", lower=1e-6, upper=1e6, meaning="steepness at the threshold")] = 4.0
+    beta: Annotated[
+        float, Live("1/activation", lower=1e-6, upper=1e6, meaning="steepness at the threshold")
+    ] = 4.0
     threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
 
     def __call__(self, u: Any) -> Any:
@@ -49,7 +65,9 @@ class Logistic(SigmoidFunction):
         return jax.nn.sigmoid(self.beta * (u - self.threshold))
 
     def ends(self, u: Any) -> tuple[Any, ...]:
-        """log(1 + exp(-|v|)) with v = beta (u - theta), the part of the antiderivative that decays, and exp(-|v|)."""
+        """log(1 + exp(-|v|)) with v = beta (u - theta), the part of the antiderivative that decays, and
+        exp(-|v|).
+        """
         v = self.beta * (u - self.threshold)
         small = jnp.exp(-jnp.abs(v))
         if small.dtype == jnp.float32:
@@ -61,15 +79,23 @@ class Logistic(SigmoidFunction):
             decaying = jnp.log1p(small)
         return decaying, small
 
-    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
-        """(log(1 + exp(beta (b - theta))) - log(1 + exp(beta (a - theta)))) / (beta (b - a)); near a = b the Taylor series about a."""
+    def mean(
+        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
+    ) -> Any:
+        """(log(1 + exp(beta (b - theta))) - log(1 + exp(beta (a - theta)))) / (beta (b - a)); near a = b the
+        Taylor series about a.
+        """
         (low, s), (high, _) = at_a or self.ends(a), at_b or self.ends(b)
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         d = vb - va
         near = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
-        q = 1.0 + s  # near a = b: g + g (1 - g) d / 2, over the denominator q^2, so that both forms take one division
+        q = (
+            1.0 + s
+        )  # near a = b: g + g (1 - g) d / 2, over the denominator q^2, so that both forms take one division
         series = jnp.where(va > 0, 1.0, s) * q + 0.5 * s * d
-        return jnp.where(near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)) / jnp.where(near, q * q, d)
+        return jnp.where(
+            near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)
+        ) / jnp.where(near, q * q, d)
 
     def bounds(self, u: Interval) -> Interval:
         low, high = (self.beta * (v - self.threshold) for v in u)

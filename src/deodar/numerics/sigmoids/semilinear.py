@@ -39,13 +39,21 @@ class SemiLinear(SigmoidFunction):
     def __call__(self, u: Any) -> Any:
         return jnp.maximum(0.0, self.slope * (u - self.threshold))
 
-    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
-        """The output in the middle where the range does not cross the threshold; else slope (max(a, b) - theta)^2 / (2 |b - a|)."""
+    def mean(
+        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
+    ) -> Any:
+        """The output in the middle where the range does not cross the threshold; else slope (max(a, b) -
+        theta)^2 / (2 |b - a|).
+        """
         va, vb = a - self.threshold, b - self.threshold
         crosses = (va < 0) != (vb < 0)
         top = jnp.maximum(va, vb)
         inside = jnp.maximum(0.5 * (va + vb), 0.0)
-        return self.slope * jnp.where(crosses, 0.5 * top * top, inside) / jnp.where(crosses, jnp.abs(vb - va), 1.0)
+        return (
+            self.slope
+            * jnp.where(crosses, 0.5 * top * top, inside)
+            / jnp.where(crosses, jnp.abs(vb - va), 1.0)
+        )
 
     def bounds(self, u: Interval) -> Interval:
         low, high = times((self.slope, self.slope), (u[0] - self.threshold, u[1] - self.threshold))

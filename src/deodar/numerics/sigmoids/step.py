@@ -28,7 +28,8 @@ class Step(SigmoidFunction):
         Any shape in, the same out.
 
     Reference:
-        Amari (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27, 77-87.
+        Amari (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern.
+        27, 77-87.
     """
 
     threshold: Annotated[float, Live("activation", meaning="activation above which the output is 1")] = 0.0
@@ -36,11 +37,15 @@ class Step(SigmoidFunction):
     def __call__(self, u: Any) -> Any:
         return (u > self.threshold).astype(u.dtype)
 
-    def mean(self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None) -> Any:
+    def mean(
+        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
+    ) -> Any:
         """The share of the range that lies above the threshold."""
         va, vb = a - self.threshold, b - self.threshold
         d = vb - va
-        return jnp.where(d == 0, self(a), jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0)) / jnp.where(d == 0, 1.0, d)
+        return jnp.where(d == 0, self(a), jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0)) / jnp.where(
+            d == 0, 1.0, d
+        )
 
     def bounds(self, u: Interval) -> Interval:
         return float(u[0] > self.threshold), float(u[1] > self.threshold)

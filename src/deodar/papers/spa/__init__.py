@@ -1,10 +1,12 @@
 """Billing, Lowe & Sandamirskaya (2015): the three test cases, run again.
 
-Cases 1 and 2: pairs of start and goal in two mazes, the planner with low and high noise, and following the carrot without, with low and with high
-noise. Case 3: an obstacle comes and goes while the robot plans or drives.
+Cases 1 and 2: pairs of start and goal in two mazes, the planner with low and high noise, and following the
+carrot without, with low and with high noise. Case 3: an obstacle comes and goes while the robot plans or
+drives.
 
 Reference:
-    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), 243-264, sections 4 and 5.
+    Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), 243-264,
+    sections 4 and 5.
 """
 
 from __future__ import annotations
@@ -46,7 +48,10 @@ def jobs(quick: bool) -> Sequence[Job]:
 
 
 def kept(row: Row) -> Row:
-    """A row as the repository keeps it. Paths of the carrot are left out: they are the larger part, and nothing reads them."""
+    """A row as the repository keeps it.
+
+    Paths of the carrot are left out: they are the larger part, and nothing reads them.
+    """
     return {k: v for k, v in row.items() if k != "path" or "planner" in row["condition"]}
 
 

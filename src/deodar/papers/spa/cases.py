@@ -20,7 +20,9 @@ RADIUS = 7.0
 """Distance from the goal within which a run succeeds, cm (published simulation)."""
 
 STAY = 40
-"""Steps near the goal after which a run ends: the published simulation counts 20 readings of the place, one at every second step."""
+"""Steps near the goal after which a run ends: the published simulation counts 20 readings of the place, one
+at every second step.
+"""
 
 QUICK = 20
 """Runs of a condition with --quick; also those of case 3 without an obstacle."""
@@ -37,31 +39,51 @@ ONSETS, DURATIONS = (30, 700), (2, 500)
 DRAW = {"full": 3, "partial": 4}
 """Seeds of the draws; both levels of noise have the same."""
 
-OBSTACLES = {"full": ("Maze_Wall1", (15.0, 40.0), (10.0, 20.0)), "partial": ("Maze_Wall3", (22.5, 40.0), (30.0, 15.0))}
-"""For each obstacle its name in the world file, row and column of its middle, and its size along x and y, cm."""
+OBSTACLES = {
+    "full": ("Maze_Wall1", (15.0, 40.0), (10.0, 20.0)),
+    "partial": ("Maze_Wall3", (22.5, 40.0), (30.0, 15.0)),
+}
+"""For each obstacle its name in the world file, row and column of its middle, and its size along x and y, cm.
+"""
 
 NARRATIVE = (336, 400)
-"""Onset and duration of the full obstacle in the run of figures 10 to 12. Its duration is not printed: it is longer than the robot waits."""
+"""Onset and duration of the full obstacle in the run of figures 10 to 12.
+
+Its duration is not printed: it is longer than the robot waits.
+"""
 
 MOVES, GOES = 336, (85, 20)
-"""Step at which the goal moves, and row and column where it goes. Ours: the paper says that it may, and shows no such run."""
+"""Step at which the goal moves, and row and column where it goes.
+
+Ours: the paper says that it may, and shows no such run.
+"""
 
 CARROT = Carrot(speed=400.0, gain=400.0)
-"""Neither number is published. These succeed most often in the Z-maze among those of `TUNING`, whatever the contact: a claim checks it."""
+"""Neither number is published.
+
+These succeed most often in the Z-maze among those of `TUNING`, whatever the contact: a claim checks it.
+"""
 
 WEAK = Carrot(speed=400.0, gain=50.0)
-"""A gain so weak that corners are cut by far: with it and sticking contact the large maze looks as it does in the paper."""
+"""A gain so weak that corners are cut by far: with it and sticking contact the large maze looks as it does in
+the paper.
+"""
 
 TUNING = tuple((speed, gain) for speed in (400.0, 800.0) for gain in (50.0, 100.0, 200.0, 400.0, 1000.0))
 
 
 LIKE_LOW, REFLECTIONS = 1.0, (0.8, 1.0)
-"""What two choices of ours or of the published code are varied to: the factor on the place input with high noise, which is that of low noise then
-(published code: 1.2), and how well walls reflect infrared light (fitted: 0.6; the sensors' own table: 1)."""
+"""What two choices of ours or of the published code are varied to: the factor on the place input with high
+noise, which is that of low noise then (published code: 1.2), and how well walls reflect infrared light
+(fitted: 0.6; the sensors' own table: 1).
+"""
 
 VARIED, VARIED_QUICK = 40, 10
-"""Runs of such a condition in the large maze, where each takes long. Of 40 runs that all succeed the 95 % interval begins at 0.912, so that a
-difference of 0.1 from 100 of 100 is excluded; of 40 runs of which half succeed it is 0.35 to 0.65."""
+"""Runs of such a condition in the large maze, where each takes long.
+
+Of 40 runs that all succeed the 95 % interval begins at 0.912, so that a difference of 0.1 from 100 of 100 is
+excluded; of 40 runs of which half succeed it is 0.35 to 0.65.
+"""
 
 
 @dataclass(frozen=True)
@@ -100,7 +122,11 @@ class Condition:
     def terms(self) -> dict[str, Any]:
         """What differs from the published terms of the planner, by name."""
         stick = {"contact": self.contact} if self.contact != "slide" else {}
-        return stick | {name: value for name, value in (("factor", self.factor), ("reflection", self.reflection)) if value is not None}
+        return stick | {
+            name: value
+            for name, value in (("factor", self.factor), ("reflection", self.reflection))
+            if value is not None
+        }
 
     def key(self, trial: int) -> str:
         """The key of a row."""
@@ -115,33 +141,96 @@ def conditions(quick: bool) -> dict[str, Condition]:
     for name in MAZES:
         left = same(name)
         numbers = tuple(k for k in range(COUNT) if k not in left)[: QUICK if quick else COUNT]
-        for what, carrot, contact in (("carrot", CARROT, "slide"), ("sticking-carrot", CARROT, "stick"), ("weak-carrot", WEAK, "stick")):
+        for what, carrot, contact in (
+            ("carrot", CARROT, "slide"),
+            ("sticking-carrot", CARROT, "stick"),
+            ("weak-carrot", WEAK, "stick"),
+        ):
             for noise in ("none", "low", "high"):
-                out.append(Condition(f"{name}/{what}/{noise}", name, "carrot", noise, numbers, tuple(left), "", carrot, contact))
+                out.append(
+                    Condition(
+                        f"{name}/{what}/{noise}",
+                        name,
+                        "carrot",
+                        noise,
+                        numbers,
+                        tuple(left),
+                        "",
+                        carrot,
+                        contact,
+                    )
+                )
         if name == "z":
             for speed, gain in TUNING:
                 for contact in ("slide", "stick"):
                     tuned = f"z/tuning/{speed:g}-{gain:g}-{contact}"
-                    out.append(Condition(tuned, name, "carrot", "low", numbers, tuple(left), "", Carrot(speed, gain), contact))
-        out += [Condition(f"{name}/planner/{noise}", name, "planner", noise, numbers, tuple(left)) for noise in ("low", "high")]
-        varied += _varied(name, numbers if name == "z" else numbers[: VARIED_QUICK if quick else VARIED], tuple(left))
+                    out.append(
+                        Condition(
+                            tuned,
+                            name,
+                            "carrot",
+                            "low",
+                            numbers,
+                            tuple(left),
+                            "",
+                            Carrot(speed, gain),
+                            contact,
+                        )
+                    )
+        out += [
+            Condition(f"{name}/planner/{noise}", name, "planner", noise, numbers, tuple(left))
+            for noise in ("low", "high")
+        ]
+        varied += _varied(
+            name, numbers if name == "z" else numbers[: VARIED_QUICK if quick else VARIED], tuple(left)
+        )
     told = tuple(range(NARRATIVE_QUICK if quick else NARRATIVE_RUNS))
     for noise in ("low", "high"):
-        out.append(Condition(f"free/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False))
-        out.append(Condition(f"moved/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False))
-        out.append(Condition(f"narrative/planner/{noise}", "z", "planner", noise, told, obstacle="narrative", many_starts=False))
+        out.append(
+            Condition(f"free/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False)
+        )
+        out.append(
+            Condition(f"moved/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False)
+        )
+        out.append(
+            Condition(
+                f"narrative/planner/{noise}",
+                "z",
+                "planner",
+                noise,
+                told,
+                obstacle="narrative",
+                many_starts=False,
+            )
+        )
         for what in DRAW:
             runs = tuple(range(QUICK if quick else RUNS))
-            out.append(Condition(f"{what}/planner/{noise}", "z", "planner", noise, runs, obstacle=what, many_starts=False))
+            out.append(
+                Condition(
+                    f"{what}/planner/{noise}", "z", "planner", noise, runs, obstacle=what, many_starts=False
+                )
+            )
     small = [c for c in out if c.method == "carrot" or c.name.startswith(("free", "narrative", "moved"))]
     return {c.name: c for c in [*small, *(c for c in out if c not in small), *varied]}
 
 
 def _varied(name: str, numbers: tuple[int, ...], left: tuple[int, ...]) -> list[Condition]:
-    """The planner with sticking contact, with the same place input at both levels of noise, and with walls that reflect better."""
-    out = [Condition(f"{name}/sticking-planner/{noise}", name, "planner", noise, numbers, left, contact="stick") for noise in ("low", "high")]
-    out.append(Condition(f"{name}/factor-{LIKE_LOW}-planner/high", name, "planner", "high", numbers, left, factor=LIKE_LOW))
-    return out + [Condition(f"{name}/reflection-{r}-planner/low", name, "planner", "low", numbers, left, reflection=r) for r in REFLECTIONS]
+    """The planner with sticking contact, with the same place input at both levels of noise, and with walls
+    that reflect better.
+    """
+    out = [
+        Condition(f"{name}/sticking-planner/{noise}", name, "planner", noise, numbers, left, contact="stick")
+        for noise in ("low", "high")
+    ]
+    out.append(
+        Condition(
+            f"{name}/factor-{LIKE_LOW}-planner/high", name, "planner", "high", numbers, left, factor=LIKE_LOW
+        )
+    )
+    return out + [
+        Condition(f"{name}/reflection-{r}-planner/low", name, "planner", "low", numbers, left, reflection=r)
+        for r in REFLECTIONS
+    ]
 
 
 @functools.lru_cache(maxsize=4)
@@ -161,11 +250,19 @@ def world(condition: Condition) -> Arena:
     if condition.many_starts:
         starts, goals = pairs(condition.maze)
         return maze(condition.maze, condition.noise, starts, goals, **others)
-    arena = maze(condition.maze, condition.noise, (*place(*CASE_3[0]), HEADINGS[condition.maze]), place(*CASE_3[1]), **others)
+    arena = maze(
+        condition.maze,
+        condition.noise,
+        (*place(*CASE_3[0]), HEADINGS[condition.maze]),
+        place(*CASE_3[1]),
+        **others,
+    )
     if condition.obstacle:
         name, middle, size = OBSTACLES["full" if condition.obstacle == "narrative" else condition.obstacle]
         times = windows(condition.obstacle)
-        arena.place(name, place(*middle), size, windows=STEP_MS * np.stack([times[:, 0], times.sum(axis=1)], axis=1))
+        arena.place(
+            name, place(*middle), size, windows=STEP_MS * np.stack([times[:, 0], times.sum(axis=1)], axis=1)
+        )
     return arena
 
 
@@ -179,7 +276,10 @@ def design(quick: bool) -> dict[str, Any]:
         "obstacles": [[k, *map(str, v)] for k, v in OBSTACLES.items()],
         "moves": [MOVES, *GOES],
     }
-    draws = {"draws": {what: windows(what).tolist() for what in DRAW}, "pairs": {name: [p.tolist() for p in pairs(name)] for name in MAZES}}
+    draws = {
+        "draws": {what: windows(what).tolist() for what in DRAW},
+        "pairs": {name: [p.tolist() for p in pairs(name)] for name in MAZES},
+    }
     own = {
         "runs": {c.name: len(c.trials) for c in found},
         "carrots": {c.name: str(c.carrot) for c in found if c.carrot},

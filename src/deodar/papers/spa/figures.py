@@ -28,7 +28,12 @@ EXAMPLES = 6
 WINDOW = 10
 """Steps over which a velocity is taken."""
 
-MOMENTS = (("early planning", (30, 130)), ("late planning", (130, 210)), ("early execution", (230, 450)), ("late execution", (500, 700)))
+MOMENTS = (
+    ("early planning", (30, 130)),
+    ("late planning", (130, 210)),
+    ("early execution", (230, 450)),
+    ("late execution", (500, 700)),
+)
 Draw = Callable[[Runs], Figure | None]
 
 
@@ -50,7 +55,10 @@ def draw(runs: Runs) -> dict[str, Figure]:
 
 def success(runs: Runs) -> Figure | None:
     """Share of successful runs with 95 % intervals, for both mazes."""
-    counts = {m: [count(runs.of(f"{m}/{method}/{noise}"), lambda r: r["success"]) for method, noise in METHODS] for m in MAZE}
+    counts = {
+        m: [count(runs.of(f"{m}/{method}/{noise}"), lambda r: r["success"]) for method, noise in METHODS]
+        for m in MAZE
+    }
     if not any(n for found in counts.values() for _, n in found):
         return None
     figure, axes = _two()
@@ -75,7 +83,13 @@ def divergence(runs: Runs) -> Figure | None:
     for ax, (m, found) in zip(axes, values.items(), strict=True):
         there = [k for k, v in enumerate(found) if len(v)]
         if there:
-            ax.boxplot([found[k] for k in there], positions=there, widths=0.6, sym=".", medianprops={"color": "black"})
+            ax.boxplot(
+                [found[k] for k in there],
+                positions=there,
+                widths=0.6,
+                sym=".",
+                medianprops={"color": "black"},
+            )
         ax.axhline(1.0, color=_style.THRESHOLD, linewidth=0.6, linestyle=":")
         _conditions(ax, MAZE[m], "Lp / Lo")
     return figure
@@ -93,7 +107,9 @@ def paths(runs: Runs) -> Figure | None:
     for n, k in enumerate(both):
         for found, line in zip(rows, ("-", "--"), strict=True):
             course = np.asarray(found[k]["path"])
-            ax.plot(course[:, 0], course[:, 1], line, color=_style.COLORS[n % len(_style.COLORS)], linewidth=0.9)
+            ax.plot(
+                course[:, 0], course[:, 1], line, color=_style.COLORS[n % len(_style.COLORS)], linewidth=0.9
+            )
         ax.plot(*rows[0][k]["path"][0], "o", color=_style.COLORS[n % len(_style.COLORS)], markersize=2.5)
         ax.plot(*rows[0][k]["goal"], "+", color="black", markersize=5)
     return figure
@@ -111,20 +127,40 @@ def routes(runs: Runs) -> Figure | None:
             _ground(ax, "z")
             _, middle, (w, h) = OBSTACLES[obstacle]
             x, y = place(*middle)
-            ax.add_patch(Rectangle((x - w / 2, y - h / 2), w, h, facecolor="none", edgecolor="black", linewidth=0.7, linestyle="--"))
+            ax.add_patch(
+                Rectangle(
+                    (x - w / 2, y - h / 2),
+                    w,
+                    h,
+                    facecolor="none",
+                    edgecolor="black",
+                    linewidth=0.7,
+                    linestyle="--",
+                )
+            )
             rows = runs.kept(obstacle, noise)
             for way, colour in ROUTES.items():
                 for row in between(rows, route=way):
                     course = np.asarray(row["path"])
                     ax.plot(course[:, 0], course[:, 1], color=colour, linewidth=0.4, alpha=0.6)
-            found = [f"{way} {sum(r['route'] == way for r in rows)}" for way in ROUTES if any(r["route"] == way for r in rows)]
+            found = [
+                f"{way} {sum(r['route'] == way for r in rows)}"
+                for way in ROUTES
+                if any(r["route"] == way for r in rows)
+            ]
             ax.set_title(f"{obstacle} obstacle, {noise} noise: {', '.join(found) or 'no runs'}")
     return figure
 
 
 def velocity(runs: Runs) -> Figure | None:
-    """Velocity over time of the first run of each obstacle that appears at four moments; grey: while it is there."""
-    chosen = [(o, words, [_first(runs, o, n, window) for n in ("low", "high")]) for words, window in MOMENTS for o in ("partial", "full")]
+    """Velocity over time of the first run of each obstacle that appears at four moments; grey: while it is
+    there.
+    """
+    chosen = [
+        (o, words, [_first(runs, o, n, window) for n in ("low", "high")])
+        for words, window in MOMENTS
+        for o in ("partial", "full")
+    ]
     if not any(row is not None for _, _, rows in chosen for row in rows):
         return None
     figure = _style.figure(_style.DOUBLE, 1.25 * len(MOMENTS) + 0.4)
@@ -136,7 +172,9 @@ def velocity(runs: Runs) -> Figure | None:
             course = np.asarray(row["path"])
             over = WINDOW // KEPT
             speed = np.linalg.norm(course[over:] - course[:-over], axis=1) / WINDOW
-            ax.plot(KEPT * np.arange(over, len(course)), speed, line, color=ROUTES[row["route"]], linewidth=0.8)
+            ax.plot(
+                KEPT * np.arange(over, len(course)), speed, line, color=ROUTES[row["route"]], linewidth=0.8
+            )
             if line == "-":
                 ax.axvspan(row["onset"], row["onset"] + row["duration"], color="#dddddd", linewidth=0)
         ax.set_title(f"{obstacle}, {words}", fontsize=7)
@@ -158,7 +196,14 @@ def choice(runs: Runs, obstacle: str) -> Figure | None:
         found = between(rows, route=way)
         if found:
             size = [0.1 * r["length"] for r in found]
-            ax.scatter([r["onset"] for r in found], [r["duration"] for r in found], size, color=colour, linewidth=0, label=f"{way} ({len(found)})")
+            ax.scatter(
+                [r["onset"] for r in found],
+                [r["duration"] for r in found],
+                size,
+                color=colour,
+                linewidth=0,
+                label=f"{way} ({len(found)})",
+            )
     ax.set_xlim(0, 720)
     ax.set_ylim(0, 520)
     ax.set_xlabel("onset (steps)")

@@ -11,8 +11,11 @@ from deodar.analysis.shortest import Grid, arena_grid
 from deodar.architectures.spa import maze, place
 
 HEADINGS = {"z": 0.0, "large": 4.983}
-"""Where the robot looks at the start, rad. The published lists give headings too, but the published simulation never turned the robot: all its
-runs began with the heading of the world file, which is taken here."""
+"""Where the robot looks at the start, rad.
+
+The published lists give headings too, but the published simulation never turned the robot: all its runs began
+with the heading of the world file, which is taken here.
+"""
 
 DRAW = 2015
 """Seed of the pairs of the large maze, which are not published."""
@@ -24,7 +27,9 @@ LEAST_CLEARANCE = 4.0
 
 @functools.lru_cache(maxsize=2)
 def reference(name: str) -> Grid:
-    """The grid of the reference paths of a maze: cells of 1 cm, a clearance of 4 cm, things that come and go left out."""
+    """The grid of the reference paths of a maze: cells of 1 cm, a clearance of 4 cm, things that come and go
+    left out.
+    """
     arena = maze(name, "none")
     boxes = np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale
     return arena_grid(boxes, [v / arena.scale for v in arena.layout.border], 1.0, LEAST_CLEARANCE)
@@ -49,14 +54,19 @@ def _published() -> tuple[np.ndarray, np.ndarray]:
     Of a start the columns are row, nothing, column of the published fields; of a goal row and column.
     """
     folder = resources.files("deodar.papers.spa") / "pairs"
-    lists = [np.loadtxt((folder / f"{what}_positions_z.tsv").read_text().splitlines()) for what in ("start", "goal")]
+    lists = [
+        np.loadtxt((folder / f"{what}_positions_z.tsv").read_text().splitlines())
+        for what in ("start", "goal")
+    ]
     cells = lists[0][:, [0, 2]], lists[1][:, :2]
     starts, goals = (np.asarray([place(*cell) for cell in c]) for c in cells)
     return starts, goals
 
 
 def _drawn(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs by the rule of section 4: cells of 1 cm with 4 cm to all walls, drawn uniformly, kept if one can be reached from the other."""
+    """Pairs by the rule of section 4: cells of 1 cm with 4 cm to all walls, drawn uniformly, kept if one can
+    be reached from the other.
+    """
     on = reference(name)
     cells, regions, draw = np.argwhere(on.free), on.regions(), np.random.default_rng(DRAW)
     starts: list[tuple[float, float]] = []

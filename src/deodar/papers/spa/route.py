@@ -1,4 +1,6 @@
-"""Which way a run of case 3 took, whether the obstacle came down on the robot, and how long it stood still."""
+"""Which way a run of case 3 took, whether the obstacle came down on the robot, and how long it stood
+still.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from deodar.architectures.spa import place
 
 NORTH, SOUTH, SWITCH, NONE = "north", "south", "switch", "none"
 NORTH_OF, SOUTH_OF = 30.0, 50.0
-"""Rows of the published fields beyond which a path is on the north or on the south route (the authors' scripts)."""
+"""Rows of the published fields beyond which a path is on the north or on the south route (the authors'
+scripts).
+"""
 
 SLOW = 0.05
 """cm a step below which the robot counts as standing still; in the free it drives 0.2 to 0.4."""
@@ -23,7 +27,9 @@ ON_ROBOT: dict[str, tuple[tuple[tuple[float, float], ...], float]] = {
     "full": (((10, 40), (15, 40), (20, 40)), 4.0),
     "partial": (tuple((20, float(c)) for c in range(30, 51)), 8.0),
 }
-"""For each obstacle rows and columns, and the distance from them in cm within which it came down on the robot (the authors' rule)."""
+"""For each obstacle rows and columns, and the distance from them in cm within which it came down on the robot
+(the authors' rule).
+"""
 
 
 def route(path: Any) -> str:
@@ -37,7 +43,8 @@ def route(path: Any) -> str:
 
 
 def covered(path: Any, obstacle: str) -> bool:
-    """Whether the robot was where the obstacle stands, on the part of its path that it drove while the obstacle was there.
+    """Whether the robot was where the obstacle stands, on the part of its path that it drove while the
+    obstacle was there.
 
     Such runs are left out and counted, as the authors did.
     """
@@ -50,7 +57,9 @@ def covered(path: Any, obstacle: str) -> bool:
 
 
 def stillness(path: Any) -> int:
-    """The longest time for which the robot stood still without a break, in steps; 0 of a path that is too short to tell."""
+    """The longest time for which the robot stood still without a break, in steps; 0 of a path that is too
+    short to tell.
+    """
     if len(path) <= OVER:
         return 0
     line = points(path)

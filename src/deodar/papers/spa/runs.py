@@ -12,7 +12,9 @@ from deodar.papers.spa import cases
 
 SOURCE = "Billing, Lowe & Sandamirskaya (2015)"
 LONG = 12.0
-"""Reference paths that are not longer, in cm, are left out of Lp / Lo: the radius of the goal takes most of them."""
+"""Reference paths that are not longer, in cm, are left out of Lp / Lo: the radius of the goal takes most of
+them.
+"""
 
 METHODS = (("planner", "low"), ("planner", "high"), ("carrot", "none"), ("carrot", "low"), ("carrot", "high"))
 """The five conditions of cases 1 and 2, in the order of figures 7 and 8."""
@@ -67,12 +69,25 @@ class Runs:
         return [r for r in self.of(condition) if r["trial"] in trials]
 
     def _long(self, condition: str) -> list[Row]:
-        return [r for r in self.of(condition) if r["success"] and r["divergence"] is not None and r["shortest"] > LONG]
+        return [
+            r
+            for r in self.of(condition)
+            if r["success"] and r["divergence"] is not None and r["shortest"] > LONG
+        ]
 
 
-def between(rows: Sequence[Row], onset: tuple[float, float] = (-1, 1e9), duration: tuple[float, float] = (-1, 1e9), **equal: Any) -> list[Row]:
-    """Rows whose obstacle came between two times, ends included, and lasted so long; and whose other entries are as given."""
-    inside = [r for r in rows if onset[0] <= r["onset"] <= onset[1] and duration[0] <= r["duration"] <= duration[1]]
+def between(
+    rows: Sequence[Row],
+    onset: tuple[float, float] = (-1, 1e9),
+    duration: tuple[float, float] = (-1, 1e9),
+    **equal: Any,
+) -> list[Row]:
+    """Rows whose obstacle came between two times, ends included, and lasted so long; and whose other entries
+    are as given.
+    """
+    inside = [
+        r for r in rows if onset[0] <= r["onset"] <= onset[1] and duration[0] <= r["duration"] <= duration[1]
+    ]
     return [r for r in inside if all(r[k] == v for k, v in equal.items())]
 
 

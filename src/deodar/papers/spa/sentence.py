@@ -1,4 +1,6 @@
-"""A sentence that is judged: its words, its target and what it assumes; the values of the runs make a claim of it."""
+"""A sentence that is judged: its words, its target and what it assumes; the values of the runs make a claim
+of it.
+"""
 
 from __future__ import annotations
 
@@ -16,13 +18,18 @@ from deodar.papers.spa.runs import SOURCE, count
 
 START = "the start of case 3, which the paper does not print"
 PLACES = f"{START}, and its second location, which was read off a run of ours"
-REFLECTION = "walls reflect 0.6 of the infrared light, which was fitted so that the planner passes the gaps of the large maze"
+REFLECTION = (
+    "walls reflect 0.6 of the infrared light, which was fitted so that the planner passes the gaps of the"
+    " large maze"
+)
 
 EFFECT = 0.1
 """Smallest difference of two shares of runs that counts. Ours."""
 
 ALIKE = 0.05
-"""By how much Lp / Lo, or a ratio of medians of it, may differ and still be called equal: 5 % of the shortest path. Ours."""
+"""By how much Lp / Lo, or a ratio of medians of it, may differ and still be called equal: 5 % of the shortest
+path. Ours.
+"""
 
 
 @dataclass(frozen=True)
@@ -45,23 +52,45 @@ class Sentence:
     kind: Kind = "reported"
     source: str = ""
 
-    def judged(self, value: float | None, target: str, holds: bool | None, n: int, interval: Interval | None = None) -> Claim:
+    def judged(
+        self, value: float | None, target: str, holds: bool | None, n: int, interval: Interval | None = None
+    ) -> Claim:
         """The claim, with a decision that was made elsewhere."""
         name = f"{self.section}: {self.text}" if self.section and self.kind == "reported" else self.text
         own = f"{SOURCE}, section {self.section}" if self.section else "no sentence of the paper"
         shown = None if value is None else round(float(value), 4)
         marks = (self.kind, self.source or own, n, rounded(interval))
-        return Claim(name, shown, target, holds, *marks, origin=self.origin, assumes=self.assumes, inferred=self.inferred)
+        return Claim(
+            name,
+            shown,
+            target,
+            holds,
+            *marks,
+            origin=self.origin,
+            assumes=self.assumes,
+            inferred=self.inferred,
+        )
 
     def value(self, value: float | None, n: int) -> Claim:
         """A number without a target."""
-        return Sentence(self.section, self.text, "none", self.assumes, source=self.source).judged(value, "none", None, n)
+        return Sentence(self.section, self.text, "none", self.assumes, source=self.source).judged(
+            value, "none", None, n
+        )
 
     def bounds(
-        self, value: float | None, n: int, low: float, high: float, target: str, interval: Interval | None = None, quick: bool = False
+        self,
+        value: float | None,
+        n: int,
+        low: float,
+        high: float,
+        target: str,
+        interval: Interval | None = None,
+        quick: bool = False,
     ) -> Claim:
         """A number that lies between two bounds. Where so few runs cannot decide it is open."""
-        return self.judged(value, target, statistics.decided(value, interval, n, low, high, quick), n, interval)
+        return self.judged(
+            value, target, statistics.decided(value, interval, n, low, high, quick), n, interval
+        )
 
     def median(self, values: np.ndarray, low: float, high: float, target: str, quick: bool = False) -> Claim:
         """A median that lies between two bounds."""
@@ -71,15 +100,33 @@ class Sentence:
     def share(self, rows: Sequence[Row], true: Callable[[Row], bool], least: float, quick: bool) -> Claim:
         """Something that is true of at least a share of the runs."""
         hits, n = count(rows, true)
-        return self.bounds(hits / n if n else None, n, least, 1.0, f">= {least:g}", statistics.wilson(hits, n), quick)
+        return self.bounds(
+            hits / n if n else None, n, least, 1.0, f">= {least:g}", statistics.wilson(hits, n), quick
+        )
 
-    def larger(self, value: float | None, interval: Interval | None, n: int, than: float = 0.0, by: float = EFFECT) -> Claim:
+    def larger(
+        self, value: float | None, interval: Interval | None, n: int, than: float = 0.0, by: float = EFFECT
+    ) -> Claim:
         """A number that is larger than another, by an amount that counts."""
-        return self.judged(value, f">= {than + by:g}, interval above {than:g}", statistics.larger(value, interval, than, by), n, interval)
+        return self.judged(
+            value,
+            f">= {than + by:g}, interval above {than:g}",
+            statistics.larger(value, interval, than, by),
+            n,
+            interval,
+        )
 
-    def smaller(self, value: float | None, interval: Interval | None, n: int, than: float = 1.0, by: float = ALIKE) -> Claim:
+    def smaller(
+        self, value: float | None, interval: Interval | None, n: int, than: float = 1.0, by: float = ALIKE
+    ) -> Claim:
         """A number that is smaller than another, by an amount that counts."""
-        return self.judged(value, f"<= {than - by:g}, interval below {than:g}", statistics.smaller(value, interval, than, by), n, interval)
+        return self.judged(
+            value,
+            f"<= {than - by:g}, interval below {than:g}",
+            statistics.smaller(value, interval, than, by),
+            n,
+            interval,
+        )
 
     def more_often(self, first: tuple[int, int], second: tuple[int, int], by: float = EFFECT) -> Claim:
         """Something that is true of more runs (hits, n) of the first kind than of the second."""
@@ -93,4 +140,10 @@ class Sentence:
 
     def equal(self, value: float | None, interval: Interval | None, n: int, low: float, high: float) -> Claim:
         """A difference or ratio whose whole interval lies inside a margin."""
-        return self.judged(value, f"interval inside {low:g} to {high:g}", statistics.equivalent(interval, low, high), n, interval)
+        return self.judged(
+            value,
+            f"interval inside {low:g} to {high:g}",
+            statistics.equivalent(interval, low, high),
+            n,
+            interval,
+        )

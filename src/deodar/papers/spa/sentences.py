@@ -1,4 +1,6 @@
-"""The reported claims: sentences of the paper's results and discussion, each with its number, and what our own settings make of them."""
+"""The reported claims: sentences of the paper's results and discussion, each with its number, and what our
+own settings make of them.
+"""
 
 from __future__ import annotations
 
@@ -26,17 +28,30 @@ FEWER = 0.02
 """By how much the share of unsuccessful runs has to fall to be called reduced: 4 of 200 runs. Ours."""
 
 OCCASIONS = 300
-"""Runs from which on "a few occasions" is decided: where one run in a hundred is stuck, 300 runs show none in 5 of 100 experiments. Ours."""
+"""Runs from which on "a few occasions" is decided: where one run in a hundred is stuck, 300 runs show none in
+5 of 100 experiments. Ours.
+"""
 
 
 def claims(runs: Runs) -> list[Claim]:
     """All of them, by section."""
-    said: tuple[Said, ...] = (_section_3, _section_5_1, _narrative, _case_3_early, _case_3_late, _section_6_2, _section_6_4, _section_7)
+    said: tuple[Said, ...] = (
+        _section_3,
+        _section_5_1,
+        _narrative,
+        _case_3_early,
+        _case_3_late,
+        _section_6_2,
+        _section_6_4,
+        _section_7,
+    )
     return [claim for part in said for claim in part(runs)]
 
 
 def _planned(runs: Runs, maze: str = "", noises: Sequence[str] = NOISES) -> list[Row]:
-    return [r for m in ([maze] if maze else MAZE) for noise in noises for r in runs.of(f"{m}/planner/{noise}")]
+    return [
+        r for m in ([maze] if maze else MAZE) for noise in noises for r in runs.of(f"{m}/planner/{noise}")
+    ]
 
 
 def _success(r: Row) -> bool:
@@ -53,8 +68,15 @@ def _section_3(runs: Runs) -> list[Claim]:
     text = "opposing behaviours are mutually exclusive: share of time in which both of a pair intend to go"
     out = [Sentence("3.2", text).bounds(value, len(opposed), 0.0, 0.05, "<= 0.05", mean_interval(opposed))]
     for noise in NOISES:
-        text = f"a goal may change at any time: runs in which it moves while the robot drives, and that reach where it went, {noise} noise"
-        out.append(Sentence("3.2", text, assumes=START).share(runs.of(f"moved/planner/{noise}"), _success, 0.9, runs.quick))
+        text = (
+            "a goal may change at any time: runs in which it moves while the robot drives, and that reach"
+            f" where it went, {noise} noise"
+        )
+        out.append(
+            Sentence("3.2", text, assumes=START).share(
+                runs.of(f"moved/planner/{noise}"), _success, 0.9, runs.quick
+            )
+        )
     return out
 
 
@@ -64,41 +86,78 @@ def _section_5_1(runs: Runs) -> list[Claim]:
         groups = [runs.divergences(f"{maze}/{method}/{noise}") for method, noise in METHODS]
         found = anova(groups) if all(len(g) > 1 for g in groups) else None
         n, assumes = min(map(len, groups)), _assumed(maze)
-        text = f"no significant difference in path length between the five conditions of environment {k} (one-way ANOVA, p)"
+        text = (
+            f"no significant difference in path length between the five conditions of environment {k}"
+            " (one-way ANOVA, p)"
+        )
         out.append(_refuted(Sentence("5.1", text, "printed", assumes), found and found[1], n))
-        out.append(Sentence("5.1", f"F of that test in environment {k}; printed {0.97 if k == 1 else 0.98}").value(found and found[0], n))
-        text = f"path lengths of the five conditions of environment {k} are equal: largest difference of two means of Lp / Lo"
+        out.append(
+            Sentence("5.1", f"F of that test in environment {k}; printed {0.97 if k == 1 else 0.98}").value(
+                found and found[0], n
+            )
+        )
+        text = (
+            f"path lengths of the five conditions of environment {k} are equal: largest difference of two"
+            " means of Lp / Lo"
+        )
         out.append(_all_equal(Sentence("5.1", text, "ours", assumes), groups))
     rows = _planned(runs)
     # a run that does not arrive took the limit: otherwise the latest of those that arrive would look early
     arrivals = [r["arrival"] if r["success"] else cases.LIMIT for r in rows]
-    text = f"{cases.LIMIT} steps are well above the time necessary even for the longest paths: latest arrival, {cases.LIMIT} where there is none"
-    out.append(Sentence("5.1", text, assumes=REFLECTION).bounds(max(arrivals, default=None), len(arrivals), 0, 2500, "<= 2500"))
-    best = {name: count(runs.of(name), _success) for name in cases.conditions(runs.quick) if name.startswith("z/tuning/")}
+    text = (
+        f"{cases.LIMIT} steps are well above the time necessary even for the longest paths: latest arrival,"
+        f" {cases.LIMIT} where there is none"
+    )
+    out.append(
+        Sentence("5.1", text, assumes=REFLECTION).bounds(
+            max(arrivals, default=None), len(arrivals), 0, 2500, "<= 2500"
+        )
+    )
+    best = {
+        name: count(runs.of(name), _success)
+        for name in cases.conditions(runs.quick)
+        if name.startswith("z/tuning/")
+    }
     if all(n for _, n in best.values()):
         # the gain must do with either contact: the smaller of both counts
         tuned = dict.fromkeys(name.rpartition("-")[0] for name in best)
         pairs = {name: min(best[f"{name}-{contact}"][0] for contact in ("slide", "stick")) for name in tuned}
         mine = f"z/tuning/{cases.CARROT.speed:g}-{cases.CARROT.gain:g}"
         n, most = best[f"{mine}-slide"][1], max(pairs.values())
-        text = f"following the carrot: no other speed and gain succeed more often in the Z-maze than {mine.rpartition('/')[2]}"
+        text = (
+            "following the carrot: no other speed and gain succeed more often in the Z-maze than"
+            f" {mine.rpartition('/')[2]}"
+        )
         out.append(Sentence("", text).bounds(pairs[mine] / n, n, most / n - 1e-9, 1.0, f">= {most / n:.4g}"))
     return out
 
 
 def _refuted(said: Sentence, p: float | None, n: int) -> Claim:
-    """A test that found no difference. A small p here refutes it; a large one shows nothing, so it stays open."""
-    return said.judged(p, "> 0.05, which shows no equality", False if p is not None and p <= 0.05 else None, n)
+    """A test that found no difference.
+
+    A small p here refutes it; a large one shows nothing, so it stays open.
+    """
+    return said.judged(
+        p, "> 0.05, which shows no equality", False if p is not None and p <= 0.05 else None, n
+    )
 
 
 def _all_equal(said: Sentence, groups: Sequence[np.ndarray]) -> Claim:
-    """Means of groups that are all equal: the interval of the difference of every two lies inside the margin."""
-    twos = [(float(a.mean() - b.mean()), difference_interval(a, b)) for a, b in itertools.combinations(groups, 2) if min(len(a), len(b)) > 1]
+    """Means of groups that are all equal: the interval of the difference of every two lies inside the
+    margin.
+    """
+    twos = [
+        (float(a.mean() - b.mean()), difference_interval(a, b))
+        for a, b in itertools.combinations(groups, 2)
+        if min(len(a), len(b)) > 1
+    ]
     decided = [equivalent(interval, -ALIKE, ALIKE) for _, interval in twos]
     complete = len(twos) == len(groups) * (len(groups) - 1) // 2
     holds = False if False in decided else True if complete and all(decided) else None
     value, interval = max(twos, key=lambda two: abs(two[0]), default=(None, None))
-    return said.judged(value, f"intervals inside {-ALIKE:g} to {ALIKE:g}", holds, min(map(len, groups)), interval)
+    return said.judged(
+        value, f"intervals inside {-ALIKE:g} to {ALIKE:g}", holds, min(map(len, groups)), interval
+    )
 
 
 def _narrative(runs: Runs) -> list[Claim]:
@@ -106,34 +165,62 @@ def _narrative(runs: Runs) -> list[Claim]:
     free = runs.of("free/planner/low")
 
     def seen(text: str, assumes: str = START, origin: Origin = "printed") -> Sentence:
-        """A time or place of the run that the paper tells of, from which the start (and the second location) was inferred."""
+        """A time or place of the run that the paper tells of, from which the start (and the second location)
+        was inferred.
+        """
         return Sentence("5.2", text, origin, assumes, inferred=True)
 
     out.append(
-        seen("the plan is complete at t = 210 (case 3 without an obstacle)").median(numbers(free, "plan"), 189, 231, "210 +- 10 %", runs.quick)
+        seen("the plan is complete at t = 210 (case 3 without an obstacle)").median(
+            numbers(free, "plan"), 189, 231, "210 +- 10 %", runs.quick
+        )
     )
-    out.append(seen("the wave reaches the second location around t = 150", PLACES).median(numbers(free, "wave"), 135, 165, "150 +- 10 %"))
+    out.append(
+        seen("the wave reaches the second location around t = 150", PLACES).median(
+            numbers(free, "wave"), 135, 165, "150 +- 10 %"
+        )
+    )
     out.append(seen("the robot leaves after t = 210").median(numbers(free, "moved"), 210, 260, "210 to 260"))
     for noise in NOISES:
         rows = runs.of(f"free/planner/{noise}")
         text = f"without an obstacle it always takes the shortest, north route, {noise} noise"
         out.append(seen(text, origin="ours").share(rows, lambda r: r["route"] == NORTH, 0.95, runs.quick))
-        text = f"the plan is to go north, west, south and east: runs whose intentions come in this order, {noise} noise"
-        out.append(seen(text, origin="ours").share(rows, lambda r: _in_order(r, "north", "west", "south", "east"), 0.9, runs.quick))
+        text = (
+            "the plan is to go north, west, south and east: runs whose intentions come in this order,"
+            f" {noise} noise"
+        )
+        out.append(
+            seen(text, origin="ours").share(
+                rows, lambda r: _in_order(r, "north", "west", "south", "east"), 0.9, runs.quick
+            )
+        )
     told = runs.of("narrative/planner/low")
-    text = "planning anew, motivation to go west at the second location dies away between 350 and 550: it ends at"
+    text = (
+        "planning anew, motivation to go west at the second location dies away between 350 and 550: it"
+        " ends at"
+    )
     out.append(seen(text, PLACES).median(numbers(told, "west_ends"), 350, 550, "350 to 550"))
     text = "motivation to go east is there from around t = 550 on"
     out.append(seen(text, PLACES).median(numbers(told, "east_begins"), 495, 605, "550 +- 10 %"))
     # what follows was not looked at when the start was inferred, but depends on it
     text = "a full obstacle at t = 336 makes it plan anew and go south"
-    out.append(Sentence("5.2", text, assumes=START).share(told, lambda r: r["route"] == SWITCH, 0.7, runs.quick))
+    out.append(
+        Sentence("5.2", text, assumes=START).share(told, lambda r: r["route"] == SWITCH, 0.7, runs.quick)
+    )
     text = "it then goes east, south, west and, finally, north"
-    out.append(Sentence("5.2", text, assumes=START).share(told, lambda r: _in_order(r, "east", "south", "west", "north"), 0.7, runs.quick))
+    out.append(
+        Sentence("5.2", text, assumes=START).share(
+            told, lambda r: _in_order(r, "east", "south", "west", "north"), 0.7, runs.quick
+        )
+    )
     text = "that run is at its fourth location at t = 1250: arrival"
-    out.append(Sentence("5.2", text, "printed", START).median(numbers(told, "arrival"), 1125, 1375, "1250 +- 10 %"))
+    out.append(
+        Sentence("5.2", text, "printed", START).median(numbers(told, "arrival"), 1125, 1375, "1250 +- 10 %")
+    )
     text = "planning anew takes from 350 to 550: time of standing still"
-    out.append(Sentence("5.2", text, "printed", START).median(numbers(told, "still"), 100, 300, "200 +- 50 %"))
+    out.append(
+        Sentence("5.2", text, "printed", START).median(numbers(told, "still"), 100, 300, "200 +- 50 %")
+    )
     return out
 
 
@@ -144,10 +231,15 @@ def _in_order(row: Row, *names: str) -> bool:
 
 
 def _passage(row: Row) -> float | None:
-    """Mean speed beside the partial obstacle, on the north route, while it is there; in cm a step. Without one: in the same place."""
+    """Mean speed beside the partial obstacle, on the north route, while it is there; in cm a step.
+
+    Without one: in the same place.
+    """
     path, (x, y) = np.asarray(row["path"]), place(*cases.OBSTACLES["partial"][1])
     times = KEPT * np.arange(len(path))
-    present = (times >= row.get("onset", 0)) & (times <= row.get("onset", 0) + row.get("duration", cases.LIMIT))
+    present = (times >= row.get("onset", 0)) & (
+        times <= row.get("onset", 0) + row.get("duration", cases.LIMIT)
+    )
     beside = present & (np.abs(path[:, 0] - x) < cases.OBSTACLES["partial"][2][0] / 2) & (path[:, 1] > y)
     step = np.linalg.norm(np.diff(path, axis=0), axis=1) / KEPT
     return float(step[beside[1:]].mean()) if beside.sum() > LASTS else None
@@ -158,12 +250,21 @@ def _case_3_early(runs: Runs) -> list[Claim]:
     for obstacle in ("full", "partial"):
         for noise in NOISES:
             early = between(runs.kept(obstacle, noise), (0, 150))
-            text = f"an obstacle during early planning sends it south, whatever its type: {obstacle}, {noise} noise, onset to 150"
-            out.append(Sentence("5.2", text, assumes=START).share(early, lambda r: r["route"] == SOUTH, 0.8, runs.quick))
+            text = (
+                f"an obstacle during early planning sends it south, whatever its type: {obstacle}, {noise}"
+                " noise, onset to 150"
+            )
+            out.append(
+                Sentence("5.2", text, assumes=START).share(
+                    early, lambda r: r["route"] == SOUTH, 0.8, runs.quick
+                )
+            )
     partial = between(runs.kept("partial", "low"), (0, 200), (0, 100))
     full = between(runs.kept("full", "low"), (0, 200), (0, 100))
     text = "a partial obstacle in the first 200 steps sends it south even if it is short (to 100 steps)"
-    out.append(Sentence("5.2", text, assumes=START).share(partial, lambda r: r["route"] == SOUTH, 0.8, runs.quick))
+    out.append(
+        Sentence("5.2", text, assumes=START).share(partial, lambda r: r["route"] == SOUTH, 0.8, runs.quick)
+    )
     text = "a short full obstacle has less effect than a short partial one: share of north, full less partial"
     north_full, north_partial = (count(rows, lambda r: r["route"] == NORTH) for rows in (full, partial))
     out.append(Sentence("5.2", text, assumes=START).more_often(north_full, north_partial))
@@ -181,21 +282,56 @@ def _case_3_late(runs: Runs) -> list[Claim]:
         late = said("a partial obstacle during late planning or execution does not change the route", noise)
         out.append(late.share(between(partial, (200, 1000)), lambda r: r["route"] == NORTH, 0.9, runs.quick))
         first = said("after t = 200 it first takes the north route in almost all cases", noise)
-        out.append(first.share(between([*partial, *full], (201, 1000)), lambda r: r["route"] in (NORTH, SWITCH), 0.95, runs.quick))
-        switch = said("a full obstacle at 200 < t < 500 that lasts more than 200 steps makes it switch", noise)
-        out.append(switch.share(between(full, (201, 499), (201, 1000)), lambda r: r["route"] == SWITCH, 0.7, runs.quick))
+        out.append(
+            first.share(
+                between([*partial, *full], (201, 1000)),
+                lambda r: r["route"] in (NORTH, SWITCH),
+                0.95,
+                runs.quick,
+            )
+        )
+        switch = said(
+            "a full obstacle at 200 < t < 500 that lasts more than 200 steps makes it switch", noise
+        )
+        out.append(
+            switch.share(
+                between(full, (201, 499), (201, 1000)), lambda r: r["route"] == SWITCH, 0.7, runs.quick
+            )
+        )
         always = said("after t = 500 it always takes the north route", noise)
-        out.append(always.share(between([*partial, *full], (501, 1000)), lambda r: r["route"] == NORTH, 0.95, runs.quick))
-        persists = said("it persists more after t = 200: share of north for obstacles of 50 to 250 steps, later less earlier", noise)
-        after, before = (count(between(full, onset, (50, 250)), lambda r: r["route"] == NORTH) for onset in ((201, 450), (0, 150)))
+        out.append(
+            always.share(
+                between([*partial, *full], (501, 1000)), lambda r: r["route"] == NORTH, 0.95, runs.quick
+            )
+        )
+        persists = said(
+            "it persists more after t = 200: share of north for obstacles of 50 to 250 steps, later less"
+            " earlier",
+            noise,
+        )
+        after, before = (
+            count(between(full, onset, (50, 250)), lambda r: r["route"] == NORTH)
+            for onset in ((201, 450), (0, 150))
+        )
         out.append(persists.more_often(after, before))
-        stands = said("switching takes a time of standing still: share of runs that stand for 50 steps, switch less south", noise)
-        switching, going = (count(between([*partial, *full], route=way), lambda r: r["still"] > 50) for way in (SWITCH, SOUTH))
+        stands = said(
+            "switching takes a time of standing still: share of runs that stand for 50 steps, switch less"
+            " south",
+            noise,
+        )
+        switching, going = (
+            count(between([*partial, *full], route=way), lambda r: r["still"] > 50) for way in (SWITCH, SOUTH)
+        )
         out.append(stands.more_often(switching, going))
         for obstacle in cases.DRAW:
-            text = f"runs left out because the obstacle came down on the robot, {noise} noise, {obstacle} obstacle"
+            text = (
+                f"runs left out because the obstacle came down on the robot, {noise} noise, {obstacle}"
+                " obstacle"
+            )
             n = len(runs.of(f"{obstacle}/planner/{noise}"))
-            out.append(Sentence("5.2", text, assumes=START).value(runs.left_out(obstacle, noise) if n else None, n))
+            out.append(
+                Sentence("5.2", text, assumes=START).value(runs.left_out(obstacle, noise) if n else None, n)
+            )
     return out
 
 
@@ -206,29 +342,66 @@ def _section_6_2(runs: Runs) -> list[Claim]:
     if len(far) > 2:
         slope, offset = np.polyfit(far, when, 1)
         rest = float(1 - np.var(when - slope * far - offset) / np.var(when))
-        text = "activation spreads with a constant speed: share of variance of planning time that is linear in Lo"
+        text = (
+            "activation spreads with a constant speed: share of variance of planning time that is linear"
+            " in Lo"
+        )
         out.append(Sentence("6.2", text).bounds(rest, len(far), 0.9, 1.0, ">= 0.9"))
         out.append(Sentence("6.2", "speed of the wave, cm a step").value(1 / slope, len(far)))
     switched = [r for noise in NOISES for r in between(runs.kept("full", noise), route=SWITCH)]
     text = "planning anew is shorter than planning: standing still over the time of the first plan"
-    out.append(_ratio(Sentence("6.2", text, assumes=START), numbers(switched, "still"), numbers(runs.of("free/planner/low"), "plan"), False))
+    out.append(
+        _ratio(
+            Sentence("6.2", text, assumes=START),
+            numbers(switched, "still"),
+            numbers(runs.of("free/planner/low"), "plan"),
+            False,
+        )
+    )
     for maze in MAZE:
-        found = [r["clearance"] - r["shortest_clearance"] for r in _planned(runs, maze) if r["success"] and r["shortest_clearance"] is not None]
-        text = f"paths keep away from walls: mean distance to the nearest one less that of the shortest path, cm, {MAZE[maze]}"
+        found = [
+            r["clearance"] - r["shortest_clearance"]
+            for r in _planned(runs, maze)
+            if r["success"] and r["shortest_clearance"] is not None
+        ]
+        text = (
+            "paths keep away from walls: mean distance to the nearest one less that of the shortest path,"
+            f" cm, {MAZE[maze]}"
+        )
         value = float(np.mean(found)) if found else None
-        out.append(Sentence("6.2", text, assumes=_assumed(maze)).larger(value, mean_interval(found), len(found), 0.0, 0.5))
-    south = numbers([r for k in NOISES for o in ("full", "partial") for r in between(runs.kept(o, k), route=SOUTH)], "clearance")
-    north = numbers([r for k in NOISES for r in between(runs.kept("partial", k), (200, 400), (200, 500), route=NORTH)], "clearance")
+        out.append(
+            Sentence("6.2", text, assumes=_assumed(maze)).larger(
+                value, mean_interval(found), len(found), 0.0, 0.5
+            )
+        )
+    south = numbers(
+        [r for k in NOISES for o in ("full", "partial") for r in between(runs.kept(o, k), route=SOUTH)],
+        "clearance",
+    )
+    north = numbers(
+        [r for k in NOISES for r in between(runs.kept("partial", k), (200, 400), (200, 500), route=NORTH)],
+        "clearance",
+    )
     text = "the south route keeps farther from walls than the north one past a partial obstacle: ratio"
     out.append(_ratio(Sentence("6.2", text, assumes=START), south, north, True))
-    slow = [v for k in NOISES for r in between(runs.kept("partial", k), route=NORTH) if (v := _passage(r)) is not None]
+    slow = [
+        v
+        for k in NOISES
+        for r in between(runs.kept("partial", k), route=NORTH)
+        if (v := _passage(r)) is not None
+    ]
     free = [v for k in NOISES for r in runs.of(f"free/planner/{k}") if (v := _passage(r)) is not None]
     text = "the narrow passage beside a partial obstacle reduces the velocity: ratio to that without one"
     out.append(_ratio(Sentence("6.2", text, assumes=START), np.asarray(slow), np.asarray(free), False))
-    ordered = sorted((r for r in _planned(runs, "large") if r["shortest"] is not None), key=lambda r: r["shortest"])
+    ordered = sorted(
+        (r for r in _planned(runs, "large") if r["shortest"] is not None), key=lambda r: r["shortest"]
+    )
     third = len(ordered) // 3
     longest, shortest = (count(part, _success) for part in (ordered[len(ordered) - third :], ordered[:third]))
-    text = "long paths do not suffer from low gradients: success over the longest third in the large maze less that over the shortest"
+    text = (
+        "long paths do not suffer from low gradients: success over the longest third in the large maze less"
+        " that over the shortest"
+    )
     out.append(Sentence("6.2", text, assumes=REFLECTION, inferred=True).as_often(longest, shortest))
     return out
 
@@ -236,8 +409,12 @@ def _section_6_2(runs: Runs) -> list[Claim]:
 def _ratio(said: Sentence, above: np.ndarray, below: np.ndarray, more: bool) -> Claim:
     """The ratio of two medians, which is above (`more`) or below 1 by an amount that counts."""
     n = min(len(above), len(below))
-    value, interval = (float(np.median(above) / np.median(below)), ratio_interval(above, below)) if n else (None, None)
-    return said.larger(value, interval, n, 1.0, ALIKE) if more else said.smaller(value, interval, n, 1.0, ALIKE)
+    value, interval = (
+        (float(np.median(above) / np.median(below)), ratio_interval(above, below)) if n else (None, None)
+    )
+    return (
+        said.larger(value, interval, n, 1.0, ALIKE) if more else said.smaller(value, interval, n, 1.0, ALIKE)
+    )
 
 
 def _section_6_4(runs: Runs) -> list[Claim]:
@@ -246,22 +423,39 @@ def _section_6_4(runs: Runs) -> list[Claim]:
     out = [Sentence("6.4", text, assumes=REFLECTION).more_often(low, high, FEWER)]
     failed = [r for r in _planned(runs) if not r["success"]]
     stuck, n = len(failed), len(_planned(runs))
-    text = "on a few occasions the robot is stuck: share of all runs; one run at least, and one in ten at most"
+    text = (
+        "on a few occasions the robot is stuck: share of all runs; one run at least, and one in ten at most"
+    )
     holds = 0 < stuck <= 0.1 * n if n >= OCCASIONS else None
-    out.append(Sentence("6.4", text, assumes=REFLECTION).judged(stuck / n if n else None, "> 0, <= 0.1", holds, n, statistics.wilson(stuck, n)))
+    out.append(
+        Sentence("6.4", text, assumes=REFLECTION).judged(
+            stuck / n if n else None, "> 0, <= 0.1", holds, n, statistics.wilson(stuck, n)
+        )
+    )
     free = sum(not r["touches_at_end"] for r in failed)
     text = "what sticks is a local minimum, not a wall: share of these runs that touch nothing at the end"
     value = free / stuck if stuck else None
-    out.append(Sentence("6.4", text, assumes=REFLECTION).bounds(value, stuck, 0.5, 1.0, ">= 0.5", statistics.wilson(free, stuck)))
+    out.append(
+        Sentence("6.4", text, assumes=REFLECTION).bounds(
+            value, stuck, 0.5, 1.0, ">= 0.5", statistics.wilson(free, stuck)
+        )
+    )
     for maze in MAZE:
         groups = [runs.divergences(f"{maze}/planner/{noise}") for noise in NOISES]
         found, n = anova(groups), min(map(len, groups))
         text = f"noise has no significant effect on paths in the {MAZE[maze]} (one-way ANOVA, p)"
         out.append(_refuted(Sentence("6.4", text, "printed", _assumed(maze)), found and found[1], n))
         before, after = runs.both(f"{maze}/planner/low", f"{maze}/planner/high")
-        text = f"noise has no effect on paths in the {MAZE[maze]}: mean of Lp / Lo at high less at low noise, pair by pair"
+        text = (
+            f"noise has no effect on paths in the {MAZE[maze]}: mean of Lp / Lo at high less at low noise,"
+            " pair by pair"
+        )
         value = float((after - before).mean()) if len(before) else None
-        out.append(Sentence("6.4", text, assumes=_assumed(maze)).equal(value, mean_interval(after - before), len(before), -ALIKE, ALIKE))
+        out.append(
+            Sentence("6.4", text, assumes=_assumed(maze)).equal(
+                value, mean_interval(after - before), len(before), -ALIKE, ALIKE
+            )
+        )
     return out
 
 
@@ -274,15 +468,43 @@ def _section_7(runs: Runs) -> list[Claim]:
         ("sticking-planner", "weak-carrot", "weak gain, both stick to walls"),
     ):
         plans = [r for noise in NOISES for r in runs.of(f"large/{planner}/{noise}")]
-        rows = [r for noise in ("none", "low", "high") for r in runs.like(f"large/{carrot}/{noise}", f"large/{planner}/low")]
-        text = f"in the large maze the planner succeeds notably more often than following the carrot ({words}): difference"
-        out.append(Sentence("7", text, assumes=REFLECTION, inferred=True).more_often(count(plans, _success), count(rows, _success)))
-    for carrot, words in (("carrot", "tuned, slides"), ("sticking-carrot", "tuned, sticks"), ("weak-carrot", "weak gain, sticks")):
-        failed = [r for noise in ("none", "low", "high") for r in runs.of(f"large/{carrot}/{noise}") if not r["success"]]
-        text = f"the carrot fails by cutting corners: share of its failures that touch a wall at the end ({words})"
+        rows = [
+            r
+            for noise in ("none", "low", "high")
+            for r in runs.like(f"large/{carrot}/{noise}", f"large/{planner}/low")
+        ]
+        text = (
+            f"in the large maze the planner succeeds notably more often than following the carrot ({words}):"
+            " difference"
+        )
+        out.append(
+            Sentence("7", text, assumes=REFLECTION, inferred=True).more_often(
+                count(plans, _success), count(rows, _success)
+            )
+        )
+    for carrot, words in (
+        ("carrot", "tuned, slides"),
+        ("sticking-carrot", "tuned, sticks"),
+        ("weak-carrot", "weak gain, sticks"),
+    ):
+        failed = [
+            r
+            for noise in ("none", "low", "high")
+            for r in runs.of(f"large/{carrot}/{noise}")
+            if not r["success"]
+        ]
+        text = (
+            "the carrot fails by cutting corners: share of its failures that touch a wall at the end"
+            f" ({words})"
+        )
         out.append(Sentence("7", text).share(failed, lambda r: r["touches_at_end"], 0.8, runs.quick))
     for noise in NOISES:
         short = between(runs.kept("full", noise), (201, 1000), (0, 100))
-        text = f"transient blockages do not result in planning anew: full obstacles of up to 100 steps after t = 200, {noise} noise"
-        out.append(Sentence("7", text, assumes=START).share(short, lambda r: r["route"] == NORTH, 0.9, runs.quick))
+        text = (
+            "transient blockages do not result in planning anew: full obstacles of up to 100 steps after t ="
+            f" 200, {noise} noise"
+        )
+        out.append(
+            Sentence("7", text, assumes=START).share(short, lambda r: r["route"] == NORTH, 0.9, runs.quick)
+        )
     return out

@@ -1,4 +1,6 @@
-"""The table of the experiment, one line for each condition, and the numbers that the manual takes from the runs."""
+"""The table of the experiment, one line for each condition, and the numbers that the manual takes from the
+runs.
+"""
 
 from __future__ import annotations
 
@@ -39,27 +41,48 @@ def write(runs: Runs) -> dict[str, str]:
 
 
 def numbers(runs: Runs) -> dict[str, str]:
-    """What the manual says of the runs, by name: `success:CONDITION`, `ratio:CONDITION`, `arrival:CONDITION`, and tables."""
+    """What the manual says of the runs, by name: `success:CONDITION`, `ratio:CONDITION`, `arrival:CONDITION`,
+    and tables.
+    """
     found = cases.conditions(runs.quick)
-    out = {"runs": str(sum(len(runs.of(name)) for name in found)), "of": str(sum(len(c.trials) for c in found.values()))}
+    out = {
+        "runs": str(sum(len(runs.of(name)) for name in found)),
+        "of": str(sum(len(c.trials) for c in found.values())),
+    }
     for name, c in found.items():
         rows, ratio = runs.of(name), runs.divergences(name)
         hits, n = count(rows, lambda r: r["success"])
         out[f"success:{name}"] = f"{hits} of {n}" if n else NOT_RUN
         out[f"ratio:{name}"] = f"{ratio.mean():.2f}" if c.many_starts and len(ratio) else NOT_RUN
-        out[f"arrival:{name}"] = f"{np.median(entries(rows, 'arrival')):.0f}" if len(entries(rows, "arrival")) else NOT_RUN
+        out[f"arrival:{name}"] = (
+            f"{np.median(entries(rows, 'arrival')):.0f}" if len(entries(rows, "arrival")) else NOT_RUN
+        )
     for maze in MAZE:
-        weak = [count(runs.of(f"{maze}/weak-carrot/{noise}"), lambda r: r["success"]) for noise in ("none", "low", "high")]
+        weak = [
+            count(runs.of(f"{maze}/weak-carrot/{noise}"), lambda r: r["success"])
+            for noise in ("none", "low", "high")
+        ]
         hits = sorted(h for h, _ in weak)
-        out[f"weak:{maze}"] = f"{hits[0]} to {hits[-1]} of {weak[0][1]}" if all(n for _, n in weak) else NOT_RUN
-    stuck, n = count([r for m in MAZE for k in ("low", "high") for r in runs.of(f"{m}/planner/{k}")], lambda r: not r["success"])
+        out[f"weak:{maze}"] = (
+            f"{hits[0]} to {hits[-1]} of {weak[0][1]}" if all(n for _, n in weak) else NOT_RUN
+        )
+    stuck, n = count(
+        [r for m in MAZE for k in ("low", "high") for r in runs.of(f"{m}/planner/{k}")],
+        lambda r: not r["success"],
+    )
     out["factor"] = f"{NOISE['high'][2]:g}"
     out["reflection"] = f"{cases.world(found['large/planner/low']).reflection:g}"
     out["stuck"] = f"{stuck} of {n}" if n else NOT_RUN
-    out["main"] = _table(runs, [f"{maze}/{method}/{noise}" for maze in MAZE for method, noise in METHODS], SHORT)
+    out["main"] = _table(
+        runs, [f"{maze}/{method}/{noise}" for maze in MAZE for method, noise in METHODS], SHORT
+    )
     own = [f"{maze}/planner/{noise}" for maze in MAZE for noise in ("low", "high")]
     varied = [c.name for c in found.values() if c.name in own or (c.method == "planner" and c.terms)]
-    out["settings"] = _table(runs, sorted(varied, key=lambda name: (not name.startswith("z"), name.rpartition("/")[2] == "high", name)), SHORT)
+    out["settings"] = _table(
+        runs,
+        sorted(varied, key=lambda name: (not name.startswith("z"), name.rpartition("/")[2] == "high", name)),
+        SHORT,
+    )
     return out
 
 
@@ -73,8 +96,15 @@ def _table(runs: Runs, names: Iterable[str], columns: int) -> str:
         drawn = c.obstacle in cases.DRAW
         kept = runs.kept(c.obstacle, c.noise) if drawn else rows
         hits, n = count(kept, lambda r: r["success"])
-        interval, ratio, arrival = wilson(hits, n), runs.divergences(c.name) if c.many_starts else np.zeros(0), entries(kept, "arrival")
-        routes = [str(sum(r.get("route") == way for r in kept)) if not c.many_starts else "" for way in (NORTH, SOUTH, SWITCH, NONE)]
+        interval, ratio, arrival = (
+            wilson(hits, n),
+            runs.divergences(c.name) if c.many_starts else np.zeros(0),
+            entries(kept, "arrival"),
+        )
+        routes = [
+            str(sum(r.get("route") == way for r in kept)) if not c.many_starts else ""
+            for way in (NORTH, SOUTH, SWITCH, NONE)
+        ]
         cells = [
             c.name,
             str(n),

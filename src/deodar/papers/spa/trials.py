@@ -38,7 +38,10 @@ LASTS = 20
 """Steps for which an intention has to be there to be listed."""
 
 LOCATION_2 = (15, 57)
-"""Row and column of the second location of figures 10 and 11: where the robot of that run is at t = 500. Read from a run, not printed."""
+"""Row and column of the second location of figures 10 and 11: where the robot of that run is at t = 500.
+
+Read from a run, not printed.
+"""
 
 POSE, TOUCHING = "pose.output", "touching.output"
 """True place and heading, and whether it touches something, through the model's own sensors."""
@@ -89,33 +92,67 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
         course = run_trial(model, LIMIT, arena, trial=trial, watch=watch, events=events, actions=actions)
     else:
         [course] = run_batch(model, LIMIT, [trial], [*watch, *motivated.values()], events, world=arena)
-    start, goal = (place(*CASE_3[0]), place(*CASE_3[1])) if not c.many_starts else (pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial])
+    start, goal = (
+        (place(*CASE_3[0]), place(*CASE_3[1]))
+        if not c.many_starts
+        else (pairs(c.maze)[0][trial, :2], pairs(c.maze)[1][trial])
+    )
     best = None if moves else shortest_path(reference(c.maze), start, goal)
-    row = _row(c, trial, course.values[POSE], course.values[TOUCHING] > 0, place(*cases.GOES) if moves else goal, best, arena)
+    row = _row(
+        c,
+        trial,
+        course.values[POSE],
+        course.values[TOUCHING] > 0,
+        place(*cases.GOES) if moves else goal,
+        best,
+        arena,
+    )
     intentions = np.stack([course.values[path] for path in STRONGEST.values()], axis=1)
     moved = course.events["moved"]
-    weak = np.flatnonzero(intentions[: int(moved if moved is not None else len(intentions))].max(axis=1) <= STRONG)
+    weak = np.flatnonzero(
+        intentions[: int(moved if moved is not None else len(intentions))].max(axis=1) <= STRONG
+    )
     both = (intentions[:, 0:2].min(axis=1) > STRONG) | (intentions[:, 2:4].min(axis=1) > STRONG)
     # the first step after which an intention stays until the robot has left; None where it never leaves
-    row |= {"moved": moved, "plan": None if moved is None else int(weak[-1]) + 1 if len(weak) else 0, "opposed": round(float(both.mean()), 4)}
+    row |= {
+        "moved": moved,
+        "plan": None if moved is None else int(weak[-1]) + 1 if len(weak) else 0,
+        "opposed": round(float(both.mean()), 4),
+    }
     row["behaviours"] = _order(intentions)
-    if c.obstacle:  # between leaving and arriving: at first it stands because it plans, in the end because it is there
+    if (
+        c.obstacle
+    ):  # between leaving and arriving: at first it stands because it plans, in the end because it is there
         begin = max(row["onset"], int(moved) if moved is not None else LIMIT)
         row["still"] = stillness(course.values[POSE][begin : row["arrival"]])
     if narrated:
         west, east = (_at(model, path, course.values[path]) > 0 for path in motivated.values())
-        row |= {"wave": _first(west), "west_ends": len(west) - (_first(west[::-1]) or 0), "east_begins": _first(east)}
+        row |= {
+            "wave": _first(west),
+            "west_ends": len(west) - (_first(west[::-1]) or 0),
+            "east_begins": _first(east),
+        }
     return [row]
 
 
-@functools.lru_cache(maxsize=1)  # the next run of the same condition finds the compiled programs that a model keeps
+@functools.lru_cache(
+    maxsize=1
+)  # the next run of the same condition finds the compiled programs that a model keeps
 def _bench(name: str, quick: bool) -> tuple[Arena, Model]:
     c = cases.conditions(quick)[name]
     arena = cases.world(c)
     return arena, spa(arena, c.noise, c.factor)
 
 
-def _row(c: Condition, trial: int, pose: np.ndarray, touching: np.ndarray, goal: Any, best: np.ndarray | None, arena: Arena) -> Row:
+def _row(
+    c: Condition,
+    trial: int,
+    pose: np.ndarray,
+    touching: np.ndarray,
+    goal: Any,
+    best: np.ndarray | None,
+    arena: Arena,
+) -> Row:
     """What is kept of every run. Lengths in cm, times in steps."""
     line, aim = np.asarray(pose, float)[:, :2], np.asarray(goal, float)
     near = np.linalg.norm(line - aim, axis=1) <= RADIUS
@@ -133,7 +170,9 @@ def _row(c: Condition, trial: int, pose: np.ndarray, touching: np.ndarray, goal:
         "touching": int(touching.sum()),
         "touches_at_end": bool(touching[-50:].any()),
         "clearance": round(float(clearance(line, boxes, border).mean()), 3),
-        "shortest_clearance": None if best is None else round(float(clearance(best, boxes, border).mean()), 3),
+        "shortest_clearance": (
+            None if best is None else round(float(clearance(best, boxes, border).mean()), 3)
+        ),
         "goal": aim.round(2).tolist(),
         "path": line[::KEPT].round(2).tolist(),
     }
@@ -141,20 +180,32 @@ def _row(c: Condition, trial: int, pose: np.ndarray, touching: np.ndarray, goal:
         row["route"] = route(line)
     if c.obstacle:
         onset, duration = (int(v) for v in cases.windows(c.obstacle)[trial])
-        row |= {"onset": onset, "duration": duration, "on_robot": covered(line[onset : onset + duration + 1], c.obstacle)}
+        row |= {
+            "onset": onset,
+            "duration": duration,
+            "on_robot": covered(line[onset : onset + duration + 1], c.obstacle),
+        }
     return row
 
 
 def _walls(arena: Arena) -> tuple[np.ndarray, list[float]]:
-    return np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale, [v / arena.scale for v in arena.layout.border]
+    return np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale, [
+        v / arena.scale for v in arena.layout.border
+    ]
 
 
 def _order(intentions: np.ndarray) -> list[str]:
-    """The behaviours in the order in which their intentions rose, as often as they did; what is short is left out."""
+    """The behaviours in the order in which their intentions rose, as often as they did; what is short is left
+    out.
+    """
     found: list[tuple[int, str]] = []
     for name, there in zip(STRONGEST, (intentions > STRONG).T, strict=True):
         edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(int)))
-        found += [(int(begin), name) for begin, end in zip(edges[::2], edges[1::2], strict=True) if end - begin >= LASTS]
+        found += [
+            (int(begin), name)
+            for begin, end in zip(edges[::2], edges[1::2], strict=True)
+            if end - begin >= LASTS
+        ]
     return [name for _, name in sorted(found)]
 
 

@@ -1,6 +1,8 @@
-"""What settings decide that the paper does not give: contact, the factor on the place input at high noise, how well walls reflect infrared light.
+"""What settings decide that the paper does not give: contact, the factor on the place input at high noise,
+how well walls reflect infrared light.
 
-None of these claims is a sentence of the paper. Each says that a setting does not matter, so that it fails where the setting decides.
+None of these claims is a sentence of the paper. Each says that a setting does not matter, so that it fails
+where the setting decides.
 """
 
 from __future__ import annotations
@@ -14,20 +16,36 @@ from deodar.papers.spa.targets import MAZE
 
 
 def claims(runs: Runs) -> list[Claim]:
-    """Two claims for each condition that differs from the planner's own in one setting: success, and Lp / Lo pair by pair."""
-    return [claim for c in cases.conditions(runs.quick).values() if c.method == "planner" and c.terms for claim in _unchanged(runs, c)]
+    """Two claims for each condition that differs from the planner's own in one setting: success, and Lp / Lo
+    pair by pair.
+    """
+    return [
+        claim
+        for c in cases.conditions(runs.quick).values()
+        if c.method == "planner" and c.terms
+        for claim in _unchanged(runs, c)
+    ]
 
 
 def _unchanged(runs: Runs, varied: cases.Condition) -> list[Claim]:
     base = f"{varied.maze}/planner/{varied.noise}"
     [(name, value)] = varied.terms.items()
-    setting = {"contact": "contact sticks", "factor": f"the factor on the place input is {value}", "reflection": f"walls reflect {value}"}[name]
+    setting = {
+        "contact": "contact sticks",
+        "factor": f"the factor on the place input is {value}",
+        "reflection": f"walls reflect {value}",
+    }[name]
     where = f"{MAZE[varied.maze]}, {varied.noise} noise"
-    hits = [count(rows, lambda r: r["success"]) for rows in (runs.of(varied.name), runs.like(base, varied.name))]
+    hits = [
+        count(rows, lambda r: r["success"]) for rows in (runs.of(varied.name), runs.like(base, varied.name))
+    ]
     text = f"{where}: where {setting}, the planner succeeds as often: difference to its own setting"
     out = [Sentence("", text).as_often(hits[0], hits[1])]
     before, after = runs.both(base, varied.name)
     shift = float((after - before).mean()) if len(before) else None
-    text = f"{where}: where {setting}, paths are as long: mean difference of Lp / Lo to its own setting, pair by pair"
+    text = (
+        f"{where}: where {setting}, paths are as long: mean difference of Lp / Lo to its own setting, pair by"
+        " pair"
+    )
     out.append(Sentence("", text).equal(shift, mean_interval(after - before), len(before), -ALIKE, ALIKE))
     return out

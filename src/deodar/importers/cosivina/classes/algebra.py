@@ -17,7 +17,9 @@ def sum_inputs(b: Bench) -> Piece:
     b.values.size()
     dims = b.dims()
     inlet = Inlet(b.label, dims, whole=True)
-    return Piece([Sum(name=b.label)], [[inlet]], {"output": Outlet(b.label, dims)}, sums=True, needs=1, why="Sum")
+    return Piece(
+        [Sum(name=b.label)], [[inlet]], {"output": Outlet(b.label, dims)}, sums=True, needs=1, why="Sum"
+    )
 
 
 def scale_input(b: Bench) -> Piece:

@@ -33,14 +33,18 @@ def neural_field(b: Bench) -> Piece:
     b.values.size()
     dims = b.dims()
     sigmoid = Logistic(b.values.number("beta", 4, 1e-6, STEEPEST))
-    field = Field(b.label, axes(dims), tau=_tau(b, "tau", 10), resting_level=b.values.number("h", -5), sigmoid=sigmoid)
+    field = Field(
+        b.label, axes(dims), tau=_tau(b, "tau", 10), resting_level=b.values.number("h", -5), sigmoid=sigmoid
+    )
     outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
     elements: list[Element] = [field]
     if "h" in b.asked:  # plots of cosivina add it to what they show
         level = Boost(b.named("h"), (), field.resting_level)
         elements.append(level)
         outlets["h"] = Outlet(level.name, (None, None), still=True)
-    return Piece(elements, [[Inlet(b.label, dims)]], outlets, elsewhere={"h": _level(b)}, sums=True, why="Field")
+    return Piece(
+        elements, [[Inlet(b.label, dims)]], outlets, elsewhere={"h": _level(b)}, sums=True, why="Field"
+    )
 
 
 def single_node(b: Bench) -> Piece:
@@ -60,7 +64,9 @@ def single_node(b: Bench) -> Piece:
     elsewhere = {"h": _level(b), "input": f"read {display((b.label, 'input'))}"}
     elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: dd.phase computes it")
     outlets = {c: Outlet(b.label, (None, None), port, state=True) for c, port in ports.items()}
-    return Piece([node], [[Inlet(b.label, (None, None))]], outlets, elsewhere=elsewhere, sums=True, why="RateNode")
+    return Piece(
+        [node], [[Inlet(b.label, (None, None))]], outlets, elsewhere=elsewhere, sums=True, why="RateNode"
+    )
 
 
 def _level(b: Bench) -> str:
@@ -68,13 +74,20 @@ def _level(b: Bench) -> str:
 
 
 def memory_trace(b: Bench) -> Piece:
-    """MemoryTrace; its rates are per step, whatever the step is, so that time constants are those of the file times its step."""
+    """MemoryTrace; its rates are per step, whatever the step is, so that time constants are those of the file
+    times its step.
+    """
     b.values.size()
     dims = b.dims()
     build = _per_step(b, "tauBuild", 100)
     decay = _per_step(b, "tauDecay", b.values.number("tauBuild", 100, 1e-6))
-    trace = MemoryTrace(b.label, axes(dims), tau_build=build, tau_decay=decay, threshold=b.values.number("threshold", 0.5))
-    outlets = {c: Outlet(b.label, dims, port, state=True) for c, port in (("output", "output"), ("activeRegions", "active"))}
+    trace = MemoryTrace(
+        b.label, axes(dims), tau_build=build, tau_decay=decay, threshold=b.values.number("threshold", 0.5)
+    )
+    outlets = {
+        c: Outlet(b.label, dims, port, state=True)
+        for c, port in (("output", "output"), ("activeRegions", "active"))
+    }
     return Piece([trace], [[Inlet(b.label, dims)]], outlets, needs=1, why="MemoryTrace")
 
 
@@ -96,8 +109,12 @@ def dynamic_variable(b: Bench) -> Piece:
     start = given.reshape(shape(axes(dims))) if given is not None and not level else None
     element = Integrator(b.label, axes(dims), 1 / tau, initial, start)
     outlets = {"state": Outlet(b.label, dims, state=True)}
-    elsewhere = {"initialState": f"the parameter {display((b.label, 'initial' if start is None else 'start'))}"}
-    return Piece([element], [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Integrator")
+    elsewhere = {
+        "initialState": f"the parameter {display((b.label, 'initial' if start is None else 'start'))}"
+    }
+    return Piece(
+        [element], [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Integrator"
+    )
 
 
 def running_history(b: Bench) -> Piece:
@@ -120,19 +137,30 @@ def history(b: Bench) -> Piece:
 
 
 def _moments(b: Bench, times: np.ndarray) -> np.ndarray:
-    """The moments at which cosivina stores: those that a step reaches. The others are moved to where no run comes."""
+    """The moments at which cosivina stores: those that a step reaches.
+
+    The others are moved to where no run comes.
+    """
     start, step = b.simulator.start, b.step
     ticks = np.round((times - start) / step)
     reached = (ticks >= 1) & (abs((times - start) / step - ticks) <= 1e-6)
     if reached.any() and ticks[reached].max() <= MOST_COUNTED:
-        counted = np.add.accumulate([start, *[step] * int(ticks[reached].max())])  # as cosivina counts, with the same rounding
+        counted = np.add.accumulate(
+            [start, *[step] * int(ticks[reached].max())]
+        )  # as cosivina counts, with the same rounding
         exact = np.isin(times, counted)
         missed = int((reached & ~exact).sum())
-        if missed and b.bug(f"History compares times exactly, and misses {missed} of {times.size} by rounding"):
+        if missed and b.bug(
+            f"History compares times exactly, and misses {missed} of {times.size} by rounding"
+        ):
             reached = reached & exact
     lost = times.size - int(reached.sum())
     if lost:
-        b.values.say("storingTimes", "carried", f"no step ends at {lost} of {times.size} of them; their rows stay empty, as in cosivina")
+        b.values.say(
+            "storingTimes",
+            "carried",
+            f"no step ends at {lost} of {times.size} of them; their rows stay empty, as in cosivina",
+        )
     return np.where(reached, start + ticks * step, FOR_EVER)
 
 
@@ -146,16 +174,28 @@ def _slots(b: Bench, dims: Dims, count: int) -> tuple[Axis, Dims]:
 
 
 def _empty(b: Bench) -> str:
-    """What cosivina shows where nothing is stored yet; where elements read it, it would make them undefined for ever."""
+    """What cosivina shows where nothing is stored yet; where elements read it, it would make them undefined
+    for ever.
+    """
     return "zero" if b.asked else "nan"
 
 
 def _stored(b: Bench, element: History | SampledHistory, dims: Dims, shown: Dims) -> Piece:
     why = type(element).__name__
     if b.asked:
-        why += "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them undefined for ever"
+        why += (
+            "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them"
+            " undefined for ever"
+        )
     outlets = {"output": Outlet(b.label, shown, state=True)}
-    return Piece([element], [[Inlet(b.label, dims)]], outlets, needs=1, verdict="approximated" if b.asked else "carried", why=why)
+    return Piece(
+        [element],
+        [[Inlet(b.label, dims)]],
+        outlets,
+        needs=1,
+        verdict="approximated" if b.asked else "carried",
+        why=why,
+    )
 
 
 def _tau(b: Bench, name: str, default: float) -> float:

@@ -31,7 +31,9 @@ PADDED = 4.0
 
 @dc.dataclass(frozen=True)
 class Form:
-    """What the kernels of one element share: its dimensions, their boundaries, whether amplitudes are integrals, and where they end."""
+    """What the kernels of one element share: its dimensions, their boundaries, whether amplitudes are
+    integrals, and where they end.
+    """
 
     dims: Dims
     ends: list[str]
@@ -42,7 +44,14 @@ class Form:
         """A kernel of this form; widths of dimensions without an axis do not matter."""
         own = [s for s, a in zip(sigmas, self.dims, strict=True) if a is not None]
         same = own[0] if own and len(set(own)) == 1 else own or 1.0
-        return TruncatedGaussian(amplitude + 0.0, same, self.cutoff, least, self.normalized, boundary=boundary(self.dims, self.ends))
+        return TruncatedGaussian(
+            amplitude + 0.0,
+            same,
+            self.cutoff,
+            least,
+            self.normalized,
+            boundary=boundary(self.dims, self.ends),
+        )
 
 
 def kernel_1d(b: Bench) -> Piece:
@@ -62,7 +71,9 @@ def kernel_nd(b: Bench) -> Piece:
 
 
 def difference(b: Bench) -> Piece:
-    """MexicanHatKernel and LateralInteractions, of one, two and three dimensions, shifted or not: two Gaussians, perhaps a constant."""
+    """MexicanHatKernel and LateralInteractions, of one, two and three dimensions, shifted or not: two
+    Gaussians, perhaps a constant.
+    """
     form = _form(b)
     up, down = b.values.number("amplitudeExc", 0), b.values.number("amplitudeInh", 0)
     wide, wider = _widths(b, "sigmaExc", form), _widths(b, "sigmaInh", form)
@@ -85,20 +96,31 @@ def discrete(b: Bench) -> Piece:
     dims = b.dims()
     own = Form(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
     kernel = own.gaussian(b.values.number("amplitudeExc", 0), [1e-6] * len(dims))
-    return _interaction(b, dims, Interaction([kernel], -b.values.number("amplitudeGlobal", 0) + 0.0, name=b.label))
+    return _interaction(
+        b, dims, Interaction([kernel], -b.values.number("amplitudeGlobal", 0) + 0.0, name=b.label)
+    )
 
 
 def kernel_fft(b: Bench) -> Piece:
-    """KernelFFT, and the inverse half of it: kernels over the whole ring, or over an input padded with zeros."""
+    """KernelFFT, and the inverse half of it: kernels over the whole ring, or over an input padded with
+    zeros.
+    """
     b.values.size()
     dims = b.dims()
     long = [a for a in dims if a is not None]
     count = max(len(long), 1)
-    circular = [v != 0 for v in b.values.numbers("circular", [1.0] * count, count)] if b.element.kind == "KernelFFT" else [True] * count
+    circular = (
+        [v != 0 for v in b.values.numbers("circular", [1.0] * count, count)]
+        if b.element.kind == "KernelFFT"
+        else [True] * count
+    )
     ends = ["periodic" if c else "zero" for c in circular][: len(long)]
     normalized = b.values.flag("normalized", True)
     up, down = b.values.number("amplitudeExc", 0), b.values.number("amplitudeInh", 0)
-    wide, wider = ([max(v, 1e-6) for v in b.values.numbers(name, [1.0] * count, count)] for name in ("sigmaExc", "sigmaInh"))
+    wide, wider = (
+        [max(v, 1e-6) for v in b.values.numbers(name, [1.0] * count, count)]
+        for name in ("sigmaExc", "sigmaInh")
+    )
     overall = b.values.number("amplitudeGlobal", 0)
     alone = b.element.kind == "KernelInverseFFT" and overall and not up and not down
     if alone and b.bug("KernelInverseFFT drops amplitudeGlobal where both amplitudes are 0"):
@@ -107,7 +129,9 @@ def kernel_fft(b: Bench) -> Piece:
     why, verdict = "Interaction", "carried"
     kernels: list[Kernel] = []
     for amplitude, sigmas in ((up, wide), (-down, wider)):
-        narrow = not normalized and min(sigmas, default=1.0) < 1  # cosivina samples what the grid does not resolve; Gaussian keeps its integral
+        narrow = (
+            not normalized and min(sigmas, default=1.0) < 1
+        )  # cosivina samples what the grid does not resolve; Gaussian keeps its integral
         if all(circular) or not long or narrow:
             form = Form(tuple(long), ends, normalized, WHOLE)
             kernels.append(form.gaussian(amplitude, sigmas[: len(long)]))
@@ -116,7 +140,10 @@ def kernel_fft(b: Bench) -> Piece:
             kernels.append(Gaussian(amplitude + 0.0, same, normalized, boundary=boundary(dims, ends)))
             rings = [s / a.samples for s, a, c in zip(sigmas, long, circular, strict=False) if c]
             if amplitude and (padding < PADDED or max(rings, default=0.0) > ALIKE):
-                verdict, why = "approximated", "Interaction, as if the padding were endless and Gaussians on rings had all their images"
+                verdict, why = (
+                    "approximated",
+                    "Interaction, as if the padding were endless and Gaussians on rings had all their images",
+                )
     piece = _interaction(b, dims, Interaction(kernels, -overall + 0.0, name=b.label))
     return dc.replace(piece, why=why, verdict=verdict)
 
@@ -126,12 +153,19 @@ def fourier(b: Bench) -> Piece:
     b.values.size()
     dims = b.dims()
     return Piece(
-        [Project(axes(dims), name=b.label)], [[Inlet(b.label, dims)]], {"output": Outlet(b.label, dims)}, needs=1, why="Project, untransformed"
+        [Project(axes(dims), name=b.label)],
+        [[Inlet(b.label, dims)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Project, untransformed",
     )
 
 
 def sums(b: Bench) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
-    """The sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`. Those that nobody reads cost nothing in a step."""
+    """The sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`.
+
+    Those that nobody reads cost nothing in a step.
+    """
     own = b.values.size()
     dims = b.of(own) if b.element.kind == "SumAllDimensions" else b.dims()
     elements, inlets, outlets = list[Element](), list[Inlet](), dict[str, Outlet]()
@@ -151,7 +185,7 @@ def sums(b: Bench) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
     return elements, inlets, outlets
 
 
-# ------------------------------------------------------------------------------------------------ inside
+# ----------------------------------------------------------------------------------------------------- inside
 
 
 def _form(b: Bench) -> Form:
@@ -184,7 +218,9 @@ def _interaction(b: Bench, dims: Dims, element: Interaction) -> Piece:
     extra, inlets, outlets = sums(b)
     first = {"output": Outlet(b.label, dims)}
     inlets = [[Inlet(b.label, dims, whole=True), *inlets]]
-    return Piece([element, *extra], inlets, first | outlets, elsewhere=_constants(b), needs=1, why="Interaction")
+    return Piece(
+        [element, *extra], inlets, first | outlets, elsewhere=_constants(b), needs=1, why="Interaction"
+    )
 
 
 def _constants(b: Bench) -> dict[str, str]:
@@ -194,7 +230,9 @@ def _constants(b: Bench) -> dict[str, str]:
         if component.startswith("kernel"):
             out[component] = f"computed from the parameter {display((b.label, 'kernel'))}"
         elif component == "amplitudeGlobal":
-            out[component] = f"the parameter {display((b.label, 'global_inhibition'))}, with the opposite sign"
+            out[component] = (
+                f"the parameter {display((b.label, 'global_inhibition'))}, with the opposite sign"
+            )
         elif component == "amplitudeExc":
             out[component] = f"the parameter {display((b.label, 'kernel', '0', 'amplitude'))}"
     return out

@@ -31,7 +31,9 @@ def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str =
     dims = _dims(e, dimensions)
     element = Placeholder(e.label, axes(dims), f"{e.kind}: {what}")
     outlets = {"output": Outlet(e.label, dims, state=True)}
-    return Piece([element], [[Inlet(e.label, dims)]], outlets, sums=True, verdict="dropped", why=f"Placeholder: {what}")
+    return Piece(
+        [element], [[Inlet(e.label, dims)]], outlets, sums=True, verdict="dropped", why=f"Placeholder: {what}"
+    )
 
 
 def _dims(e: Foreign, dimensions: Dimensions) -> Dims:

@@ -32,7 +32,13 @@ def transpose(b: Bench) -> Piece:
     came = b.of((_count(dims[1]), _count(dims[0])))
     places = [a for a, old in zip(reversed(dims), came, strict=True) if old is not None]
     element = projection(b.label, axes(came), dims, places)
-    return Piece([element], [[Inlet(b.label, came, whole=True)]], {"output": Outlet(b.label, dims)}, needs=1, why="Project")
+    return Piece(
+        [element],
+        [[Inlet(b.label, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Project",
+    )
 
 
 def sum_dimension(b: Bench) -> Piece:
@@ -45,16 +51,27 @@ def sum_dimension(b: Bench) -> Piece:
     kept = [a for d, a in enumerate(came) if a is not None and d not in summed]
     there = axes(dims)
     order = b.values.matrix("dimensionOrder")
-    if order is not None and len(there) > 1 and sorted(int(v) for v in order.reshape(-1)) == list(range(1, len(kept) + 1)):
+    if (
+        order is not None
+        and len(there) > 1
+        and sorted(int(v) for v in order.reshape(-1)) == list(range(1, len(kept) + 1))
+    ):
         kept = [kept[int(v) - 1] for v in order.reshape(-1)]
     if shape(kept) != shape(there):
-        raise Unfit(f"what is left of its input has {list(shape(kept))} samples, its output {list(shape(there))}")
+        raise Unfit(
+            f"what is left of its input has {list(shape(kept))} samples, its output {list(shape(there))}"
+        )
     becomes = dict(zip(kept, there, strict=True))
     name = b.named("sum")
     project = projection(name, axes(came), dims, [becomes.get(a) for a in axes(came)])
     gain = Gain(b.values.number("amplitude", 1), name=b.label)
     return Piece(
-        [gain, project], [[Inlet(name, came, whole=True)]], {"output": Outlet(b.label, dims)}, [(name, b.label)], needs=1, why="Project and Gain"
+        [gain, project],
+        [[Inlet(name, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        [(name, b.label)],
+        needs=1,
+        why="Project and Gain",
     )
 
 
@@ -76,13 +93,22 @@ def expand_2d(b: Bench) -> Piece:
 
 
 def expand(b: Bench) -> Piece:
-    """ExpandDimension: each dimension of the input goes where the mapping says, the others are filled with copies."""
+    """ExpandDimension: each dimension of the input goes where the mapping says, the others are filled with
+    copies.
+    """
     own, out = b.values.size("inputSize"), b.values.size("outputSize")
     came, dims = b.of(own), b.of(out)
-    mapping = [int(v) - 1 for v in b.values.numbers("dimensionMapping", list(range(1, len(own) + 1)), len(own))]
+    mapping = [
+        int(v) - 1 for v in b.values.numbers("dimensionMapping", list(range(1, len(own) + 1)), len(own))
+    ]
     if any(not 0 <= m < len(dims) for m in mapping):
         raise Unfit("its dimensionMapping leads out of its outputSize")
-    return _expand(b, came, dims, [a for m, old in zip(mapping, came, strict=True) if old is not None and (a := dims[m]) is not None])
+    return _expand(
+        b,
+        came,
+        dims,
+        [a for m, old in zip(mapping, came, strict=True) if old is not None and (a := dims[m]) is not None],
+    )
 
 
 def diagonal_sum(b: Bench) -> Piece:
@@ -91,11 +117,24 @@ def diagonal_sum(b: Bench) -> Piece:
     came, dims = b.of((side, side)), b.dims()
     amplitude = b.values.number("amplitude", 0)
     if None in came:
-        return Piece([Gain(amplitude, name=b.label)], [[Inlet(b.label, came)]], {"output": Outlet(b.label, dims)}, needs=1, why="Gain")
+        return Piece(
+            [Gain(amplitude, name=b.label)],
+            [[Inlet(b.label, came)]],
+            {"output": Outlet(b.label, dims)},
+            needs=1,
+            why="Gain",
+        )
     name = b.named("sum")
     elements: list[Element] = [Gain(amplitude, name=b.label), DiagonalSum(axes(dims), name=name)]
     inlets = [[Inlet(name, came, whole=True)]]
-    return Piece(elements, inlets, {"output": Outlet(b.label, dims)}, [(name, b.label)], needs=1, why="DiagonalSum and Gain")
+    return Piece(
+        elements,
+        inlets,
+        {"output": Outlet(b.label, dims)},
+        [(name, b.label)],
+        needs=1,
+        why="DiagonalSum and Gain",
+    )
 
 
 def diagonal_expansion(b: Bench) -> Piece:
@@ -103,25 +142,44 @@ def diagonal_expansion(b: Bench) -> Piece:
     came, dims = b.of(b.values.size("inputSize")), b.dims()
     amplitude = _unused_amplitude(b)
     if None in dims:
-        return Piece([Gain(amplitude, name=b.label)], [[Inlet(b.label, came)]], {"output": Outlet(b.label, dims)}, needs=1, why="Gain")
+        return Piece(
+            [Gain(amplitude, name=b.label)],
+            [[Inlet(b.label, came)]],
+            {"output": Outlet(b.label, dims)},
+            needs=1,
+            why="Gain",
+        )
     name = b.named("scaled")
     elements: list[Element] = [DiagonalExpansion(axes(dims), name=b.label), Gain(amplitude, name=name)]
     inlets = [[Inlet(name, came, whole=True)]]
-    return Piece(elements, inlets, {"output": Outlet(b.label, dims)}, [(name, b.label)], needs=1, why="Gain and DiagonalExpansion")
+    return Piece(
+        elements,
+        inlets,
+        {"output": Outlet(b.label, dims)},
+        [(name, b.label)],
+        needs=1,
+        why="Gain and DiagonalExpansion",
+    )
 
 
 def shift_input(b: Bench) -> Piece:
-    """ShiftInput: a kernel of one sample, moved. cosivina never applies its amplitude; 0, where nobody gave one, stands for 1."""
+    """ShiftInput: a kernel of one sample, moved. cosivina never applies its amplitude; 0, where nobody gave
+    one, stands for 1.
+    """
     b.values.size()
     dims = b.dims()
     there = axes(dims)
     listed = b.values.matrix("shiftValue")
-    given = [0.0, 0.0, *(listed.reshape(-1) if listed is not None else ())][-2:]  # a constructor that counts wrongly puts zeros in front
+    given = [0.0, 0.0, *(listed.reshape(-1) if listed is not None else ())][
+        -2:
+    ]  # a constructor that counts wrongly puts zeros in front
     amounts = [float(np.round(v)) for v, a in zip(given, dims, strict=False) if a is not None]
     amplitude, circular = _unused_amplitude(b), b.values.flag("circular", False)
     fill = b.values.number("fillValue", 0)
     ends = boundary(dims, ["periodic" if circular else "zero"] * len(there))
-    kernel = Shifted(TruncatedGaussian(amplitude, NARROWEST, 0.0, normalized=True), amounts or 0.0, boundary=ends)
+    kernel = Shifted(
+        TruncatedGaussian(amplitude, NARROWEST, 0.0, normalized=True), amounts or 0.0, boundary=ends
+    )
     if not fill or circular or not there:
         return Piece(
             [Convolve([kernel], name=b.label)],
@@ -131,16 +189,27 @@ def shift_input(b: Bench) -> Piece:
             why="Convolve",
         )
     border = np.full(shape(there), fill)
-    border[tuple(slice(max(0, int(s)), a.samples + min(0, int(s))) for s, a in zip(amounts, there, strict=True))] = 0.0
+    border[
+        tuple(slice(max(0, int(s)), a.samples + min(0, int(s))) for s, a in zip(amounts, there, strict=True))
+    ] = 0.0
     moved, filled = b.named("moved"), b.named("border")
-    elements: list[Element] = [Sum(name=b.label), Convolve([kernel], name=moved), Pattern(filled, there, border)]
+    elements: list[Element] = [
+        Sum(name=b.label),
+        Convolve([kernel], name=moved),
+        Pattern(filled, there, border),
+    ]
     inner = [(moved, b.label), (filled, b.label)]
     return Piece(
-        elements, [[Inlet(moved, dims, whole=True)]], {"output": Outlet(b.label, dims, initial=fill)}, inner, needs=1, why="Convolve, Pattern and Sum"
+        elements,
+        [[Inlet(moved, dims, whole=True)]],
+        {"output": Outlet(b.label, dims, initial=fill)},
+        inner,
+        needs=1,
+        why="Convolve, Pattern and Sum",
     )
 
 
-# ------------------------------------------------------------------------------------------------ inside
+# ----------------------------------------------------------------------------------------------------- inside
 
 
 def _count(axis: Axis | None) -> int:
@@ -149,9 +218,17 @@ def _count(axis: Axis | None) -> int:
 
 def _expand(b: Bench, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
     if shape(axes(came)) != shape(places):
-        raise Unfit(f"its input has {list(shape(axes(came)))} samples, where {list(shape(places))} are expanded")
+        raise Unfit(
+            f"its input has {list(shape(axes(came)))} samples, where {list(shape(places))} are expanded"
+        )
     element = projection(b.label, axes(came), dims, places)
-    return Piece([element], [[Inlet(b.label, came, whole=True)]], {"output": Outlet(b.label, dims)}, needs=1, why="Project")
+    return Piece(
+        [element],
+        [[Inlet(b.label, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Project",
+    )
 
 
 def _unused_amplitude(b: Bench) -> float:
@@ -159,7 +236,9 @@ def _unused_amplitude(b: Bench) -> float:
     amplitude = b.values.number("amplitude", 1)
     if amplitude in (0, 1):
         if amplitude == 0 and "amplitude" in b.element.values:
-            b.values.say("amplitude", "carried", "0 where nobody gave one; the input is taken as it is, as in cosivina")
+            b.values.say(
+                "amplitude", "carried", "0 where nobody gave one; the input is taken as it is, as in cosivina"
+            )
         return 1.0
     return 1.0 if b.bug(f"{b.element.kind} does not apply its amplitude") else amplitude
 

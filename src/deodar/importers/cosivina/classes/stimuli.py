@@ -70,10 +70,21 @@ def timed_boost(b: Bench) -> Piece:
     """TimedBoost; with an amplitude for each period one Boost for each, and their sum."""
     periods = b.values.periods()
     given = b.values.matrix("amplitude")
-    amplitudes = [float(v) for v in given.reshape(-1)] if given is not None else [b.values.number("amplitude", 0)]
+    amplitudes = (
+        [float(v) for v in given.reshape(-1)] if given is not None else [b.values.number("amplitude", 0)]
+    )
     outlet = {"output": Outlet(b.label, (None, None))}
     if len(amplitudes) == 1:
-        return Piece([Boost(b.label, (), amplitudes[0], windows=_windows(b, ticks(periods, b.simulator.start, b.step)))], [], outlet, why="Boost")
+        return Piece(
+            [
+                Boost(
+                    b.label, (), amplitudes[0], windows=_windows(b, ticks(periods, b.simulator.start, b.step))
+                )
+            ],
+            [],
+            outlet,
+            why="Boost",
+        )
     parts: list[Element] = [Sum(name=b.label)]
     earlier: list[tuple[int, int]] = []
     for amplitude, period in zip(amplitudes, periods, strict=False):  # where periods overlap the first counts
@@ -89,7 +100,9 @@ def custom_stimulus(b: Bench) -> Piece:
     """CustomStimulus and TimedCustomStimulus: any pattern."""
     own = b.values.size()
     dims = b.dims()
-    given = next((v for name in ("pattern", "stimulusPattern") if (v := b.values.matrix(name)) is not None), None)
+    given = next(
+        (v for name in ("pattern", "stimulusPattern") if (v := b.values.matrix(name)) is not None), None
+    )
     wanted = shape(axes(dims))
     if given is not None and "size" not in b.element.values:
         own = (1, given.size) if given.ndim < 2 else given.shape
@@ -98,7 +111,9 @@ def custom_stimulus(b: Bench) -> Piece:
     if given is None or given.size != math.prod(wanted):
         raise Unfit(f"its pattern is not of the size {list(own)}")
     timed = b.element.kind.startswith("Timed")
-    element = Pattern(b.label, axes(dims), np.asarray(given).reshape(wanted), windows=windows(b) if timed else ())
+    element = Pattern(
+        b.label, axes(dims), np.asarray(given).reshape(wanted), windows=windows(b) if timed else ()
+    )
     return Piece([element], [], {"output": Outlet(b.label, dims, still=not timed)}, why="Pattern")
 
 
@@ -107,11 +122,15 @@ def sequence(b: Bench) -> Piece:
     given = b.values.matrix("stimulusPatterns")
     if given is None or given.ndim > 3:
         raise Unfit("its stimulusPatterns are no patterns")
-    patterns = np.moveaxis(given, -1, 0) if given.ndim == 3 else given.reshape(1, -1) if given.ndim < 2 else given
+    patterns = (
+        np.moveaxis(given, -1, 0) if given.ndim == 3 else given.reshape(1, -1) if given.ndim < 2 else given
+    )
     own = (1, patterns.shape[1]) if patterns.ndim == 2 else patterns.shape[1:]
     if "stimulusSize" in b.element.values and b.values.size("stimulusSize") != own:
         raise Unfit(f"its patterns have the size {list(own)}, which is not its stimulusSize")
-    if patterns.ndim == 3 and b.bug("CustomStimulusSequence forgets, when it is read from a file, that its patterns are planes"):
+    if patterns.ndim == 3 and b.bug(
+        "CustomStimulusSequence forgets, when it is read from a file, that its patterns are planes"
+    ):
         raise Unfit("cosivina cannot show patterns that are planes after it has read them from a file")
     starts = b.values.matrix("startTimes")
     if starts is None and not empty(b.element.values.get("startTimes")):
@@ -121,13 +140,17 @@ def sequence(b: Bench) -> Piece:
         raise Unfit(f"its startTimes are not {len(patterns)} rising numbers")
     dims = b.of(own)
     rows = {
-        max(first, 1): pattern for t, pattern in zip(times, patterns, strict=True) for first, _ in ticks([(t, math.inf)], b.simulator.start, b.step)
+        max(first, 1): pattern
+        for t, pattern in zip(times, patterns, strict=True)
+        for first, _ in ticks([(t, math.inf)], b.simulator.start, b.step)
     }
     if not rows or min(rows) > 1:
         rows[min(rows, default=2) - 1] = np.zeros(patterns.shape[1:])
     order = sorted(rows)
     if "startTimes" in b.element.values:
-        b.values.say("startTimes", "carried", "moved by one step, since cosivina counts the time before it computes")
+        b.values.say(
+            "startTimes", "carried", "moved by one step, since cosivina counts the time before it computes"
+        )
     moments = [b.simulator.start + (tick - 1) * b.step for tick in order]
     values = np.stack([rows[tick] for tick in order]).reshape(len(order), *shape(axes(dims)))
     element = TimeSeries(b.label, axes(dims), moments, values, interpolation="hold")
@@ -143,10 +166,27 @@ def scalar_to_gaussian(b: Bench) -> Piece:
     sigma, amplitude = b.values.width("sigma"), b.values.number("amplitude", 0)
     gain, offset = b.values.number("inputScale", 1), b.values.number("inputOffset", 0)
     ends = boundary(dims, ["periodic" if b.values.flag("circular", True) else "zero"])
-    code = SpaceCode(axes(dims), sigma, amplitude, gain, offset, normalized=b.values.flag("normalized", False), boundary=ends, name=b.label)
-    elements, inlets, inner = list[Element]([code]), [Inlet(b.label, (None, None), whole=True)], list[tuple[str, ...]]()
+    code = SpaceCode(
+        axes(dims),
+        sigma,
+        amplitude,
+        gain,
+        offset,
+        normalized=b.values.flag("normalized", False),
+        boundary=ends,
+        name=b.label,
+    )
+    elements, inlets, inner = (
+        list[Element]([code]),
+        [Inlet(b.label, (None, None), whole=True)],
+        list[tuple[str, ...]](),
+    )
     outlets = {"output": Outlet(b.label, dims)}
-    elsewhere = {"position": f"its input times the parameter {display((b.label, 'gain'))} plus {display((b.label, 'offset'))}"}
+    elsewhere = {
+        "position": (
+            f"its input times the parameter {display((b.label, 'gain'))} plus {display((b.label, 'offset'))}"
+        )
+    }
     if "position" in b.asked:
         place, scaled, moved = b.named("position"), b.named("scaled"), b.named("offset")
         elements += [Sum(name=place), Gain(gain, name=scaled), Boost(moved, (), offset)]
@@ -162,7 +202,14 @@ def timed_switch(b: Bench) -> Piece:
     dims = b.dims()
     gate = Boost(b.named("on"), (), 1.0, windows=windows(b))
     inlets = [[Inlet(b.label, dims, whole=True)]]
-    return Piece([Product(name=b.label), gate], inlets, {"output": Outlet(b.label, dims)}, [(gate.name, b.label, "factor")], needs=1, why="Product")
+    return Piece(
+        [Product(name=b.label), gate],
+        inlets,
+        {"output": Outlet(b.label, dims)},
+        [(gate.name, b.label, "factor")],
+        needs=1,
+        why="Product",
+    )
 
 
 def noise(b: Bench) -> Piece:
@@ -170,11 +217,18 @@ def noise(b: Bench) -> Piece:
     b.values.size()
     dims = b.dims()
     amplitude = b.values.number("amplitude", 0)
-    return Piece([Noise(b.label, axes(dims), abs(amplitude))], [], {"output": Outlet(b.label, dims, noise=True)}, why="Noise")
+    return Piece(
+        [Noise(b.label, axes(dims), abs(amplitude))],
+        [],
+        {"output": Outlet(b.label, dims, noise=True)},
+        why="Noise",
+    )
 
 
 def windows(b: Bench) -> list[Window]:
-    """The windows of closed periods: cosivina counts the time first, so that what belongs to t is used in the step that leads to t."""
+    """The windows of closed periods: cosivina counts the time first, so that what belongs to t is used in the
+    step that leads to t.
+    """
     return _windows(b, ticks(b.values.periods(), b.simulator.start, b.step))
 
 
@@ -186,14 +240,19 @@ def boundary(dims: Dims, ends: list[str]) -> list[str] | None:
 
 def _windows(b: Bench, spans: list[tuple[int, int]]) -> list[Window]:
     start, step = b.simulator.start, b.step
-    found = [Window(start + (a - 1) * step, min(start + z * step, FOR_EVER) if z < 1e14 else FOR_EVER) for a, z in spans]
+    found = [
+        Window(start + (a - 1) * step, min(start + z * step, FOR_EVER) if z < 1e14 else FOR_EVER)
+        for a, z in spans
+    ]
     return found or [Window(start - 1, start - 1)]  # never
 
 
 def _without(spans: list[tuple[int, int]], taken: list[tuple[int, int]]) -> list[tuple[int, int]]:
     """Spans of steps without those of others."""
     for a, z in taken:
-        spans = [part for s, e in spans for part in ((s, min(e, a - 1)), (max(s, z + 1), e)) if part[0] <= part[1]]
+        spans = [
+            part for s, e in spans for part in ((s, min(e, a - 1)), (max(s, z + 1), e)) if part[0] <= part[1]
+        ]
     return spans
 
 

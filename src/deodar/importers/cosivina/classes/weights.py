@@ -27,22 +27,38 @@ def weight_matrix(b: Bench) -> Piece:
         raise Unfit(f"its weights are not of the size {[rows, columns]}")
     ours = weights.reshape(rows, columns).T.reshape(shape(axes(dims)) + shape(axes(came)))
     element = Weights(ours, axes(dims), name=b.label)
-    return Piece([element], [[Inlet(b.label, came, whole=True)]], {"output": Outlet(b.label, dims)}, needs=1, why="Weights")
+    return Piece(
+        [element],
+        [[Inlet(b.label, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Weights",
+    )
 
 
 def adaptive_weight_matrix(b: Bench) -> Piece:
-    """AdaptiveWeightMatrix: its rate is per step, and its weights are not in the file; they begin at 0, as in cosivina."""
+    """AdaptiveWeightMatrix: its rate is per step, and its weights are not in the file; they begin at 0, as in
+    cosivina.
+    """
     rows, columns = b.values.size()[:2]
     came, dims = b.of((1, rows)), b.of((1, columns))
     gated = len(b.element.sources) > 2
     rate = b.values.number("learningRate", 0.1, 0) / b.step
     if b.step != 1 and "learningRate" in b.element.values:
-        b.values.say("learningRate", "carried", f"divided by the step {b.step:g}, since cosivina's rate is per step")
+        b.values.say(
+            "learningRate", "carried", f"divided by the step {b.step:g}, since cosivina's rate is per step"
+        )
     components = [s.component for s in b.element.sources[:2]]
-    apart = len(set(components)) > 1 and b.bug(f"AdaptiveWeightMatrix learns from {components[1]!r} of its first input instead of {components[0]!r}")
+    apart = len(set(components)) > 1 and b.bug(
+        f"AdaptiveWeightMatrix learns from {components[1]!r} of its first input instead of {components[0]!r}"
+    )
     element = AdaptiveWeights(axes(dims), rate, 0.0, gated, apart, name=b.label)
     pre = [Inlet(b.label, came, "pre", whole=True, component=components[1])] if apart else []
-    inlets = [[Inlet(b.label, came, whole=True), *pre], [Inlet(b.label, dims, "post")], *([[Inlet(b.label, (None, None), "gate")]] if gated else [])]
+    inlets = [
+        [Inlet(b.label, came, whole=True), *pre],
+        [Inlet(b.label, dims, "post")],
+        *([[Inlet(b.label, (None, None), "gate")]] if gated else []),
+    ]
     why = "AdaptiveWeights, from weights of 0"
     elsewhere = {"weights": f"Session.keep writes them to the parameter {display((b.label, 'start'))}"}
     return Piece([element], inlets, {"output": Outlet(b.label, dims)}, elsewhere=elsewhere, needs=1, why=why)
@@ -53,32 +69,49 @@ REWARDED = 0.9
 
 
 def hebbian(b: Bench) -> Piece:
-    """HebbianConnection. Its files hold two of its parameters at most; the others are cosivina's defaults, each of them named.
+    """HebbianConnection.
 
-    cosivina calls `instar` what moves weights from active sources towards the target, and the other rule where it is 0.
+    Its files hold two of its parameters at most; the others are cosivina's defaults, each of them named.
+
+    cosivina calls `instar` what moves weights from active sources towards the target, and the other rule
+    where it is 0.
     """
     came, dims = b.source(0), b.source(1)
     if came is None or dims is None:
         raise Unfit("it learns between two inputs, which are not both there")
     if "size" in b.element.values:
         b.values.say("size", "carried", "it follows from the inputs")
-    rate, tau, decay = (_default(b, name, value) for name, value in (("learningRate", 0.1), ("tau", 1.0), ("tauDecay", 1.0)))
+    rate, tau, decay = (
+        _default(b, name, value) for name, value in (("learningRate", 0.1), ("tau", 1.0), ("tauDecay", 1.0))
+    )
     if tau != decay:
-        b.values.say("tauDecay", "approximated", f"it is {decay:g}; weights to silent places change with tau = {tau:g} as well")
+        b.values.say(
+            "tauDecay",
+            "approximated",
+            f"it is {decay:g}; weights to silent places change with tau = {tau:g} as well",
+        )
     rule = "outstar" if _default(b, "instar", 0.0) else "instar"
     if str(b.element.values.get("biDirectional", "FALSE")) == "TRUE":
         b.values.say("biDirectional", "dropped", "reverse_output is not given")
     else:
         _default(b, "biDirectional", "FALSE")
-    manual = next((name for name in ("manualWeights", "weightsParameters") if not empty(b.element.values.get(name))), "")
+    manual = next(
+        (name for name in ("manualWeights", "weightsParameters") if not empty(b.element.values.get(name))), ""
+    )
     if manual:
         b.values.say(manual, "dropped", "weights begin at 0")
     else:
-        b.values.say("manualWeights", "approximated", "it is not in the file; weights begin at 0, cosivina's default")
+        b.values.say(
+            "manualWeights", "approximated", "it is not in the file; weights begin at 0, cosivina's default"
+        )
     gated = len(b.element.sources) > 2
     duration = _duration(b, gated)
     element = Hebbian(axes(dims), rule, max(rate / tau, 0.0), threshold=0.0, gated=gated, name=b.label)
-    inlets, elements, inner = [[Inlet(b.label, came, whole=True)], [Inlet(b.label, dims, "post")]], list[Element]([element]), list[tuple[str, ...]]()
+    inlets, elements, inner = (
+        [[Inlet(b.label, came, whole=True)], [Inlet(b.label, dims, "post")]],
+        list[Element]([element]),
+        list[tuple[str, ...]](),
+    )
     if gated:
         gate = RewardGate(REWARDED, duration, name=b.named("reward"))
         elements.append(gate)
@@ -86,7 +119,16 @@ def hebbian(b: Bench) -> Piece:
         inlets.append([Inlet(gate.name, (None, None), whole=True)])
     elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
     why = "Hebbian, with defaults for what is not in the file; input that is not above 0 counts as 0"
-    return Piece(elements, inlets, {"output": Outlet(b.label, dims)}, inner, elsewhere=elsewhere, needs=2, verdict="approximated", why=why)
+    return Piece(
+        elements,
+        inlets,
+        {"output": Outlet(b.label, dims)},
+        inner,
+        elsewhere=elsewhere,
+        needs=2,
+        verdict="approximated",
+        why=why,
+    )
 
 
 T = TypeVar("T", float, str)
@@ -107,14 +149,26 @@ def _default(b: Bench, name: str, value: T) -> T:
 def _duration(b: Bench, gated: bool) -> float:
     """How long a reward opens learning; 0: as long as it lasts."""
     if "rewardDuration" not in b.element.values:
-        b.values.say("rewardDuration", "approximated", "it is not in the file; cosivina's default [-1, -1] is taken, no fixed duration")
+        b.values.say(
+            "rewardDuration",
+            "approximated",
+            "it is not in the file; cosivina's default [-1, -1] is taken, no fixed duration",
+        )
         return 0.0
     delay, duration = b.values.numbers("rewardDuration", [-1.0, -1.0], 2)
     if not gated or delay == -1 or duration == -1:
         return 0.0
     if delay:
-        b.values.say("rewardDuration", "approximated", f"learning begins with the reward, without the delay of {delay:g}")
+        b.values.say(
+            "rewardDuration",
+            "approximated",
+            f"learning begins with the reward, without the delay of {delay:g}",
+        )
     return max(duration, 0.0)
 
 
-CLASSES = {"WeightMatrix": weight_matrix, "AdaptiveWeightMatrix": adaptive_weight_matrix, "HebbianConnection": hebbian}
+CLASSES = {
+    "WeightMatrix": weight_matrix,
+    "AdaptiveWeightMatrix": adaptive_weight_matrix,
+    "HebbianConnection": hebbian,
+}
