@@ -9,7 +9,6 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
-from deodar.declarations import needed
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis
@@ -34,7 +33,8 @@ class Attractor(Element):
             f(x)\, dx
 
     Parameters:
-        axis: the dimension over which the input is defined.
+        axis: the dimension over which the input is defined. By default the axis of the source, which must
+            then have exactly one.
         tau: time scale: document time times the integral of the input, so that tau / integral f is the
             relaxation time; no shorter than the step.
         initial: phi at the start.
@@ -54,7 +54,9 @@ class Attractor(Element):
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axis: Annotated[Axis, Recompile(meaning="dimension of the input")] = needed("x")
+    axis: Annotated[
+        Axis | None, Recompile(meaning="dimension of the input; by default the axis of the source")
+    ] = None
     tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0
     initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
     gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
@@ -69,14 +71,23 @@ class Attractor(Element):
     stateful: ClassVar[bool] = True
 
     def wants(self, port: str, arriving: Axes | None) -> Axes | None:
-        return (self.axis,)
+        return arriving if self.axis is None else (self.axis,)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": ()}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
-        if self.axis.periodic and (self.gain != 1.0 or self.offset != 0.0):
-            yield f"gain and offset have no meaning on the periodic axis {self.axis.name!r}"
+    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        found = ins["input"]
+        if len(found) > 1:
+            names = " or ".join(axis.name for axis in found)
+            yield (
+                f"the source has {len(found)} axes, so the axis of the input has to be stated",
+                f"Set its axis: {names}",
+            )
+        elif not found:
+            yield "the source has no axis, so there is no position to move to", "Connect a field over an axis"
+        elif found[0].periodic and (self.gain != 1.0 or self.offset != 0.0):
+            yield f"gain and offset have no meaning on the periodic axis {found[0].name!r}"
 
     def init(self, at: Setting) -> Arrays:
         return {"phi": at.full((), self.initial)}
@@ -89,20 +100,21 @@ class Attractor(Element):
     def advance(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
-        phi, f, x = state["phi"], inputs["input"] * self.axis.step, at.points(self.axis)
+        [axis] = at.ins["input"]
+        phi, f, x = state["phi"], inputs["input"] * axis.step, at.points(axis)
         whole = jnp.sum(f)
         # a step longer than the relaxation time would overshoot: it ends at the attractor
         share = time.dt / jnp.maximum(self.tau, time.dt * jnp.abs(whole))
-        if self.axis.periodic:
-            turn = 2 * math.pi / self.axis.range
+        if axis.periodic:
+            turn = 2 * math.pi / axis.range
             move = jnp.sum(jnp.sin(turn * (x - phi)) * f) / turn * share
         else:
             move = (jnp.sum((self.gain * x + self.offset) * f) - phi * whole) * share
         if not is_neutral(self.fastest):
             move = jnp.clip(move, -self.fastest * time.dt, self.fastest * time.dt)
         phi = phi + move
-        if self.axis.periodic:
-            phi = self.axis.lower + jnp.mod(phi - self.axis.lower, self.axis.range)
+        if axis.periodic:
+            phi = axis.lower + jnp.mod(phi - axis.lower, axis.range)
         return {"phi": phi}
 
     @classmethod
