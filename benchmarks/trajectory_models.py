@@ -26,7 +26,7 @@ from deodar.experiments.measures import Measure
 from deodar.importers import examples
 from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.worlds._base import World
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 ROOT = Path(__file__).parents[1]
 STEPS = 300

@@ -160,7 +160,7 @@ from deodar.session.session import Session as Session
 from deodar.worlds._base import Signal as Signal
 from deodar.worlds._base import World as World
 from deodar.worlds._pure import PureWorld as PureWorld
-from deodar.worlds.arena import Arena as Arena
+from deodar.worlds.arena.arena import Arena as Arena
 from deodar.worlds.camera import Camera as Camera
 from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording

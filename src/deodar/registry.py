@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, TypeVar
 
 from deodar import plugins
@@ -36,10 +38,21 @@ def register(cls: T) -> T:
 
 
 def modules(room: str) -> list[str]:
-    """Names of the modules of an extension folder; names that begin with an underscore are not extensions."""
+    """Names of the modules of an extension folder: its files and, of each folder in it, the file of the
+    folder's own name (`worlds/arena/arena.py`), or the folder itself where it has no such file
+    (`importers/cosivina`). Names that begin with an underscore are not extensions.
+    """
     package = importlib.import_module(f"deodar.{room}")
-    names = [module.name for module in pkgutil.iter_modules(package.__path__)]
-    return [f"deodar.{room}.{name}" for name in sorted(names) if not name.startswith("_")]
+    found = sorted(pkgutil.iter_modules(package.__path__), key=lambda module: module.name)
+    return [
+        f"deodar.{room}.{module.name}{_within(package.__path__, module.name) if module.ispkg else ''}"
+        for module in found
+        if not module.name.startswith("_")
+    ]
+
+
+def _within(paths: Iterable[str], name: str) -> str:
+    return f".{name}" if any(Path(path, name, f"{name}.py").is_file() for path in paths) else ""
 
 
 def imported(room: str) -> list[Any]:

@@ -41,6 +41,7 @@ RENAMED = {
     "deodar.importers.presets.apply": "dd.apply_preset",
     "deodar.recording.files.load": "dd.load_record",
     "deodar.recording.files.save": "dd.save_record",
+    "deodar.worlds.arena.Arena": "dd.Arena",
 }
 """What each old name is called now."""
 

@@ -9,7 +9,7 @@ from deodar.analysis.paths import clearance, path_until
 from deodar.analysis.shortest import arena_grid, shortest_path
 from deodar.architectures.follow_the_carrot import Carrot, follow
 from deodar.errors import ParameterError
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 BEND = {
     "unit": "cm",

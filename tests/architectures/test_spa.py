@@ -10,7 +10,7 @@ import xarray
 
 import deodar as dd
 from deodar.architectures.spa import CASE_3, DIRECTIONS, maze, place, spa, space
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 from tests.errors.refused import refused
 
 INTENDED = [f"{name}.strongest.output" for name in DIRECTIONS]

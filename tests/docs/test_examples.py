@@ -13,7 +13,7 @@ import xarray
 import deodar as dd
 from deodar.analysis.peaks import peaks
 from deodar.demos.saliency import photographs
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 from tests.docs.source import EXAMPLES, module
 
 make = module(EXAMPLES / "make.py")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 ROOM = {
     "unit": "cm",

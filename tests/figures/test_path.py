@@ -11,7 +11,7 @@ from PIL import Image
 
 from deodar.errors import DeodarError, RecordError
 from deodar.figures import path
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 
 

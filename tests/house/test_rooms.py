@@ -97,6 +97,15 @@ def test_files_with_an_underscore_are_no_extensions(room: Path) -> None:
     assert registry.modules("annexe") == []
 
 
+def test_a_folder_registers_the_kind_of_the_file_of_its_name_alone(room: Path) -> None:
+    (room / "pair").mkdir()
+    (room / "pair" / "__init__.py").write_text("")
+    (room / "pair" / "pair.py").write_text(ONE + _kind("Pair"))
+    (room / "pair" / "helper.py").write_text("")
+    assert registry.modules("annexe") == ["deodar.annexe.pair.pair"]
+    assert list(registry.kinds("annexe")) == ["Pair"]
+
+
 def test_an_unknown_kind_suggests_the_nearest() -> None:
     with pytest.raises(UnknownName, match=r"'Feild'.*Did you mean 'Field'"):
         registry.kind("Feild")

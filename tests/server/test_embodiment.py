@@ -7,7 +7,7 @@ from deodar.architectures.saliency import saliency
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.server.embodiment import Embodiment
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 
 

@@ -11,7 +11,7 @@ import pytest
 import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio
 
 LAYOUT: dict[str, Any] = {

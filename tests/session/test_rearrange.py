@@ -11,7 +11,7 @@ from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import UnknownName, WorldError
 from deodar.live.track import FINE, MOST, Track
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 OPEN = {
     "arena": {"x": [0, 3], "y": [0, 2]},

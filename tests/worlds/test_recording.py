@@ -16,7 +16,7 @@ from deodar.errors import WorldError
 from deodar.recording import files
 from deodar.recording.opened import opened
 from deodar.recording.repeat import repeat
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 from deodar.worlds.recording import Recording
 

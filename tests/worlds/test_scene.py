@@ -9,7 +9,7 @@ import pytest
 
 from deodar.errors import UnknownName, WorldError
 from deodar.worlds._scene import Body, Box, Mark, Scene
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 GREY = (0.5, 0.5, 0.5)
 SCENE = Scene(

@@ -16,7 +16,7 @@ import numpy as np
 
 from deodar.errors import ParameterError
 from deodar.numerics.axes import Axis
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 PLACE, POSE = (Axis("of", 0, 1, 2),), (Axis("of", 0, 2, 3),)
 

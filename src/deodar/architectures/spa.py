@@ -47,7 +47,7 @@ from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.step import Step
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 STEP_MS = 64.0
 STEP = 5.0

@@ -17,7 +17,7 @@ from deodar.analysis.paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
 from deodar.batch.simulate import simulate
 from deodar.errors import WorldError
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 if TYPE_CHECKING:
     import xarray

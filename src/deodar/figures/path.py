@@ -20,8 +20,8 @@ from deodar.figures._view import View
 from deodar.model import output
 from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
-from deodar.worlds._view import FLOOR
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.view import FLOOR
 
 ACROSS = False
 START, GOAL = "#222222", "#009e73"

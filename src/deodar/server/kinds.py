@@ -64,7 +64,7 @@ def _room(cls: type[Any]) -> str:
     package, *inner = cls.__module__.split(".")
     if package != "deodar":
         return "worlds" if issubclass(cls, World) else "own"
-    return inner[-1] if inner[:-1] == ["numerics"] else inner[-2]
+    return inner[1] if inner[0] == "numerics" else inner[0]
 
 
 def _example(cls: type[Any]) -> Any:

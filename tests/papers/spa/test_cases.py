@@ -11,7 +11,7 @@ from deodar.analysis.paths import clearance, path_length
 from deodar.analysis.shortest import shortest_path
 from deodar.architectures.spa import place
 from deodar.papers.spa import cases, pairs, trials
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 
 def runs(name, quick=False):

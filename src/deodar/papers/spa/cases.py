@@ -11,7 +11,7 @@ import numpy as np
 from deodar.architectures.follow_the_carrot import Carrot
 from deodar.architectures.spa import CASE_3, MAZES, STEP_MS, maze, place
 from deodar.papers.spa.pairs import COUNT, HEADINGS, pairs, same
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 LIMIT = 3000
 """Most steps of a run (section 5.1)."""

@@ -23,7 +23,7 @@ from deodar.papers.spa import cases
 from deodar.papers.spa.cases import LIMIT, RADIUS, STAY, Condition
 from deodar.papers.spa.pairs import pairs, reference
 from deodar.papers.spa.route import covered, route, stillness
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
 
 MOVED = 2.5
 """Distance from the start beyond which the robot has left it, cm."""

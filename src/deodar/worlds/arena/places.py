@@ -10,7 +10,7 @@ import numpy as np
 
 from deodar.errors import Problem, WorldError
 from deodar.parameters import show
-from deodar.worlds._layout import Thing
+from deodar.worlds.arena.layout import Thing
 
 
 def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from math import pi
 
-from deodar.worlds._vehicle import Infrared, Vehicle
+from deodar.worlds.arena.vehicle import Infrared, Vehicle
 
 # From sensor 0, at the right of the front, clockwise round the robot. The angles are those of the published
 # controller; where the sensors stand is general knowledge of the robot, good to a millimetre or two.

@@ -15,8 +15,8 @@ from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import UnknownName, WorldError
-from deodar.worlds._layout import load
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.layout import load
 
 EMPTY: dict[str, Any] = {"arena": {"x": [0, 3], "y": [0, 3]}}
 COMPILED: dict[Any, Any] = {}

@@ -6,9 +6,9 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from deodar.worlds._epuck import EPUCK
-from deodar.worlds._infrared import distances, readings
-from deodar.worlds._vehicle import ahead, drive, limited, wrapped
+from deodar.worlds.arena.epuck import EPUCK
+from deodar.worlds.arena.infrared import distances, readings
+from deodar.worlds.arena.vehicle import ahead, drive, limited, wrapped
 
 NOTHING = jnp.zeros((1, 4)), jnp.zeros(1, bool)
 

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from deodar.worlds import _contact
+from deodar.worlds.arena import contact
 
 RADIUS = 0.037
 TOLERANCE = 2e-5
@@ -20,7 +20,7 @@ def mover(sticks: bool):
     def many(positions, steps, boxes, present):
         def one(p, path):
             return jax.lax.scan(
-                lambda q, s: (lambda r: (r[0], r))(_contact.move(q, s, boxes, present, RADIUS, sticks)),
+                lambda q, s: (lambda r: (r[0], r))(contact.move(q, s, boxes, present, RADIUS, sticks)),
                 p,
                 path,
             )[1]
@@ -132,10 +132,10 @@ def test_rays_end_at_the_nearest_box_that_is_there() -> None:
     boxes = jnp.asarray([(1.0, -1, 2, 1), (0.5, -1, 0.6, 1), (-3, -1, -2, 1)])
     origins, looks = jnp.zeros((3, 2)), jnp.asarray([[1.0, 0], [-1.0, 0], [0.0, 1.0]])
     np.testing.assert_allclose(
-        _contact.rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6
+        contact.rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6
     )
     np.testing.assert_allclose(
-        _contact.rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6
+        contact.rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6
     )
-    inside = _contact.rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
+    inside = contact.rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
     np.testing.assert_array_equal(inside, [0.0])

@@ -7,8 +7,8 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from deodar.worlds._contact import rays
-from deodar.worlds._vehicle import Infrared, ahead
+from deodar.worlds.arena.contact import rays
+from deodar.worlds.arena.vehicle import Infrared, ahead
 
 
 def distances(

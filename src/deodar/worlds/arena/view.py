@@ -8,7 +8,7 @@ import jax.numpy as jnp
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
-from deodar.worlds._layout import UNITS
+from deodar.worlds.arena.layout import UNITS
 
 FLOOR = (0.96, 0.96, 0.94)
 OUTSIDE = (0.25, 0.25, 0.25)

@@ -84,7 +84,7 @@ class Layout:
 def builtin() -> dict[str, Any]:
     """The arenas that come with deodar, as data, by name."""
     found: dict[str, Any] = {}
-    for file in sorted((resources.files("deodar.worlds") / "arenas").iterdir(), key=lambda f: f.name):
+    for file in sorted((resources.files("deodar.worlds.arena") / "layouts").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".json"):
             found |= json.loads(file.read_text(encoding="utf-8"))
     return found

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.worlds._layout import Layout
+from deodar.worlds.arena.layout import Layout
 
 FINE = 8
 """Cells of the grid in one radius of the disc."""

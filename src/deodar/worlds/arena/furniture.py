@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from deodar.errors import UnknownName, WorldError, did_you_mean
-from deodar.worlds._layout import Layout, Thing, make
-from deodar.worlds._places import of, rows_of
-from deodar.worlds._view import OUTSIDE
+from deodar.worlds.arena.layout import Layout, Thing, make
+from deodar.worlds.arena.places import of, rows_of
+from deodar.worlds.arena.view import OUTSIDE
 
 SPARE = 16
 """Things that may be placed besides those of the file: the arrays have room for so many."""

@@ -19,19 +19,19 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
 from deodar.parameters import real, show
 from deodar.registry import register
-from deodar.worlds._asked import asked
 from deodar.worlds._base import Signal
-from deodar.worlds._contact import move
-from deodar.worlds._epuck import EPUCK
-from deodar.worlds._furniture import Furniture
-from deodar.worlds._infrared import distances, readings
-from deodar.worlds._layout import UNITS, load, make
-from deodar.worlds._places import Places, of, rows_of
 from deodar.worlds._pure import PureWorld, Tree
-from deodar.worlds._room import Room
 from deodar.worlds._scene import Body, Box, Mark, Scene
-from deodar.worlds._vehicle import Vehicle, drive, limited, wrapped
-from deodar.worlds._view import coloured, require_plane, sides
+from deodar.worlds.arena.asked import asked
+from deodar.worlds.arena.contact import move
+from deodar.worlds.arena.epuck import EPUCK
+from deodar.worlds.arena.furniture import Furniture
+from deodar.worlds.arena.infrared import distances, readings
+from deodar.worlds.arena.layout import UNITS, load, make
+from deodar.worlds.arena.places import Places, of, rows_of
+from deodar.worlds.arena.room import Room
+from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
+from deodar.worlds.arena.view import coloured, require_plane, sides
 
 CONTACTS = ("slide", "stick")
 GOAL = "goal"

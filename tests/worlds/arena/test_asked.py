@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from deodar.errors import WorldError
-from deodar.worlds._asked import asked
-from deodar.worlds.arena import Arena
+from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.asked import asked
 
 
 def test_a_layout_alone():
