@@ -13,7 +13,7 @@ demo: .venv/installed
 
 test: .venv/installed-test lint types studio
 	$(BIN)/python -m pytest -n 2 --dist loadfile --durations 30
-	$(BIN)/python studio/build.py check test browser
+	$(BIN)/python studio/build.py check lint test browser
 
 lint: .venv/installed-test
 	$(BIN)/python -m ruff check .

@@ -2,6 +2,8 @@
 
 python studio/build.py build      the page into src/deodar/server/static, unless it is there already
 python studio/build.py check      the types
+python studio/build.py lint       whether the files are formatted
+python studio/build.py format     format the files, lines of at most 110 columns (prettier)
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
 python studio/build.py bench      what the page promises about time, measured in a real browser and printed
@@ -39,6 +41,8 @@ WITHOUT_PAGE = (
 
 TOOLS = {
     "check": ("node_modules/typescript/bin/tsc", "--noEmit"),
+    "lint": ("node_modules/prettier/bin/prettier.cjs", "--check", "."),
+    "format": ("node_modules/prettier/bin/prettier.cjs", "--write", "."),
     "test": ("node_modules/vitest/vitest.mjs", "run"),
     "browser": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.browser.ts"),
     "bench": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.bench.ts"),

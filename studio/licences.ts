@@ -4,6 +4,7 @@ import { join } from "node:path";
 
 import type { Plugin } from "vite";
 
+const MISSING = "The package has no file with its licence.";
 const NAMES = /^(licen[cs]e|copying|notice)/i;
 
 interface Package {
@@ -22,9 +23,11 @@ export function packageFolder(id: string): string | undefined {
 /** Name, version and the text of the licence of the package in a folder. */
 export function notice(folder: string): string {
   const about = JSON.parse(readFileSync(join(folder, "package.json"), "utf8")) as Package;
-  const texts = readdirSync(folder).filter((name) => NAMES.test(name)).sort();
+  const texts = readdirSync(folder)
+    .filter((name) => NAMES.test(name))
+    .sort();
   const text = texts.map((name) => readFileSync(join(folder, name), "utf8").trim()).join("\n\n");
-  return `${about.name} ${about.version} (${about.license})\n\n${text || "The package has no file with its licence."}\n`;
+  return `${about.name} ${about.version} (${about.license})\n\n${text || MISSING}\n`;
 }
 
 export function licences(): Plugin {
@@ -40,7 +43,11 @@ export function licences(): Plugin {
     },
     generateBundle() {
       const notices = [...folders].sort().map(notice);
-      this.emitFile({ type: "asset", fileName: "licences.txt", source: notices.join(`\n${"-".repeat(80)}\n\n`) });
+      this.emitFile({
+        type: "asset",
+        fileName: "licences.txt",
+        source: notices.join(`\n${"-".repeat(80)}\n\n`),
+      });
     },
   };
 }

@@ -4,8 +4,15 @@ import { defineConfig } from "vite";
 import { fonts } from "./fonts.ts";
 import { licences } from "./licences.ts";
 
-/** A studio that runs, for `npm run dev`: the page comes from Vite, everything else from there. It answers only to its own address and token. */
-const { origin: STUDIO, port, searchParams } = new URL(process.env["DEODAR_STUDIO"] ?? "http://127.0.0.1:8430");
+/**
+ * A studio that runs, for `npm run dev`: the page comes from Vite, everything else from there. It answers
+ * only to its own address and token.
+ */
+const {
+  origin: STUDIO,
+  port,
+  searchParams,
+} = new URL(process.env["DEODAR_STUDIO"] ?? "http://127.0.0.1:8430");
 const headers = { origin: STUDIO, cookie: `deodar_token_${port}=${searchParams.get("token") ?? ""}` };
 
 /** Libraries that change seldom, one file each: the browser fetches them side by side. */

@@ -5,7 +5,18 @@ export default defineConfig({
   test: {
     include: ["browser/bench/*.bench.ts"],
     globalSetup: "browser/ready.ts",
-    reporters: [{ onTestRunEnd: (modules, errors) => tell(modules.flatMap((module) => [...module.children.allTests()].flatMap((one) => one.result().errors ?? [])).concat(errors)) }],
+    reporters: [
+      {
+        onTestRunEnd: (modules, errors) =>
+          tell(
+            modules
+              .flatMap((module) =>
+                [...module.children.allTests()].flatMap((one) => one.result().errors ?? []),
+              )
+              .concat(errors),
+          ),
+      },
+    ],
     disableConsoleIntercept: true,
     testTimeout: 300_000,
     hookTimeout: 120_000,

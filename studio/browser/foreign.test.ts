@@ -45,7 +45,6 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
-
 const report = () => studio.page.getByRole("dialog", { name: "Notes" });
 const took = () => studio.page.getByRole("dialog", { name: "What did not match" });
 
@@ -54,21 +53,29 @@ async function find(name: string): Promise<void> {
   const { page } = studio;
   await button(page, "Search ( / )").click();
   await page.getByRole("textbox", { name: "Search for an element" }).fill(name);
-  await page.getByRole("option").filter({ has: page.getByText(name, { exact: true }) }).click();
+  await page
+    .getByRole("option")
+    .filter({ has: page.getByText(name, { exact: true }) })
+    .click();
   await panel(page, "Inspector").getByRole("heading", { name, exact: true }).waitFor();
 }
 
 async function choosePreset(name: string): Promise<void> {
   const { page } = studio;
   await file(page, /^Take over values/);
-  await page.getByRole("dialog", { name: "Take over the values of a file" }).getByRole("button", { name }).click();
+  await page
+    .getByRole("dialog", { name: "Take over the values of a file" })
+    .getByRole("button", { name })
+    .click();
 }
 
 test("a file of another tool opens by its name, and says what became of it", async () => {
   const { page } = studio;
   await button(page, "Open a file").click();
   await page.getByRole("dialog", { name: "Open a file" }).getByRole("button", { name: SCENE }).click();
-  const said = page.getByRole("region", { name: "Messages" }).getByText(`Imported from ${SCENE} (cosivina): 168 elements`);
+  const said = page
+    .getByRole("region", { name: "Messages" })
+    .getByText(`Imported from ${SCENE} (cosivina): 168 elements`);
   await said.waitFor();
   await observer.until(() => observer.document?.elements.length === ELEMENTS);
   expect(observer.document?.file, "it is never written over").toBe("");
@@ -87,14 +94,18 @@ test("a file of another tool opens by its name, and says what became of it", asy
 test("it runs, and the plot of a field shows it", async () => {
   const { page } = studio;
   await observer.runs();
-  const drawing = page.getByRole("region", { name: "Heat map of vis_f1", exact: true }).locator("canvas.plot-heat");
+  const drawing = page
+    .getByRole("region", { name: "Heat map of vis_f1", exact: true })
+    .locator("canvas.plot-heat");
   await drawing.waitFor();
   const before = await drawn(drawing);
   await button(page, "Play").click();
   await observer.until(() => (observer.clock?.tick ?? 0) > 30);
   await find("i1 for vis_f1");
   await type(page, "amplitude", "12");
-  await observer.until(() => observer.value("i1 for vis_f1", "amplitude") === 12 && observer.max("vis_f1", "activation") > 3);
+  await observer.until(
+    () => observer.value("i1 for vis_f1", "amplitude") === 12 && observer.max("vis_f1", "activation") > 3,
+  );
   await expect.poll(() => drawn(drawing)).not.toBe(before);
   await expect.poll(() => colours(drawing)).toBeGreaterThan(20);
   await shot(page, "foreign-runs");
@@ -114,20 +125,28 @@ test("elements with spaces and arrows in their names are tuned like any other", 
 
   await find("atn_sr -> atn_sr");
   await type(page, "kernel.0.amplitude", "9");
-  await observer.until(() => observer.value("atn_sr -> atn_sr", "kernel.0.amplitude") === 9 && observer.clock?.busy === "");
+  await observer.until(
+    () => observer.value("atn_sr -> atn_sr", "kernel.0.amplitude") === 9 && observer.clock?.busy === "",
+  );
   expect(observer.running, "it runs on meanwhile").toBe(true);
 });
 
-test("the values of a second file are taken over, what did not match is listed, and it is one step of undo", async () => {
+test("the values of a preset file are one undo step, and values without a match are listed", async () => {
   const { page } = studio;
   await choosePreset("preset.json");
   await observer.until(() => observer.value("atn_sr", "resting_level") === -3);
-  expect([observer.value("boost ior_s", "amplitude"), observer.value("i1 for vis_f1", "amplitude")]).toEqual([2, 0]);
-  await took().getByText(/^3 values were taken over from preset\.json\. \d+ things did not match/).waitFor();
+  expect([observer.value("boost ior_s", "amplitude"), observer.value("i1 for vis_f1", "amplitude")]).toEqual([
+    2, 0,
+  ]);
+  await took()
+    .getByText(/^3 values were taken over from preset\.json\. \d+ things did not match/)
+    .waitFor();
   const unmatched = await took().getByRole("listitem").allInnerTexts();
   expect(unmatched).toHaveLength(ELEMENTS - 3 + 1);
   expect(unmatched).toContain("another field: element Field: dropped, the model has no such element");
-  expect(unmatched).toContain("ior_s: element Field: dropped, the file has no such element; it keeps its values");
+  expect(unmatched).toContain(
+    "ior_s: element Field: dropped, the file has no such element; it keeps its values",
+  );
   await shot(page, "foreign-preset");
   await took().getByRole("button", { name: "Keep" }).click();
   await took().waitFor({ state: "detached" });
@@ -147,9 +166,14 @@ test("a preset may come from elsewhere, and one that is no document is refused i
   const { page, folder } = studio;
   await file(page, /^Take over values/);
   const dialog = page.getByRole("dialog", { name: "Take over the values of a file" });
-  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), dialog.getByRole("button", { name: /^From elsewhere/ }).click()]);
+  const [chooser] = await Promise.all([
+    page.waitForEvent("filechooser"),
+    dialog.getByRole("button", { name: /^From elsewhere/ }).click(),
+  ]);
   await chooser.setFiles({ name: "own.json", mimeType: "application/json", buffer: Buffer.from(preset()) });
-  await took().getByText(/taken over from own\.json/).waitFor();
+  await took()
+    .getByText(/taken over from own\.json/)
+    .waitFor();
   await took().getByRole("button", { name: "Undo" }).click();
   await observer.until(() => observer.value("atn_sr", "resting_level") === -5);
 
@@ -166,6 +190,8 @@ test("it opens by drop", async () => {
   await page.getByRole("heading", { name: "Examples" }).waitFor();
   await drop(page, "dropped.json", "application/json", new TextEncoder().encode(CONTENT));
   await page.getByText("Imported from dropped.json (cosivina): 168 elements").first().waitFor();
-  await observer.until(() => observer.document?.title === "dropped" && observer.document.elements.length === ELEMENTS);
+  await observer.until(
+    () => observer.document?.title === "dropped" && observer.document.elements.length === ELEMENTS,
+  );
   await page.getByRole("toolbar", { name: "Run" }).waitFor();
 });

@@ -28,7 +28,8 @@ type Boxes = Record<string, { x: number; y: number }>;
 const canvas = () => panel(studio.page, "Architecture");
 const boxes = () => (observer.document?.layout["boxes"] ?? {}) as Boxes;
 const place = (path: string) => boxes()[observer.element(path).id];
-const inspected = (name: string) => panel(studio.page, "Inspector").getByRole("heading", { name, exact: true });
+const inspected = (name: string) =>
+  panel(studio.page, "Inspector").getByRole("heading", { name, exact: true });
 
 /** How much larger than one to one the canvas is drawn. */
 const zoom = () =>
@@ -38,7 +39,8 @@ const zoom = () =>
 
 test("elements are boxes with name and kind, couplings stand on their edges", async () => {
   const { page } = studio;
-  for (const path of ["search.intention", "search.satisfied", "lift.intention", "start"]) await box(page, path).waitFor();
+  for (const path of ["search.intention", "search.satisfied", "lift.intention", "start"])
+    await box(page, path).waitFor();
   expect(await box(page, "search.intention").innerText()).toMatch(/intention\s+Field/);
   expect(await box(page, "search.expects").count(), "a coupling is no box").toBe(0);
   await button(page, "search.expects, 2.5").click();
@@ -53,7 +55,10 @@ test("a document without anything to plot is in sight as soon as it is opened", 
   const { page, folder } = studio;
   const spot = { kind: "GaussianStimulus", id: "00000001", axes: ["x"], center: 5, sigma: 2, amplitude: 1 };
   const axes = { x: { name: "x", lower: 0, upper: 10, samples: 11 } };
-  writeFileSync(join(folder, "spot.json"), JSON.stringify({ deodar: 1, name: "spot", axes, elements: { spot } }));
+  writeFileSync(
+    join(folder, "spot.json"),
+    JSON.stringify({ deodar: 1, name: "spot", axes, elements: { spot } }),
+  );
   await reopen(page, observer, "spot.json");
   await box(page, "spot").waitFor();
   await expect.poll(zoom).toBeGreaterThan(1);
@@ -62,7 +67,9 @@ test("a document without anything to plot is in sight as soon as it is opened", 
 });
 
 test("edges are told by the elements that they connect", async () => {
-  await canvas().getByRole("img", { name: "search.intention to search.satisfied", exact: true }).waitFor({ state: "attached" });
+  await canvas()
+    .getByRole("img", { name: "search.intention to search.satisfied", exact: true })
+    .waitFor({ state: "attached" });
 });
 
 test("a group folds into one box, stays folded when the page is loaded anew, and unfolds", async () => {
@@ -115,7 +122,10 @@ test("search finds an element, selects it and brings it into sight", async () =>
   await page.getByRole("option", { name: /lift\.satisfied/ }).waitFor();
   await field.press("Enter");
   await inspected("satisfied").waitFor();
-  await panel(page, "Inspector").getByRole("navigation", { name: "Where it stands" }).getByText("/ lift").waitFor();
+  await panel(page, "Inspector")
+    .getByRole("navigation", { name: "Where it stands" })
+    .getByText("/ lift")
+    .waitFor();
   await box(page, "lift.satisfied").waitFor();
   await field.waitFor({ state: "detached" });
 
@@ -134,7 +144,10 @@ test("the card of an element shows its equation and its values", async () => {
       async () => {
         await page.mouse.move(0, 0);
         await box(page, "grasp.intention").hover({ position: { x: 20, y: 12 } });
-        return card.waitFor({ timeout: 3000 }).then(() => true, () => false);
+        return card.waitFor({ timeout: 3000 }).then(
+          () => true,
+          () => false,
+        );
       },
       { interval: 0 },
     )
@@ -168,7 +181,9 @@ test("a live picture stands in each box while it runs", async () => {
   await button(page, "Play").click();
   await observer.until(() => observer.max("search.intention", "activation") > 0);
   for (const path of ["search.intention", "lift.satisfied"]) {
-    await expect.poll(() => colours(page.getByRole("img", { name: `activation of ${path}, live` }))).toBeGreaterThan(2);
+    await expect
+      .poll(() => colours(page.getByRole("img", { name: `activation of ${path}, live` })))
+      .toBeGreaterThan(2);
   }
   await shot(page, "graph-live");
   await button(page, "Pause").click();

@@ -4,16 +4,20 @@ import type { Locator, Page } from "playwright-core";
 import type { Observer } from "./observer";
 
 /** One of the panels, by its title. */
-export const panel = (page: Page, title: string): Locator => page.getByRole("tabpanel", { name: title, exact: true });
+export const panel = (page: Page, title: string): Locator =>
+  page.getByRole("tabpanel", { name: title, exact: true });
 
 /** The box of an element on the canvas. */
-export const box = (page: Page, path: string): Locator => page.getByRole("group", { name: new RegExp(`^${escaped(path)}, `) });
+export const box = (page: Page, path: string): Locator =>
+  page.getByRole("group", { name: new RegExp(`^${escaped(path)}, `) });
 
 /** The slider of a parameter in the inspector, or of a pin by its path in another panel. */
-export const slider = (page: Page, path: string, where = "Inspector"): Locator => panel(page, where).getByRole("slider", { name: path, exact: true });
+export const slider = (page: Page, path: string, where = "Inspector"): Locator =>
+  panel(page, where).getByRole("slider", { name: path, exact: true });
 
 /** The number beside it. */
-export const number = (page: Page, path: string, where = "Inspector"): Locator => panel(page, where).getByRole("textbox", { name: path, exact: true });
+export const number = (page: Page, path: string, where = "Inspector"): Locator =>
+  panel(page, where).getByRole("textbox", { name: path, exact: true });
 
 export const button = (page: Page, name: string): Locator => page.getByRole("button", { name, exact: true });
 
@@ -23,7 +27,10 @@ export async function openExample(page: Page, title: string): Promise<void> {
   await page.getByRole("toolbar", { name: "Run" }).waitFor();
 }
 
-/** Open a file afresh, without asking, and by way of the gallery: what the page shows afterwards is not of the document before. */
+/**
+ * Open a file afresh, without asking, and by way of the gallery: what the page shows afterwards is not of the
+ * document before.
+ */
 export async function reopen(page: Page, observer: Observer, path: string): Promise<void> {
   await observer.ask({ type: "close", discard: true });
   await page.getByRole("heading", { name: "Examples" }).waitFor();
@@ -36,7 +43,9 @@ export async function reopen(page: Page, observer: Observer, path: string): Prom
 /** Select an element on the canvas, so that the inspector shows it. */
 export async function select(page: Page, path: string): Promise<void> {
   await box(page, path).click({ position: { x: 20, y: 12 } });
-  await panel(page, "Inspector").getByRole("heading", { name: path.split(".").at(-1) as string, exact: true }).waitFor();
+  await panel(page, "Inspector")
+    .getByRole("heading", { name: path.split(".").at(-1) as string, exact: true })
+    .waitFor();
 }
 
 /** Type a number into its field and take it with Enter. */
@@ -54,7 +63,11 @@ export async function choose(page: Page, name: string, item: string | RegExp): P
 }
 
 /** What opens beside a button, used and closed again. */
-export async function beside(page: Page, name: string, use: (opened: Locator) => Promise<unknown>): Promise<void> {
+export async function beside(
+  page: Page,
+  name: string,
+  use: (opened: Locator) => Promise<unknown>,
+): Promise<void> {
   await button(page, name).click();
   const opened = page.getByRole("dialog");
   await use(opened);
@@ -79,7 +92,9 @@ export async function drag(page: Page, thumb: Locator, share: number): Promise<v
 /** How many different colours a canvas shows; one is an empty one. */
 export function colours(canvas: Locator): Promise<number> {
   return canvas.evaluate((element) => {
-    const found = (element instanceof HTMLCanvasElement ? element : element.querySelector("canvas")) as HTMLCanvasElement;
+    const found = (
+      element instanceof HTMLCanvasElement ? element : element.querySelector("canvas")
+    ) as HTMLCanvasElement;
     const { width, height } = found;
     const data = found.getContext("2d")?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray();
     return new Set(new Uint32Array(data.buffer)).size;
@@ -87,7 +102,8 @@ export function colours(canvas: Locator): Promise<number> {
 }
 
 /** What a canvas shows, to compare with what it shows later. */
-export const drawn = (canvas: Locator): Promise<string> => canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
+export const drawn = (canvas: Locator): Promise<string> =>
+  canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
 
 /** Drop a file of the person's own anywhere on the page. */
 export async function drop(page: Page, name: string, type: string, content: Uint8Array): Promise<void> {
@@ -99,7 +115,8 @@ export async function drop(page: Page, name: string, type: string, content: Uint
     },
     [[...content], name, type] as const,
   );
-  for (const event of ["dragenter", "dragover", "drop"]) await page.dispatchEvent("body", event, { dataTransfer: carried });
+  for (const event of ["dragenter", "dragover", "drop"])
+    await page.dispatchEvent("body", event, { dataTransfer: carried });
 }
 
 function escaped(text: string): string {

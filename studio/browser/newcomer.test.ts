@@ -3,7 +3,20 @@ import { join } from "node:path";
 
 import { expect, onTestFinished, test } from "vitest";
 
-import { box, button, colours, drag, drawn, file, number, openExample, panel, select, slider, type } from "./hands";
+import {
+  box,
+  button,
+  colours,
+  drag,
+  drawn,
+  file,
+  number,
+  openExample,
+  panel,
+  select,
+  slider,
+  type,
+} from "./hands";
 import { shot, startStudio } from "./studio";
 
 test("from the gallery to a peak, its decay, and back, and to a file that is opened again", async () => {
@@ -22,7 +35,9 @@ test("from the gallery to a peak, its decay, and back, and to a file that is ope
   await plot.getByText("Press play").waitFor({ state: "detached" });
   await expect.poll(() => drawn(plot.locator("canvas").first())).not.toBe(before);
   expect(await colours(plot.locator("canvas").first())).toBeGreaterThan(5);
-  await expect.poll(() => colours(page.getByRole("img", { name: "activation of u, live" }))).toBeGreaterThan(2);
+  await expect
+    .poll(() => colours(page.getByRole("img", { name: "activation of u, live" })))
+    .toBeGreaterThan(2);
   await shot(page, "newcomer-peak");
 
   await select(page, "u");
@@ -52,17 +67,27 @@ test("from the gallery to a peak, its decay, and back, and to a file that is ope
   await page.getByRole("dialog").getByRole("button", { name: "Save", exact: true }).click();
   await page.getByText("Saved as mine.json").waitFor();
   await expect.poll(() => page.title()).toBe("selection – deodar studio");
-  const kept = JSON.parse(readFileSync(join(folder, "mine.json"), "utf8")) as { elements: Record<string, { tau: number }>; layout: { boxes: unknown } };
+  const kept = JSON.parse(readFileSync(join(folder, "mine.json"), "utf8")) as {
+    elements: Record<string, { tau: number }>;
+    layout: { boxes: unknown };
+  };
   expect(kept.elements["u"]?.tau).toBe(25);
   expect(kept.layout.boxes).toEqual(boxes);
 
   await file(page, /^Close/);
-  await page.getByRole("list", { name: "Recent files" }).getByRole("button", { name: /mine\.json/ }).click();
+  await page
+    .getByRole("list", { name: "Recent files" })
+    .getByRole("button", { name: /mine\.json/ })
+    .click();
   await observer.until(() => observer.document?.file === "mine.json");
   await box(page, "u").waitFor();
   expect(observer.value("u", "tau")).toBe(25);
   expect(observer.document?.layout["boxes"]).toEqual(boxes);
   await select(page, "u");
   expect(await number(page, "tau").inputValue()).toBe("25");
-  await expect.poll(() => panel(page, "Inspector").getByRole("textbox", { name: "resting_level", exact: true }).inputValue()).toBe("-5");
+  await expect
+    .poll(() =>
+      panel(page, "Inspector").getByRole("textbox", { name: "resting_level", exact: true }).inputValue(),
+    )
+    .toBe("-5");
 });

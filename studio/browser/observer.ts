@@ -1,6 +1,19 @@
-/** A second page without a browser, before the same server: it speaks the studio's protocol, so that a test reads exact numbers. */
+/**
+ * A second page without a browser, before the same server: it speaks the studio's protocol, so that a test
+ * reads exact numbers.
+ */
 import { decode, type Frame } from "../src/frames";
-import type { Announced, Answer, Changed, Clock, DocumentView, ElementView, Lost, ToPage, ToServer } from "../src/protocol";
+import type {
+  Announced,
+  Answer,
+  Changed,
+  Clock,
+  DocumentView,
+  ElementView,
+  Lost,
+  ToPage,
+  ToServer,
+} from "../src/protocol";
 import { replaced, valueAt } from "../src/values";
 import { Live } from "../src/world/live";
 
@@ -66,7 +79,8 @@ export class Observer {
         this.waiting.delete(look);
         how();
       };
-      const fail = (why: string) => done(() => reject(new Error(`${why}, and never held: ${condition}. ${this.situation()}`)));
+      const fail = (why: string) =>
+        done(() => reject(new Error(`${why}, and never held: ${condition}. ${this.situation()}`)));
       const look = () => {
         try {
           if (condition()) done(resolve);
@@ -91,7 +105,9 @@ export class Observer {
 
   /** Wait until a document is open and compiled. */
   runs(): Promise<void> {
-    return this.until(() => this.document !== null && this.clock?.busy === "" && (this.clock?.failure ?? []).length === 0);
+    return this.until(
+      () => this.document !== null && this.clock?.busy === "" && (this.clock?.failure ?? []).length === 0,
+    );
   }
 
   get running(): boolean {
@@ -105,7 +121,10 @@ export class Observer {
 
   element(path: string): ElementView {
     const found = this.document?.elements.find((element) => element.path === path);
-    if (!found) throw new Error(`There is no ${path}. There are: ${this.document?.elements.map((element) => element.path).join(", ")}`);
+    if (!found)
+      throw new Error(
+        `unknown path ${path}. Valid paths: ${this.document?.elements.map((one) => one.path).join(", ")}`,
+      );
     return found;
   }
 
@@ -163,7 +182,10 @@ export class Observer {
       case "announced":
       case "lost": {
         const stream = [...this.streams.values()].find(({ number }) => number === message.stream);
-        if (stream) Object.assign(stream, message.type === "lost" ? { lost: message } : { form: message }, { frame: undefined });
+        if (stream)
+          Object.assign(stream, message.type === "lost" ? { lost: message } : { form: message }, {
+            frame: undefined,
+          });
         break;
       }
       case "answer":
@@ -184,8 +206,12 @@ export class Observer {
 
   private change({ element, parameter, value, unsaved, undo, redo }: Changed): void {
     if (this.document === null) return;
-    const knobs = this.document.knobs.map((knob) => (element === "" && knob.name === parameter ? { ...knob, value: value as number } : knob));
-    const elements = this.document.elements.map((e) => (e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e));
+    const knobs = this.document.knobs.map((knob) =>
+      element === "" && knob.name === parameter ? { ...knob, value: value as number } : knob,
+    );
+    const elements = this.document.elements.map((e) =>
+      e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e,
+    );
     this.document = { ...this.document, knobs, elements, unsaved, undo, redo };
   }
 

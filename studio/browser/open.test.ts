@@ -33,7 +33,9 @@ test("the gallery has a picture and a sentence for each example", async () => {
   for (const card of await cards.all()) {
     const picture = card.locator("img");
     await picture.scrollIntoViewIfNeeded();
-    await expect.poll(() => picture.evaluate((image) => (image as HTMLImageElement).naturalWidth)).toBeGreaterThan(100);
+    await expect
+      .poll(() => picture.evaluate((image) => (image as HTMLImageElement).naturalWidth))
+      .toBeGreaterThan(100);
     expect(await card.innerText()).toMatch(/^[A-Z].*\n+[A-Z].+\.$/);
   }
   await shot(page, "gallery");
@@ -47,7 +49,10 @@ test("a file is found by its name, through the folders", async () => {
   await content.getByRole("button", { name: "selection.json" }).waitFor();
   await content.getByRole("button", { name: "models" }).click();
   await content.getByRole("button", { name: "deep.json" }).waitFor();
-  await dialog.getByRole("navigation", { name: "Folder" }).getByRole("button", { name: "folder", exact: true }).click();
+  await dialog
+    .getByRole("navigation", { name: "Folder" })
+    .getByRole("button", { name: "folder", exact: true })
+    .click();
   await content.getByRole("button", { name: "node.json" }).waitFor();
   await content.getByRole("button", { name: "models" }).click();
   await content.getByRole("button", { name: "deep.json" }).click();
@@ -90,7 +95,9 @@ test("a document that is dropped is opened, and asks first where there are unsav
 
 test("a package that is dropped is opened", async () => {
   const { page, folder } = studio;
-  execFileSync(python(), ["-m", "deodar", "pack", "example:binding", "--out", "packed.deodar"], { cwd: folder });
+  execFileSync(python(), ["-m", "deodar", "pack", "example:binding", "--out", "packed.deodar"], {
+    cwd: folder,
+  });
   await drop(page, "packed.deodar", "", readFileSync(join(folder, "packed.deodar")));
   await observer.until(() => observer.document?.title === "binding" && observer.document.file === "");
 });
@@ -98,7 +105,9 @@ test("a package that is dropped is opened", async () => {
 test("what is no document is refused in words", async () => {
   const { page } = studio;
   await drop(page, "notes.txt", "text/plain", new TextEncoder().encode("hello"));
-  const message = page.getByRole("region", { name: "Messages" }).getByText("notes.txt is neither a document (.json, .deodar) nor a picture.");
+  const message = page
+    .getByRole("region", { name: "Messages" })
+    .getByText("notes.txt is neither a document (.json, .deodar) nor a picture.");
   await message.waitFor();
   await button(page, "Dismiss").click();
   await message.waitFor({ state: "detached" });
@@ -106,7 +115,9 @@ test("what is no document is refused in words", async () => {
 
 test("a file with errors is a page that lists every problem with its path", async () => {
   const { page, folder } = studio;
-  const data = JSON.parse(readFileSync(SELECTION, "utf8")) as { elements: Record<string, Record<string, unknown>> };
+  const data = JSON.parse(readFileSync(SELECTION, "utf8")) as {
+    elements: Record<string, Record<string, unknown>>;
+  };
   Object.assign(data.elements["u"] ?? {}, { tau: -1 });
   Object.assign(data.elements["left"] ?? {}, { kind: "GausStimulus" });
   writeFileSync(join(folder, "bad.json"), JSON.stringify(data));

@@ -51,10 +51,14 @@ class LeakyCounter(Element):
     def init(self, at: Setting) -> Arrays:
         return {"z": at.full(tuple(self.axes), 0.0)}
 
-    def output(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         return {"count": state["z"]}
 
-    def advance(self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any) -> Arrays:
+    def advance(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+    ) -> Arrays:
         z = state["z"]
         return {"z": euler(z, -z + self.rate + inputs["input"], self.tau, time.dt)}
 `;
@@ -71,7 +75,7 @@ const DOCUMENT = {
   connections: [{ source: "bump.output", target: "counter.input" }],
 };
 
-test("an element of one's own has form, equation, live picture and plot, and runs, without anything written for the page", async () => {
+test("an element of a user runs and has a form, an equation, a live picture and a plot", async () => {
   const files = { "counters.py": MODULE, "counting.json": JSON.stringify(DOCUMENT) };
   const { page, observe, stop } = await startStudio({ files, file: "counting.json", imports: ["counters"] });
   onTestFinished(stop);
@@ -82,10 +86,15 @@ test("an element of one's own has form, equation, live picture and plot, and run
   const inspector = panel(page, "Inspector");
   await inspector.getByText("Leaky counter", { exact: true }).waitFor();
   await inspector.getByRole("region", { name: "Equation" }).locator(".katex").first().waitFor();
-  expect(await inspector.getByRole("region", { name: "Equation" }).getByRole("math").first().textContent()).toContain("τ");
+  expect(
+    await inspector.getByRole("region", { name: "Equation" }).getByRole("math").first().textContent(),
+  ).toContain("τ");
   expect(await inspector.getByRole("group", { name: "tau", exact: true }).innerText()).toContain("ms");
   const rate = slider(page, "rate");
-  expect([await rate.getAttribute("aria-valuemin"), await rate.getAttribute("aria-valuemax")]).toEqual(["0", "20"]);
+  expect([await rate.getAttribute("aria-valuemin"), await rate.getAttribute("aria-valuemax")]).toEqual([
+    "0",
+    "20",
+  ]);
   expect(await number(page, "alarm").inputValue()).toBe("4");
   await inspector.getByRole("table", { name: "Ports" }).getByText("z, over axes.").waitFor();
 
@@ -96,7 +105,9 @@ test("an element of one's own has form, equation, live picture and plot, and run
   await observer.until(() => observer.max("counter", "count") > 4.5);
   await plot.getByText("Press play").waitFor({ state: "detached" });
   await expect.poll(() => colours(plot.getByRole("img", { name: /^count of counter/ }))).toBeGreaterThan(5);
-  await expect.poll(() => colours(page.getByRole("img", { name: "count of counter, live" }))).toBeGreaterThan(2);
+  await expect
+    .poll(() => colours(page.getByRole("img", { name: "count of counter, live" })))
+    .toBeGreaterThan(2);
 
   await drag(page, rate, 0.5);
   await observer.until(() => observer.value("counter", "rate") === 10);

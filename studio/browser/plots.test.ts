@@ -12,7 +12,10 @@ let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
-  studio = await startStudio({ copies: ["examples/selection.json", "examples/node.json", "examples/saliency.json"], file: "selection.json" });
+  studio = await startStudio({
+    copies: ["examples/selection.json", "examples/node.json", "examples/saliency.json"],
+    file: "selection.json",
+  });
   observer = await studio.observe();
 });
 
@@ -21,7 +24,8 @@ beforeEach(() => reopen(studio.page, observer, "selection.json"));
 afterAll(() => studio.stop());
 
 const plot = (name: string): Locator => studio.page.getByRole("region", { name, exact: true });
-const chart = (name: string, label: string): Locator => plot(name).getByRole("img", { name: label, exact: true });
+const chart = (name: string, label: string): Locator =>
+  plot(name).getByRole("img", { name: label, exact: true });
 const panels = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
 
 async function step(n: number): Promise<void> {
@@ -41,7 +45,9 @@ test("the first field is plotted from the start, with threshold and resting leve
   expect(await curves.getByRole("button", { name: "levels" }).getAttribute("aria-pressed")).toBe("true");
   const width = await drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width);
   await page.setViewportSize({ width: 1100, height: 700 });
-  await expect.poll(() => drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width)).toBeLessThan(width);
+  await expect
+    .poll(() => drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width))
+    .toBeLessThan(width);
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
@@ -50,7 +56,9 @@ test("input, interaction and resting level are curves of their own, chosen one b
   const curves = plot("Curves of u");
   for (const name of ["input", "interaction"]) {
     await curves.getByRole("button", { name, exact: true }).click();
-    await expect.poll(() => curves.getByRole("button", { name, exact: true }).getAttribute("aria-pressed")).toBe("true");
+    await expect
+      .poll(() => curves.getByRole("button", { name, exact: true }).getAttribute("aria-pressed"))
+      .toBe("true");
   }
   const all = chart("Curves of u", "activation, output, input, interaction of u over x");
   await expect.poll(() => colours(all)).toBeGreaterThan(10);
@@ -119,7 +127,9 @@ test("the arrangement of panels is kept when the page is loaded anew, and in the
   await plot("Curves of left").waitFor();
   await button(page, "Close Sliders").click();
   await panel(page, "Sliders").waitFor({ state: "detached" });
-  await observer.until(() => panels().includes(observer.element("left").id) && !panels().includes('"contentComponent":"pins"'));
+  await observer.until(
+    () => panels().includes(observer.element("left").id) && !panels().includes('"contentComponent":"pins"'),
+  );
   expect(observer.document?.unsaved, "how panels stand is nothing to ask about").toBe(false);
 
   await page.reload();
@@ -163,7 +173,8 @@ test("a hand makes a peak while the right button is held, or the key I", async (
   const place = await over.boundingBox();
   if (place === null) throw new Error("The plot is not in sight.");
   const pushing = () => observer.clock?.pushing === observer.element("u").id;
-  // Panels come to rest a moment after a document is opened: as a person would, press again where a press went beside the plot.
+  // Panels come to rest a moment after a document is opened: as a person would, press again where a press
+  // went beside the plot.
   for (let tries = 0; tries < 20 && !pushing(); tries++) {
     await page.mouse.up({ button: "right" });
     await over.hover({ position: { x: place.width * 0.25, y: place.height / 2 } });

@@ -47,7 +47,9 @@ test("play goes on, pause stands still, and time and factor are in sight", async
   await observer.ask({ type: "list_folder" });
   await observer.ask({ type: "list_folder" });
   expect(observer.time).toBe(time);
-  await expect.poll(async () => (await said()).replaceAll("\u2009", "")).toMatch(new RegExp(`step ${observer.clock?.tick}$`));
+  await expect
+    .poll(async () => (await said()).replaceAll("\u2009", ""))
+    .toMatch(new RegExp(`step ${observer.clock?.tick}$`));
 });
 
 test("single steps, and several at a time", async () => {
@@ -58,10 +60,14 @@ test("single steps, and several at a time", async () => {
   await observer.until(() => observer.clock?.tick === 2);
   expect(observer.running).toBe(false);
 
-  await beside(page, "Run settings", (settings) => settings.getByRole("textbox", { name: "Steps at a time" }).fill("50"));
+  await beside(page, "Run settings", (settings) =>
+    settings.getByRole("textbox", { name: "Steps at a time" }).fill("50"),
+  );
   await button(page, "50 steps").click();
   await observer.until(() => observer.clock?.tick === 52);
-  await beside(page, "Run settings", (settings) => settings.getByRole("textbox", { name: "Steps at a time" }).fill("1"));
+  await beside(page, "Run settings", (settings) =>
+    settings.getByRole("textbox", { name: "Steps at a time" }).fill("1"),
+  );
   await button(page, "Step").waitFor();
 });
 

@@ -17,7 +17,10 @@ beforeAll(async () => {
 
 // Each test begins with the same file, freshly opened.
 beforeEach(async () => {
-  writeFileSync(join(studio.folder, "node.json"), readFileSync(join(import.meta.dirname, "../../examples/node.json")));
+  writeFileSync(
+    join(studio.folder, "node.json"),
+    readFileSync(join(import.meta.dirname, "../../examples/node.json")),
+  );
   await reopen(studio.page, observer, "node.json");
   await select(studio.page, "u");
 });

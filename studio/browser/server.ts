@@ -28,16 +28,35 @@ export interface Server {
 export function python(): string {
   const named = process.env["DEODAR_PYTHON"];
   if (named) return named;
-  const found = ["bin/python", "Scripts/python.exe"].map((name) => join(ROOT, ".venv", name)).find((path) => existsSync(path));
-  if (!found) throw new Error("There is no .venv with deodar in it. Type `make test`, or set DEODAR_PYTHON to a Python that has deodar.");
+  const found = ["bin/python", "Scripts/python.exe"]
+    .map((name) => join(ROOT, ".venv", name))
+    .find((path) => existsSync(path));
+  if (!found)
+    throw new Error(
+      "No .venv with deodar was found. Type `make test`, or set DEODAR_PYTHON to a Python that has deodar.",
+    );
   return found;
 }
 
 /** A server that listens. It works in `folder` and keeps what is unsaved in `state`. */
-export async function startServer(folder: string, state: string, options: ServerOptions = {}): Promise<Server> {
+export async function startServer(
+  folder: string,
+  state: string,
+  options: ServerOptions = {},
+): Promise<Server> {
   const imports = (options.imports ?? []).flatMap((name) => ["--import", name]);
   const file = options.file ? [options.file] : [];
-  const words = ["-m", "deodar", ...imports, "studio", ...file, "--no-browser", "--port", "0", ...(options.words ?? [])];
+  const words = [
+    "-m",
+    "deodar",
+    ...imports,
+    "studio",
+    ...file,
+    "--no-browser",
+    "--port",
+    "0",
+    ...(options.words ?? []),
+  ];
   const env = {
     // programs that earlier tests compiled are compiled once
     DEODAR_CACHE: join(ROOT, ".pytest_cache", "programs"),

@@ -13,5 +13,7 @@ test("the page opens and draws something", async () => {
 test("the browser has WebGL, in software", async () => {
   const { page, stop } = await startStudio();
   onTestFinished(stop);
-  expect(await page.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null)).toBe(true);
+  expect(await page.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null)).toBe(
+    true,
+  );
 });

@@ -16,7 +16,10 @@ const SIZE = { width: 1280, height: 800 };
 const PATIENCE = 60_000;
 
 export interface StudioOptions extends ServerOptions {
-  /** Files and folders of the repository that are copied into the working folder first, such as examples/selection.json. */
+  /**
+   * Files and folders of the repository that are copied into the working folder first, such as
+   * examples/selection.json.
+   */
   copies?: string[];
   /** Further files in it: their names and what they hold. */
   files?: Record<string, string>;
@@ -50,10 +53,14 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
   const home = mkdtempSync(join(tmpdir(), "deodar-studio-"));
   const folder = join(home, "folder");
   mkdirSync(folder);
-  for (const name of options.copies ?? []) cpSync(join(ROOT, name), join(folder, basename(name)), { recursive: true });
-  for (const [name, content] of Object.entries(options.files ?? {})) writeFileSync(join(folder, name), content);
+  for (const name of options.copies ?? [])
+    cpSync(join(ROOT, name), join(folder, basename(name)), { recursive: true });
+  for (const [name, content] of Object.entries(options.files ?? {}))
+    writeFileSync(join(folder, name), content);
 
-  const closing: (() => Promise<void>)[] = [async () => rmSync(home, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 })];
+  const closing: (() => Promise<void>)[] = [
+    async () => rmSync(home, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 }),
+  ];
   const close = async () => {
     for (const one of closing.splice(0).reverse()) await one();
   };
@@ -65,7 +72,10 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
     const restart = async (signal?: NodeJS.Signals) => {
       await server.stop(signal);
       const port = new URL(server.url).port;
-      server = await startServer(folder, state, { ...options, words: [...(options.words ?? []), "--port", port] });
+      server = await startServer(folder, state, {
+        ...options,
+        words: [...(options.words ?? []), "--port", port],
+      });
     };
     const browser = await launch();
     closing.push(() => browser.close());

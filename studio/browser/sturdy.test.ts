@@ -25,12 +25,16 @@ const RUNAWAY = {
 };
 
 async function start(options: StudioOptions = {}): Promise<Studio> {
-  const studio = await startStudio({ copies: ["examples/selection.json"], file: "selection.json", ...options });
+  const studio = await startStudio({
+    copies: ["examples/selection.json"],
+    file: "selection.json",
+    ...options,
+  });
   onTestFinished(studio.stop);
   return studio;
 }
 
-test("the run goes on without a page, and every page that opens finds it; two pages are in step", async () => {
+test("the run continues without a page; pages that open show it, and stay in step", async () => {
   const { page, another, observe } = await start();
   const observer = await observe();
   await observer.runs();
@@ -58,7 +62,7 @@ test("the run goes on without a page, and every page that opens finds it; two pa
   expect(await number(third, "resting_level").inputValue()).toBe("2");
 });
 
-test("a page whose connection is lost says so, comes back by itself, and shows what is true then", async () => {
+test("a page reports a lost connection, reconnects by itself and shows the present state", async () => {
   const { page, restart, observe } = await start({ expected: GONE });
   await select(page, "u");
   await type(page, "tau", "33");
@@ -76,7 +80,10 @@ test("a page whose connection is lost says so, comes back by itself, and shows w
   await page.getByRole("img", { name: "Unsaved edits" }).waitFor({ state: "detached" });
   await button(page, "Play").click();
   await observer.until(() => observer.max("u", "activation") > 3);
-  await page.getByRole("region", { name: "Curves of u" }).getByText("Press play").waitFor({ state: "detached" });
+  await page
+    .getByRole("region", { name: "Curves of u" })
+    .getByText("Press play")
+    .waitFor({ state: "detached" });
 });
 
 test("edits that no file holds are offered after a crash", async () => {
@@ -85,7 +92,9 @@ test("edits that no file holds are offered after a crash", async () => {
   await type(page, "tau", "44");
   await page.getByRole("img", { name: "Unsaved edits" }).waitFor();
   const kept = join(state, "unsaved");
-  await expect.poll(() => existsSync(kept) && readdirSync(kept).some((name) => name.endsWith(".note"))).toBe(true);
+  await expect
+    .poll(() => existsSync(kept) && readdirSync(kept).some((name) => name.endsWith(".note")))
+    .toBe(true);
   await restart("SIGKILL");
   await page.getByText("Connection lost, trying again").waitFor({ state: "detached" });
   await choose(page, "File menu", "Examples");
@@ -106,7 +115,10 @@ test("edits that no file holds are offered after a crash", async () => {
 });
 
 test("an element that fails stops the run, is named, and leaves the rest intact", async () => {
-  const { page, observe } = await start({ files: { "runaway.json": JSON.stringify(RUNAWAY) }, file: "runaway.json" });
+  const { page, observe } = await start({
+    files: { "runaway.json": JSON.stringify(RUNAWAY) },
+    file: "runaway.json",
+  });
   const observer = await observe();
   await observer.runs();
   await observer.ask({ type: "speed", factor: null });
@@ -116,7 +128,11 @@ test("an element that fails stops the run, is named, and leaves the rest intact"
   expect(await bar.innerText()).toMatch(/grow|gain/);
   await button(page, "Play").waitFor();
   const failed = observer.clock?.failure[0]?.element === observer.element("grow").id ? "grow" : "gain";
-  await page.getByRole("button", { name: /^Problem: / }).or(page.getByRole("button", { name: /^gain, .*infinite/ })).first().waitFor();
+  await page
+    .getByRole("button", { name: /^Problem: / })
+    .or(page.getByRole("button", { name: /^gain, .*infinite/ }))
+    .first()
+    .waitFor();
   await shot(page, "failure");
   if (failed === "grow") await select(page, "grow");
   else await page.getByRole("button", { name: /^gain, / }).click();

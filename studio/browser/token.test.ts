@@ -12,7 +12,11 @@ import { startStudio, type Studio } from "./studio";
 const GONE = [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/, /status of 401/];
 
 async function start(): Promise<Studio> {
-  const studio = await startStudio({ copies: ["examples/selection.json"], file: "selection.json", expected: GONE });
+  const studio = await startStudio({
+    copies: ["examples/selection.json"],
+    file: "selection.json",
+    expected: GONE,
+  });
   onTestFinished(studio.stop);
   return studio;
 }
@@ -35,7 +39,9 @@ test("the address bar does not keep the token, and a person without it is asked 
 
 test("the file with which the studio starts the browser leads to the page", async () => {
   const { url, browser } = await start();
-  const code = "import sys; from deodar.server.redirect_file import RedirectFile; print(RedirectFile(sys.argv[1]).address)";
+  const code =
+    "import sys; from deodar.server.redirect_file import RedirectFile; " +
+    "print(RedirectFile(sys.argv[1]).address)";
   const context = await browser.newContext({ locale: "en-US", reducedMotion: "reduce" });
   context.setDefaultTimeout(60_000);
   onTestFinished(() => context.close());
@@ -45,7 +51,7 @@ test("the file with which the studio starts the browser leads to the page", asyn
   expect(page.url()).toBe(new URL("/", url).href);
 });
 
-test("a page whose studio comes back with another token says what to open, and goes on once that is done", async () => {
+test("a page whose studio restarts with another token shows the address to open", async () => {
   const studio = await start();
   const { page, state, restart, another } = studio;
   await box(page, "u").waitFor();

@@ -10,15 +10,24 @@ import { shot, startStudio, type Studio } from "./studio";
 const PLANE = {
   deodar: 1,
   name: "plane",
-  axes: { x: { name: "x", lower: 0, upper: 10, samples: 11 }, y: { name: "y", lower: 0, upper: 20, samples: 11 } },
-  elements: { spot: { kind: "GaussianStimulus", id: "00000001", axes: ["x", "y"], center: 5, sigma: 2, amplitude: 1 } },
+  axes: {
+    x: { name: "x", lower: 0, upper: 10, samples: 11 },
+    y: { name: "y", lower: 0, upper: 20, samples: 11 },
+  },
+  elements: {
+    spot: { kind: "GaussianStimulus", id: "00000001", axes: ["x", "y"], center: 5, sigma: 2, amplitude: 1 },
+  },
 };
 
 let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
-  studio = await startStudio({ copies: ["examples/selection.json"], files: { "plane.json": JSON.stringify(PLANE) }, file: "selection.json" });
+  studio = await startStudio({
+    copies: ["examples/selection.json"],
+    files: { "plane.json": JSON.stringify(PLANE) },
+    file: "selection.json",
+  });
   observer = await studio.observe();
 });
 
@@ -35,7 +44,8 @@ const group = (path: string) => inspector().getByRole("group", { name: path, exa
 const comes = (path: string, parameter: string, value: unknown) =>
   observer.until(() => JSON.stringify(observer.value(path, parameter)) === JSON.stringify(value));
 const kinds = () => (observer.value("u", "kernel") as { kind: string }[]).map(({ kind }) => kind);
-const shows = (path: string, text: string) => expect.poll(() => number(studio.page, path).inputValue()).toBe(text);
+const shows = (path: string, text: string) =>
+  expect.poll(() => number(studio.page, path).inputValue()).toBe(text);
 
 /** Back and forth again: everything can be undone, and redone, with the same key. */
 async function undoRedo(parameter: string, before: unknown, after: unknown): Promise<void> {
@@ -51,7 +61,10 @@ test("a number is dragged, stepped by keys, and typed; it has a unit and a sensi
   expect(await group("tau").innerText()).toContain("ms");
   expect(await group("kernel.0.sigma").innerText()).toContain("deg");
   const thumb = slider(page, "resting_level");
-  expect([await thumb.getAttribute("aria-valuemin"), await thumb.getAttribute("aria-valuemax")]).toEqual(["-10", "10"]);
+  expect([await thumb.getAttribute("aria-valuemin"), await thumb.getAttribute("aria-valuemax")]).toEqual([
+    "-10",
+    "10",
+  ]);
 
   await drag(page, thumb, 0.75);
   await observer.until(() => observer.value("u", "resting_level") === 5);
@@ -100,7 +113,10 @@ test("another kind of sigmoid compiles anew and keeps the state", async () => {
   const before = [...observer.values("u", "activation")];
   await inspector().getByRole("combobox", { name: "sigmoid", exact: true }).click();
   await page.getByRole("option", { name: "Linear", exact: true }).click();
-  await observer.until(() => (observer.value("u", "sigmoid") as { kind: string }).kind === "Linear" && observer.clock?.busy === "");
+  await observer.until(
+    () =>
+      (observer.value("u", "sigmoid") as { kind: string }).kind === "Linear" && observer.clock?.busy === "",
+  );
   await observer.until(() => observer.values("u", "activation").length === before.length);
   expect([...observer.values("u", "activation")]).toEqual(before);
   expect(observer.clock?.tick).toBe(300);
@@ -180,7 +196,9 @@ test("a parameter is pinned to the sliders, which are kept with the document", a
   const original = readFileSync(join(folder, "selection.json"));
   await page.keyboard.press("Control+s");
   await observer.until(() => observer.document?.unsaved === false);
-  const { layout } = JSON.parse(readFileSync(join(folder, "selection.json"), "utf8")) as { layout: { pins: { parameter: string }[] } };
+  const { layout } = JSON.parse(readFileSync(join(folder, "selection.json"), "utf8")) as {
+    layout: { pins: { parameter: string }[] };
+  };
   writeFileSync(join(folder, "selection.json"), original);
   expect(layout.pins.map(({ parameter }) => parameter)).toEqual(["resting_level", "kernel.0.sigma"]);
   await page.reload();
@@ -204,7 +222,9 @@ test("one slider drives two elements through a document parameter", async () => 
   await observer.until(() => observer.document?.knobs[0]?.links.length === 2);
 
   await inspector().getByRole("button", { name: "Document", exact: true }).click();
-  expect(await inspector().getByRole("list", { name: "Driven by strength" }).getByRole("listitem").allInnerTexts()).toEqual(["left.amplitude", "right.amplitude"]);
+  expect(
+    await inspector().getByRole("list", { name: "Driven by strength" }).getByRole("listitem").allInnerTexts(),
+  ).toEqual(["left.amplitude", "right.amplitude"]);
   await choose(page, "More for strength", "Pin to Sliders");
   const knob = slider(page, "strength", "Sliders");
   await knob.focus();

@@ -46,7 +46,10 @@ afterAll(() => studio.stop());
 const world = () => panel(studio.page, "World");
 const canvas = () => world().getByRole("img", { name: /^The world from above/ });
 const told = () => world().getByRole("status");
-const thing = (name: string) => [...(observer.world.now.scene?.boxes ?? []), ...(observer.world.now.scene?.marks ?? [])].find((one) => one.name === name);
+const thing = (name: string) =>
+  [...(observer.world.now.scene?.boxes ?? []), ...(observer.world.now.scene?.marks ?? [])].find(
+    (one) => one.name === name,
+  );
 const robot = () => observer.world.now.bodies[0]?.x ?? Number.NaN;
 
 /** Where a place in the world is on the page. */
@@ -74,12 +77,14 @@ test("the world stands there by itself, and the mouse over a thing tells its nam
   await expect.poll(() => told().textContent()).toBe("crate: 0.80, 1.50 m");
 });
 
-test("a crate that is dragged before the robot while it runs stops it; dragged away, the robot goes on", async () => {
+test("a crate dragged in front of the running robot stops it, and dragged away releases it", async () => {
   await observer.ask({ type: "speed", factor: 1 });
   await button(studio.page, "Play").click();
   await observer.until(() => observer.running);
   await drag({ x: 0.8, y: 1.5 }, { x: 1.6, y: 1.05 });
-  await observer.until(() => Math.abs((thing("crate")?.x ?? 0) - 1.6) < 0.05 && Math.abs((thing("crate")?.y ?? 0) - 1.05) < 0.05);
+  await observer.until(
+    () => Math.abs((thing("crate")?.x ?? 0) - 1.6) < 0.05 && Math.abs((thing("crate")?.y ?? 0) - 1.05) < 0.05,
+  );
   await observer.until(() => robot() > 1.4);
   const { time } = observer;
   await observer.until(() => observer.time > time + 2000);
@@ -97,7 +102,10 @@ test("a goal moves too; what does not fit is refused with its reason, and stays"
   await observer.until(() => Math.abs((thing("goal")?.x ?? 0) - 2.5) < 0.02);
   const before = thing("goal");
   const { mouse } = studio.page;
-  const [from, to] = [await onPage({ x: before?.x ?? 0, y: before?.y ?? 0 }), await onPage({ x: 2.2, y: 1.7 })];
+  const [from, to] = [
+    await onPage({ x: before?.x ?? 0, y: before?.y ?? 0 }),
+    await onPage({ x: 2.2, y: 1.7 }),
+  ];
   await mouse.move(from.x, from.y);
   await mouse.down();
   await mouse.move(to.x, to.y);

@@ -4,7 +4,10 @@ import { addressed } from "./addressed";
 
 test("edits name the document that they are meant for", () => {
   expect(addressed({ type: "undo" }, 7)).toEqual({ type: "undo", session: 7 });
-  expect(addressed({ type: "set", element: "a", parameter: "tau", value: 3 }, 7)).toMatchObject({ session: 7, value: 3 });
+  expect(addressed({ type: "set", element: "a", parameter: "tau", value: 3 }, 7)).toMatchObject({
+    session: 7,
+    value: 3,
+  });
   expect(addressed({ type: "save" }, 7)).toMatchObject({ session: 7 });
 });
 

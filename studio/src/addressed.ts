@@ -1,5 +1,5 @@
-// Requests that change the open document name the document that they are meant for: where another page opened another one since, the
-// server refuses them.
+// Requests that change the open document name the document that they are meant for: where another page opened
+// another one since, the server refuses them.
 
 import type { ToServer } from "./protocol";
 

@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import { fakeDocument } from "./graph/fakes";
 import { useStudio } from "./store";
 
-test("what the check finds after single changes takes the place of what the document said, and what is out of date is left out", () => {
+test("new results of the check replace those of the document, and outdated results are dropped", () => {
   const { take } = useStudio.getState();
   take({ type: "opened", session: 1, version: 3, document: fakeDocument([], []) });
   take({ type: "checked", version: 3, problems: [{ what: "never on", element: "u", severity: "warning" }] });

@@ -80,7 +80,11 @@ test("a slider that is held still is not over", async () => {
 
 test("keys in quick succession are one gesture, after a pause another one", async () => {
   const { sent, gesture, draw, answer } = setup();
-  for (const [value, pause] of [[1, 100], [2, 600], [3, 0]] as const) {
+  for (const [value, pause] of [
+    [1, 100],
+    [2, 600],
+    [3, 0],
+  ] as const) {
     gesture.nudge(value);
     draw();
     await answer();

@@ -1,6 +1,8 @@
-// A slider that is dragged: changes that are one step of undo, at most one on its way to the server, the newest wins.
+// A slider that is dragged: changes that are one step of undo, at most one on its way to the server, the
+// newest wins.
 
-// Numbers of gestures begin anywhere, so that a page that is loaded anew does not go on with a gesture of the one before.
+// Numbers of gestures begin anywhere, so that a page that is loaded anew does not go on with a gesture of the
+// one before.
 let last = Math.floor(Math.random() * 2 ** 30);
 
 export const newGesture = (): number => ++last;

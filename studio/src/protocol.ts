@@ -1,4 +1,5 @@
-// Generated from src/deodar/server/to_server.py and to_page.py by `python -m deodar.server.protocol`; change those, not this one.
+// Generated from src/deodar/server/to_server.py and to_page.py; change those, not this one:
+// python -m deodar.server.protocol
 // A new document parameter, at the value of the first parameter that it drives.
 export type AddKnob = {
   type: "add_knob";
@@ -9,8 +10,10 @@ export type AddKnob = {
   parameter: string;
 };
 
-// What a stream holds from now on: its shape, and the axes as they are thinned. `folded` names axes over which the maximum is taken, because
-// an array has more than two dimensions; `channels`: a picture. A time course has the shape [2]: pairs of time and value.
+// What a stream holds from now on: its shape, and the axes as they are thinned.
+//
+// `folded` names axes over which the maximum is taken, because an array has more than two dimensions;
+// `channels`: a picture. A time course has the shape [2]: pairs of time and value.
 export type Announced = {
   type: "announced";
   stream: number;
@@ -20,10 +23,13 @@ export type Announced = {
   channels: boolean;
 };
 
-// The end of a request; with problems, nothing was done. `ask` names the question that has to be settled first: `unsaved` (send it again
-// with discard) or `replace` (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it changed
-// and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file of another tool that was opened.
-// `version` is the first version of the document that holds the change, where the request was one.
+// The end of a request; with problems, nothing was done.
+//
+// `ask` names the question that has to be settled first: `unsaved` (send it again with discard) or `replace`
+// (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it
+// changed and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file
+// of another tool that was opened. `version` is the first version of the document that holds the change,
+// where the request was one.
 export type Answer = {
   type: "answer";
   request: number;
@@ -37,8 +43,8 @@ export type Answer = {
   version?: number;
 };
 
-// Take over the values of another file below the root, by names and kinds, as one step of undo; connections stay. The answer lists what did
-// not match.
+// Take over the values of another file below the root, by names and kinds, as one step of undo; connections
+// stay. The answer lists what did not match.
 export type ApplyPreset = {
   type: "apply_preset";
   request?: number;
@@ -75,7 +81,8 @@ export type AxisView = {
   unit: string;
 };
 
-// Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was known of it before is over.
+// Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was
+// known of it before is over.
 export type Bodies = {
   type: "bodies";
   bodies: BodyView[];
@@ -92,7 +99,8 @@ export type BodyView = {
   radius: number;
 };
 
-// Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1); `fixed`: it cannot be moved.
+// Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1);
+// `fixed`: it cannot be moved.
 export type BoxView = {
   name: string;
   x: number;
@@ -116,7 +124,8 @@ export type Changed = {
   redo: number;
 };
 
-// The problems and warnings of that version of the document, where single changes led to it; of a whole document it holds them itself.
+// The problems and warnings of that version of the document, where single changes led to it; of a whole
+// document it holds them itself.
 export type Checked = {
   type: "checked";
   version: number;
@@ -125,10 +134,11 @@ export type Checked = {
 
 // Where the run is. Sent after the frames of the same number, and whenever something changes.
 //
-// `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as possible); `abstract` time
-// counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and will catch up, `worst` the largest lag since it was played,
-// `lost` what was given up; `overruns` counts how often it fell behind. `longest` is the step up to which it may grow to keep up (None: it
-// stays), and `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
+// `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
+// possible); `abstract` time counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and
+// will catch up, `worst` the largest lag since it was played, `lost` what was given up; `overruns` counts how
+// often it fell behind. `longest` is the step up to which it may grow to keep up (None: it stays), and
+// `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
 // stopped; `world` what the sensors read.
 export type Clock = {
   type: "clock";
@@ -171,8 +181,10 @@ export type ConnectionView = {
   reads: string;
 };
 
-// What an element costs: microseconds of a step. `alike` elements are computed together and share the time; `once`: it stands still and is
-// computed once a chunk. What a connection resamples or delays has a path but is no element of the document.
+// What an element costs: microseconds of a step.
+//
+// `alike` elements are computed together and share the time; `once`: it stands still and is computed once a
+// chunk. What a connection resamples or delays has a path but is no element of the document.
 export type CostView = {
   element: string;
   path: string;
@@ -182,7 +194,8 @@ export type CostView = {
   once: boolean;
 };
 
-// What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in microseconds, 0 before it was measured.
+// What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in
+// microseconds, 0 before it was measured.
 export type Costs = {
   type: "costs";
   measuring: boolean;
@@ -201,7 +214,9 @@ export type Describe = {
   dt?: number | null;
 };
 
-// The document as it is edited. `file` is relative to the root, empty without one; `unsaved`: edited since it was written.
+// The document as it is edited.
+//
+// `file` is relative to the root, empty without one; `unsaved`: edited since it was written.
 export type DocumentView = {
   file: string;
   title: string;
@@ -227,7 +242,9 @@ export type Drawn = {
   frame: number;
 };
 
-// An element of the document. `axes` gives for each port the keys of its axes, as far as they are known.
+// An element of the document.
+//
+// `axes` gives for each port the keys of its axes, as far as they are known.
 export type ElementView = {
   id: string;
   path: string;
@@ -274,10 +291,12 @@ export type Gallery = {
   recoveries: Recovery[];
 };
 
-// A registered kind, as the page knows it: what is said of it, its equation (lines of TeX), its parameters and ports.
+// A registered kind, as the page knows it: what is said of it, its equation (lines of TeX), its parameters
+// and ports.
 //
-// `room` is where it stands: elements, couplings, kernels, sigmoids, windows, worlds, or own. `levels` names for a port the
-// parameters that are levels on its scale (threshold, resting level). `example` is a value to start from, where it stands inside a part.
+// `room` is where it stands: elements, couplings, kernels, sigmoids, windows, worlds, or own. `levels` names
+// for a port the parameters that are levels on its scale (threshold, resting level). `example` is a value to
+// start from, where it stands inside a part.
 export type Kind = {
   name: string;
   room: string;
@@ -297,7 +316,8 @@ export type KnobView = {
   links: LinkView[];
 };
 
-// Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run falls behind.
+// Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run falls
+// behind.
 export type Lengthen = {
   type: "lengthen";
   request?: number;
@@ -375,7 +395,8 @@ export type OpenFile = {
   discard?: boolean;
 };
 
-// Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document without a file.
+// Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document without
+// a file.
 export type OpenPackage = {
   type: "open_package";
   request?: number;
@@ -405,10 +426,24 @@ export type Opened = {
 
 // How a parameter is shown and changed.
 //
-// `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is TeX.
+// `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is
+// TeX.
 export type ParameterForm = {
   name: string;
-  form: "array" | "axes" | "axis" | "flag" | "integer" | "number" | "numbers" | "pairs" | "part" | "parts" | "per_axis" | "text" | "texts";
+  form:
+    | "array"
+    | "axes"
+    | "axis"
+    | "flag"
+    | "integer"
+    | "number"
+    | "numbers"
+    | "pairs"
+    | "part"
+    | "parts"
+    | "per_axis"
+    | "text"
+    | "texts";
   cost: "live" | "rebuild" | "recompile";
   meaning: string;
   description: string;
@@ -445,7 +480,9 @@ export type Play = {
   request?: number;
 };
 
-// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one. A warning stops no run.
+// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+//
+// A warning stops no run.
 export type Problem = {
   what: string;
   where?: string;
@@ -454,7 +491,8 @@ export type Problem = {
   severity?: "problem" | "warning";
 };
 
-// Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same where it is None.
+// Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same
+// where it is None.
 export type Push = {
   type: "push";
   request?: number;
@@ -516,8 +554,9 @@ export type Reset = {
   seed?: number | null;
 };
 
-// Write the document, to its own file where `path` is empty. `replace` allows to write over a file that is not the one it came from,
-// or that changed on disk since.
+// Write the document, to its own file where `path` is empty.
+//
+// `replace` allows to write over a file that is not the one it came from, or that changed on disk since.
 export type Save = {
   type: "save";
   request?: number;
@@ -540,10 +579,11 @@ export type SceneView = {
   marks: MarkView[];
 };
 
-// Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of that name.
+// Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of
+// that name.
 //
-// `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that share a `gesture` (not 0) are
-// one step of undo: a slider that is dragged.
+// `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that
+// share a `gesture` (not 0) are one step of undo: a slider that is dragged.
 export type Set = {
   type: "set";
   request?: number;
@@ -685,7 +725,8 @@ export type UseWorldContent = {
   content: string;
 };
 
-// Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples along each axis (0: all).
+// Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples
+// along each axis (0: all).
 export type Watch = {
   type: "watch";
   request?: number;

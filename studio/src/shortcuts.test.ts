@@ -3,7 +3,11 @@ import { describe, expect, it } from "vitest";
 import { isPressed, keysText, SHORTCUTS } from "./shortcuts";
 
 const press = (key: string, held: string = "") => ({
-  key, ctrlKey: held.includes("c"), metaKey: held.includes("m"), shiftKey: held.includes("s"), altKey: held.includes("a"),
+  key,
+  ctrlKey: held.includes("c"),
+  metaKey: held.includes("m"),
+  shiftKey: held.includes("s"),
+  altKey: held.includes("a"),
 });
 
 describe("a key press", () => {

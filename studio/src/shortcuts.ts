@@ -35,15 +35,20 @@ export const SHORTCUTS: readonly Shortcut[] = [
 
 type Press = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
-// Whether a key press is the one that is written, such as "Ctrl+Shift+Z". Ctrl is Command on a Mac. Of signs such as "?" it does not
-// matter whether a keyboard needs Shift for them.
+// Whether a key press is the one that is written, such as "Ctrl+Shift+Z". Ctrl is Command on a Mac. Of signs
+// such as "?" it does not matter whether a keyboard needs Shift for them.
 export function isPressed(keys: string, press: Press): boolean {
   const parts = keys.split("+");
   const key = parts.at(-1) ?? "";
   const shift = parts.includes("Shift");
   const same = key === "Space" ? press.key === " " : press.key.toLowerCase() === key.toLowerCase();
   const shiftMatters = key === "Space" || /^[a-z]$/i.test(key);
-  return same && !press.altKey && (press.ctrlKey || press.metaKey) === parts.includes("Ctrl") && (!shiftMatters || press.shiftKey === shift);
+  return (
+    same &&
+    !press.altKey &&
+    (press.ctrlKey || press.metaKey) === parts.includes("Ctrl") &&
+    (!shiftMatters || press.shiftKey === shift)
+  );
 }
 
 // Keys as this computer calls them.
@@ -61,21 +66,28 @@ export function isTyping(target: Element | null): boolean {
     return false;
   }
   const field = target.closest("input, textarea, select, [contenteditable]:not([contenteditable=false])");
-  return field !== null && !field.matches("input:is([type=checkbox], [type=radio], [type=range], [type=button], [type=submit])");
+  return (
+    field !== null &&
+    !field.matches("input:is([type=checkbox], [type=radio], [type=range], [type=button], [type=submit])")
+  );
 }
 
 // Whether keys with Ctrl, too, belong to the text: in a choice from a list they have nothing to do.
 function isWriting(target: Element | null, press: Press): boolean {
-  return isTyping(target) && !((press.ctrlKey || press.metaKey) && target?.closest("input:read-only") != null);
+  return (
+    isTyping(target) && !((press.ctrlKey || press.metaKey) && target?.closest("input:read-only") != null)
+  );
 }
 
 // What Space presses where it has the focus.
-const PRESSED = "button, a, summary, input:not([type=range]), [role=menuitem], [role=option], [role=switch], [role=checkbox], [role=tab]";
+const PRESSED =
+  "button, a, summary, input:not([type=range]), [role=menuitem], [role=option], [role=switch], " +
+  "[role=checkbox], [role=tab]";
 
 export function useShortcuts(): void {
   useEffect(() => {
-    // A button that was clicked keeps the focus, but nobody sees it there: then Space plays. Asked when the focus comes, because the
-    // first key makes it visible.
+    // A button that was clicked keeps the focus, but nobody sees it there: then Space plays. Asked when the
+    // focus comes, because the first key makes it visible.
     let focusSeen = false;
     const onFocus = (event: FocusEvent) => {
       focusSeen = event.target instanceof Element && event.target.matches(":focus-visible");
@@ -97,7 +109,10 @@ function onKey(event: KeyboardEvent, focusSeen: boolean): void {
   }
   const target = event.target instanceof Element ? event.target : null;
   const typing = isWriting(target, event);
-  if ((typing && shortcut.typing !== true) || (event.key === " " && focusSeen && target?.closest(PRESSED) != null)) {
+  if (
+    (typing && shortcut.typing !== true) ||
+    (event.key === " " && focusSeen && target?.closest(PRESSED) != null)
+  ) {
     return;
   }
   event.preventDefault();

@@ -41,7 +41,10 @@ class Socket {
       this.socket = null;
       if (useStudio.getState().connection !== "refused") useStudio.getState().connect("lost");
       for (const [request, reply] of this.waiting) {
-        reply({ answer: { type: "answer", request, problems: [{ what: "The connection to the studio was lost." }] }, folder: null });
+        reply({
+          answer: { type: "answer", request, problems: [{ what: "The connection to the studio was lost." }] },
+          folder: null,
+        });
       }
       this.waiting.clear();
       setTimeout(() => void this.again(), AGAIN_MS[Math.min(this.failed++, AGAIN_MS.length - 1)]);
@@ -65,7 +68,10 @@ class Socket {
   async ask(message: ToServer): Promise<Reply> {
     const request = ++this.lastRequest;
     if (this.socket?.readyState !== WebSocket.OPEN) {
-      return { answer: { type: "answer", request, problems: [{ what: "There is no connection to the studio." }] }, folder: null };
+      return {
+        answer: { type: "answer", request, problems: [{ what: "There is no connection to the studio." }] },
+        folder: null,
+      };
     }
     return new Promise((resolve) => {
       this.waiting.set(request, resolve);
@@ -77,7 +83,10 @@ class Socket {
     const store = useStudio.getState();
     switch (message.type) {
       case "answer":
-        this.waiting.get(message.request)?.({ answer: message, folder: this.folders.get(message.request) ?? null });
+        this.waiting.get(message.request)?.({
+          answer: message,
+          folder: this.folders.get(message.request) ?? null,
+        });
         this.waiting.delete(message.request);
         this.folders.delete(message.request);
         break;

@@ -1,7 +1,20 @@
-// What the server last said, and what the person looks at. Live arrays do not pass through here: see streams.ts.
+// What the server last said, and what the person looks at. Live arrays do not pass through here: see
+// streams.ts.
 
 import { create } from "zustand";
-import type { Changed, Clock, Costs, DocumentView, ElementView, Gallery, Kind, Problem, ToPage, Trouble, Welcome } from "./protocol";
+import type {
+  Changed,
+  Clock,
+  Costs,
+  DocumentView,
+  ElementView,
+  Gallery,
+  Kind,
+  Problem,
+  ToPage,
+  Trouble,
+  Welcome,
+} from "./protocol";
 import { replaced } from "./values";
 
 // refused: the server was started anew with another token
@@ -55,7 +68,9 @@ export const useStudio = create<Studio>((set) => ({
   connect: (connection) => set({ connection }),
   select: (selected) => set({ selected }),
   notify: (problem, level = "error", offer) =>
-    set((state) => ({ notices: [...state.notices, { id: ++lastNotice, problem, level, offer }].slice(-MOST_NOTICES) })),
+    set((state) => ({
+      notices: [...state.notices, { id: ++lastNotice, problem, level, offer }].slice(-MOST_NOTICES),
+    })),
   dismiss: (id) => set((state) => ({ notices: state.notices.filter((n) => n.id !== id) })),
 }));
 
@@ -81,7 +96,9 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
     case "changed":
       return state.document === null ? {} : changed(state.document, message);
     case "checked":
-      return state.document === null || state.version !== message.version ? {} : { document: { ...state.document, problems: message.problems } };
+      return state.document === null || state.version !== message.version
+        ? {}
+        : { document: { ...state.document, problems: message.problems } };
     case "trouble":
       return { trouble: message.problems.length > 0 ? message : null };
     case "clock":
@@ -97,9 +114,17 @@ function changed(document: DocumentView, message: Changed): Partial<Studio> {
   const { version, unsaved, undo, redo, element, parameter, value } = message;
   const general = { ...document, unsaved, undo, redo };
   if (element === "") {
-    return { version, document: { ...general, knobs: document.knobs.map((k) => (k.name === parameter ? { ...k, value: value as number } : k)) } };
+    return {
+      version,
+      document: {
+        ...general,
+        knobs: document.knobs.map((k) => (k.name === parameter ? { ...k, value: value as number } : k)),
+      },
+    };
   }
-  const elements = document.elements.map((e) => (e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e));
+  const elements = document.elements.map((e) =>
+    e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e,
+  );
   const next = { ...general, elements };
   return { version, document: next, elements: byId(next) };
 }

@@ -1,5 +1,5 @@
-// Live arrays on their way from the socket to canvases, past React: each subscriber is called at most once for each picture the browser
-// draws, with the newest frame. Equal wishes share one stream.
+// Live arrays on their way from the socket to canvases, past React: each subscriber is called at most once
+// for each picture the browser draws, with the newest frame. Equal wishes share one stream.
 
 import type { Frame } from "./frames";
 import type { Announced, Lost, Trace, Watch } from "./protocol";
@@ -37,7 +37,8 @@ export class Streams {
 
   constructor(private send: Send) {}
 
-  // Ask for live data; the function returned ends it. The callback also runs when the form changes or the stream is lost.
+  // Ask for live data; the function returned ends it. The callback also runs when the form changes or the
+  // stream is lost.
   subscribe(wish: Wish, callback: Subscriber): () => void {
     const key = JSON.stringify(wish);
     let stream = this.byKey.get(key);

@@ -3,7 +3,9 @@
 export type Values = Record<string, unknown>;
 
 export function valueAt(values: unknown, path: string): unknown {
-  return path.split(".").reduce<unknown>((inner, step) => (isHolder(inner) ? inner[step] : undefined), values);
+  return path
+    .split(".")
+    .reduce<unknown>((inner, step) => (isHolder(inner) ? inner[step] : undefined), values);
 }
 
 // A copy with one value replaced; everything beside the path is shared.

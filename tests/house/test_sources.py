@@ -32,6 +32,7 @@ MUTABLE_CALLS = {
     "ContextVar",
     "local",
 }
+PAGE = [p for p in texts() if (ROOT / "studio") in p.parents and p.suffix in {".ts", ".tsx", ".css"}]
 CHANGES = {"append", "add", "update", "pop", "clear", "extend", "insert", "remove", "setdefault", "discard"}
 
 
@@ -156,6 +157,13 @@ def test_every_module_and_public_function_says_what_it_is(path: Path) -> None:
 def test_no_drawer_for_everything() -> None:
     drawers = [p.name for p in MODULES if re.search("util|helper|misc|common|manager", p.stem)]
     assert not drawers, "one noun is one file"
+
+
+@pytest.mark.parametrize("path", PAGE, ids=lambda p: p.relative_to(ROOT / "studio").as_posix())
+def test_lines_of_the_page_have_at_most_110_columns(path: Path) -> None:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    long = [number for number, line in enumerate(lines, 1) if len(line) > 110]
+    assert not long, f"run `python studio/build.py format`; split comments and strings by hand: lines {long}"
 
 
 def test_warnings_are_errors() -> None:

@@ -8,6 +8,7 @@ writes `protocol.schema.json` beside this file and, in a copy of the repository,
 from __future__ import annotations
 
 import json
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,8 @@ from deodar.server.to_server import ToServer
 SCHEMA = Path(__file__).with_name("protocol.schema.json")
 TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
 HEAD = (
-    "// Generated from src/deodar/server/to_server.py and to_page.py by `python -m deodar.server.protocol`;"
-    " change those, not this one.\n"
+    "// Generated from src/deodar/server/to_server.py and to_page.py; change those, not this one:\n"
+    "// python -m deodar.server.protocol\n"
 )
 
 
@@ -39,14 +40,21 @@ def schema_text() -> str:
     return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"
 
 
+def _comment(text: str) -> str:
+    """A text as `//` comments of at most 110 columns, a comment for each paragraph."""
+    paragraphs = [" ".join(part.split()) for part in text.split("\n\n") if part.strip()]
+    return "//\n".join(
+        "".join(f"// {line}\n" for line in textwrap.wrap(paragraph, 107, break_on_hyphens=False))
+        for paragraph in paragraphs
+    )
+
+
 def typescript() -> str:
     """The same as TypeScript types."""
     out = [HEAD]
     for name, form in sorted(schema()["$defs"].items()):
         description = form.get("description", "")
-        out.append(
-            "".join(f"// {line.strip()}\n" if line.strip() else "//\n" for line in description.splitlines())
-        )
+        out.append(_comment(description))
         if "properties" in form:
             out.append(f"export type {name} = {_record(form)};\n\n")
         else:
@@ -58,10 +66,16 @@ def typescript() -> str:
 def _record(form: dict[str, Any]) -> str:
     required = set(form.get("required", []))
     lines = [
-        f"  {key}{'' if key in required else '?'}: {_type(inner)};"
+        _folded(f"  {key}{'' if key in required else '?'}: {_type(inner)};")
         for key, inner in form["properties"].items()
     ]
     return "{\n" + "\n".join(lines) + "\n}"
+
+
+def _folded(line: str) -> str:
+    """A member of a record; a union too wide for a line gets a line for each alternative."""
+    name, _, kinds = line.partition(": ")
+    return line if len(line) <= 110 else f"{name}:\n    | " + kinds.replace(" | ", "\n    | ")
 
 
 def _type(form: dict[str, Any]) -> str:

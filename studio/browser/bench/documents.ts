@@ -27,7 +27,13 @@ const AXES = {
 };
 const GENERAL = { deodar: 1, time_unit: "ms", axes: AXES, parameters: {}, groups: [] };
 const wire = (source: string, target: string) => ({ source: `${source}.output`, target: `${target}.input` });
-const spot = (...center: number[]) => ({ kind: "GaussianStimulus", axes: center.length > 1 ? ["wide", "high"] : ["x"], center: center.length > 1 ? center : center[0], sigma: center.length > 1 ? 15 : 5, amplitude: 6 });
+const spot = (...center: number[]) => ({
+  kind: "GaussianStimulus",
+  axes: center.length > 1 ? ["wide", "high"] : ["x"],
+  center: center.length > 1 ? center : center[0],
+  sigma: center.length > 1 ? 15 : 5,
+  amplitude: 6,
+});
 
 /** Selection, as in the examples: two stimuli, one field of 101 samples. */
 export const selection = {
@@ -40,10 +46,16 @@ export const selection = {
 /** The same with so many curves of the field in as many plots. */
 export function curves(count: number): object {
   const plots = Array.from({ length: count }, () => plot("u", "curve", "activation"));
-  return { ...selection, layout: { panels: panels([plots.slice(0, Math.ceil(count / 2)), plots.slice(Math.ceil(count / 2))]) } };
+  return {
+    ...selection,
+    layout: { panels: panels([plots.slice(0, Math.ceil(count / 2)), plots.slice(Math.ceil(count / 2))]) },
+  };
 }
 
-/** A field of 200 x 200 samples, three over one axis and two nodes, all with noise and stimuli; ten plots fill the page. */
+/**
+ * A field of 200 x 200 samples, three over one axis and two nodes, all with noise and stimuli; ten plots fill
+ * the page.
+ */
 export const ten = {
   ...GENERAL,
   name: "ten plots",
@@ -69,8 +81,17 @@ export const ten = {
   layout: {
     panels: panels([
       [plot("map", "heat", "activation"), plot("map", "heat", "output"), plot("map", "course", "activation")],
-      [plot("u", "curve", "activation"), plot("v", "curve", "activation"), plot("r", "curve", "activation"), plot("u", "course", "activation")],
-      [plot("n", "course", "activation"), plot("m", "course", "activation"), plot("r", "course", "activation")],
+      [
+        plot("u", "curve", "activation"),
+        plot("v", "curve", "activation"),
+        plot("r", "curve", "activation"),
+        plot("u", "course", "activation"),
+      ],
+      [
+        plot("n", "course", "activation"),
+        plot("m", "course", "activation"),
+        plot("r", "course", "activation"),
+      ],
     ]),
   },
 };
@@ -84,7 +105,12 @@ export function many(count: number): object {
     dt: 5,
     elements: Object.fromEntries(names.map((name) => [name, { ...CURVE, id: ident(name) }])),
     connections: names.flatMap((name, i) => (i % 40 === 0 ? [] : [wire(names[i - 1] ?? "", name)])),
-    layout: { boxes: Object.fromEntries(names.map((name, i) => [ident(name), { x: 220 * (i % 20), y: 150 * Math.floor(i / 20) }])), panels: panels([["graph"]]) },
+    layout: {
+      boxes: Object.fromEntries(
+        names.map((name, i) => [ident(name), { x: 220 * (i % 20), y: 150 * Math.floor(i / 20) }]),
+      ),
+      panels: panels([["graph"]]),
+    },
   };
 }
 
@@ -105,9 +131,20 @@ function panels(rows: (Plot | "graph")[][]): object {
   const [width, height] = [1280, 740];
   const leaf = (panel: Plot | "graph", share: number) => {
     const id = panel === "graph" ? "graph" : `plot-${Object.keys(all).length + 1}`;
-    all[id] = panel === "graph" ? { id, contentComponent: "graph", title: "Architecture" } : { id, contentComponent: "plot", title: panel.element, params: panel };
+    all[id] =
+      panel === "graph"
+        ? { id, contentComponent: "graph", title: "Architecture" }
+        : { id, contentComponent: "plot", title: panel.element, params: panel };
     return { type: "leaf", size: share, data: { id: `group-${id}`, views: [id], activeView: id } };
   };
-  const data = rows.map((row) => ({ type: "branch", size: height / rows.length, data: row.map((panel) => leaf(panel, width / row.length)) }));
-  return { grid: { width, height, orientation: "VERTICAL", root: { type: "branch", size: width, data } }, panels: all, activeGroup: "group-plot-1" };
+  const data = rows.map((row) => ({
+    type: "branch",
+    size: height / rows.length,
+    data: row.map((panel) => leaf(panel, width / row.length)),
+  }));
+  return {
+    grid: { width, height, orientation: "VERTICAL", root: { type: "branch", size: width, data } },
+    panels: all,
+    activeGroup: "group-plot-1",
+  };
 }

@@ -11,27 +11,43 @@ export interface Smoothness {
   p95: number;
   /** How often the canvas that was drawn least was drawn anew, in a second; 0 where none was. */
   least: number;
-  /** Processor time for each picture in ms: the page's own script, the page's process as a whole, and the process that puts pictures together. */
+  /**
+   * Processor time for each picture in ms: the page's own script, the page's process as a whole, and the
+   * process that puts pictures together.
+   */
   script: number;
   renderer: number;
   gpu: number;
 }
 
 /** Watch a page for some seconds. Only canvases that a selector names count for `least`. */
-export async function smoothness(browser: Browser, page: Page, seconds: number, canvases: string): Promise<Smoothness> {
+export async function smoothness(
+  browser: Browser,
+  page: Page,
+  seconds: number,
+  canvases: string,
+): Promise<Smoothness> {
   const inside = await page.context().newCDPSession(page);
   const outside = await browser.newBrowserCDPSession();
   await inside.send("Performance.enable");
   const costs = async () => {
     const { metrics } = await inside.send("Performance.getMetrics");
     const { processInfo } = await outside.send("SystemInfo.getProcessInfo");
-    const sum = (type: RegExp) => processInfo.filter((one) => type.test(one.type)).reduce((total, one) => total + one.cpuTime, 0);
-    return { script: metrics.find(({ name }) => name === "ScriptDuration")?.value ?? NaN, renderer: sum(/renderer/i), gpu: sum(/gpu/i) };
+    const sum = (type: RegExp) =>
+      processInfo.filter((one) => type.test(one.type)).reduce((total, one) => total + one.cpuTime, 0);
+    return {
+      script: metrics.find(({ name }) => name === "ScriptDuration")?.value ?? NaN,
+      renderer: sum(/renderer/i),
+      gpu: sum(/gpu/i),
+    };
   };
   const before = await costs();
   const { gaps, least, wall } = await page.evaluate(
     async ({ ms, canvases }) => {
-      const counts = () => [...document.querySelectorAll<HTMLCanvasElement>(canvases)].map((one) => window.probe.drawn.get(one)?.times ?? 0);
+      const counts = () =>
+        [...document.querySelectorAll<HTMLCanvasElement>(canvases)].map(
+          (one) => window.probe.drawn.get(one)?.times ?? 0,
+        );
       const start = counts();
       const times: number[] = [];
       const from = performance.now();
@@ -46,12 +62,23 @@ export async function smoothness(browser: Browser, page: Page, seconds: number, 
       const wall = (performance.now() - from) / 1000;
       const end = counts();
       const each = end.length === start.length ? end.map((n, i) => n - (start[i] ?? 0)) : [];
-      return { gaps: times.slice(1).map((t, i) => t - (times[i] ?? 0)), least: each.length > 0 ? Math.min(...each) / wall : 0, wall };
+      return {
+        gaps: times.slice(1).map((t, i) => t - (times[i] ?? 0)),
+        least: each.length > 0 ? Math.min(...each) / wall : 0,
+        wall,
+      };
     },
     { ms: 1000 * seconds, canvases },
   );
   const after = await costs();
   await Promise.all([inside.detach(), outside.detach()]);
   const each = (name: keyof typeof before) => (1000 * (after[name] - before[name])) / gaps.length;
-  return { rate: gaps.length / wall, p95: quantile(gaps, 0.95), least, script: each("script"), renderer: each("renderer"), gpu: each("gpu") };
+  return {
+    rate: gaps.length / wall,
+    p95: quantile(gaps, 0.95),
+    least,
+    script: each("script"),
+    renderer: each("renderer"),
+    gpu: each("gpu"),
+  };
 }

@@ -23,7 +23,11 @@ export async function firstPaint(name: string, document: object | null, stands: 
       const page = await open();
       await page.locator(stands).first().waitFor();
       whole.push(await page.evaluate(() => performance.now()));
-      first.push(await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? NaN));
+      first.push(
+        await page.evaluate(
+          () => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? NaN,
+        ),
+      );
       await page.context().close();
     }
     showLoad();
@@ -56,7 +60,11 @@ export async function tenPlots(): Promise<void> {
     show("ten plots: the plot that is drawn anew least often", found.least, "1/s", ">= 30");
     show("ten plots: time between pictures, 95 of 100 below", found.p95, "ms", "<= 50");
     costs("ten plots", found);
-    show("ten plots: simulated time over real time", await page.evaluate(() => window.probe.clock?.factor ?? NaN), "");
+    show(
+      "ten plots: simulated time over real time",
+      await page.evaluate(() => window.probe.clock?.factor ?? NaN),
+      "",
+    );
   });
 }
 
@@ -75,7 +83,10 @@ export async function manyElements(count: number): Promise<void> {
     show(`${count} elements with live boxes: time between pictures, 95 % below`, still.p95, "ms", "<= 50");
     show(`${count} elements: the live box that is drawn anew least often`, still.least, "1/s");
     costs(`${count} elements`, still);
-    const [moved] = await Promise.all([smoothness(browser, page, SECONDS, ".none"), panned(page, SECONDS + 1)]);
+    const [moved] = await Promise.all([
+      smoothness(browser, page, SECONDS, ".none"),
+      panned(page, SECONDS + 1),
+    ]);
     show(`${count} elements, panning: time between pictures, 95 of 100 below`, moved.p95, "ms", "<= 50");
     costs(`${count} elements, panning`, moved);
   });

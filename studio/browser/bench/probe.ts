@@ -1,4 +1,7 @@
-/** What runs in the page before the page: it notes when canvases are drawn anew and what comes over the socket. */
+/**
+ * What runs in the page before the page: it notes when canvases are drawn anew and what comes over the
+ * socket.
+ */
 
 /** A function of the page as a script for `open`. */
 export function asScript(probe: () => void): string {
@@ -25,7 +28,13 @@ declare global {
 }
 
 export function install(): void {
-  const probe: Probe = { drawn: new Map(), draws: 0, heard: () => undefined, watched: new Map(), clock: null };
+  const probe: Probe = {
+    drawn: new Map(),
+    draws: 0,
+    heard: () => undefined,
+    watched: new Map(),
+    clock: null,
+  };
   window.probe = probe;
   const note = (canvas: HTMLCanvasElement) => {
     const before = probe.drawn.get(canvas);
@@ -48,7 +57,8 @@ export function install(): void {
       super(...args);
       this.addEventListener("message", ({ data }) => {
         if (data instanceof ArrayBuffer) probe.heard(data);
-        else if (typeof data === "string" && data.includes('"clock"')) probe.clock = JSON.parse(data) as Probe["clock"];
+        else if (typeof data === "string" && data.includes('"clock"'))
+          probe.clock = JSON.parse(data) as Probe["clock"];
       });
     }
     override send(data: string): void {

@@ -5,16 +5,20 @@ import { ident } from "./documents";
 import "./probe";
 
 const FIELD = "activation";
-/** So many times the largest of the former steps of the mean is no noise. */
+/** A step of the mean larger than this multiple of the largest former step is not noise. */
 const CLEAR = 3;
 const FORMER = 40;
 
 /**
- * Turns the resting level of an element from one end to the other by keys, and returns for each the ms from the key (as the browser got it) to the
- * end of the picture in which the plot drew the first frame whose mean left what noise had made of it before.
+ * Move the resting level of an element from one end of its range to the other by keys. Returns for each key
+ * the ms from the key event to the end of the picture in which the plot drew the first frame whose mean left
+ * the range that noise alone had caused before.
  */
 export async function slid(page: Page, element: string, times: number): Promise<number[]> {
-  await page.getByRole("group", { name: `Drawing of ${element}` }).first().waitFor();
+  await page
+    .getByRole("group", { name: `Drawing of ${element}` })
+    .first()
+    .waitFor();
   await page.locator(`.react-flow__node[data-id="${ident(element)}"]`).click();
   const slider = page.getByRole("slider", { name: /^resting.level$/i }).first();
   await slider.focus();
@@ -36,10 +40,24 @@ declare global {
   }
 }
 
-function watch({ element, port, clear, former }: { element: string; port: string; clear: number; former: number }): void {
+function watch({
+  element,
+  port,
+  clear,
+  former,
+}: {
+  element: string;
+  port: string;
+  clear: number;
+  former: number;
+}): void {
   const { probe } = window;
   const canvas = document.querySelector(".plot-host > .uplot > .u-wrap > canvas") as HTMLCanvasElement;
-  const streams = new Set([...probe.watched].filter(([, wish]) => wish.element === element && wish.port === port && (wish.most ?? 0) > 100).map(([number]) => number));
+  const streams = new Set(
+    [...probe.watched]
+      .filter(([, wish]) => wish.element === element && wish.port === port && (wish.most ?? 0) > 100)
+      .map(([number]) => number),
+  );
   const means: number[] = [];
   const answers = { all: [] as number[], calm: () => pressed === null && means.length >= former };
   window.answers = answers;
@@ -66,7 +84,8 @@ function watch({ element, port, clear, former }: { element: string; port: string
       const began = pressed;
       const came = performance.now();
       bound = 0;
-      // In the picture in which the plot is drawn after this frame came; it is done with when the next task begins.
+      // In the picture in which the plot is drawn after this frame came; it is done with when the next task
+      // begins.
       const look = () => {
         if ((probe.drawn.get(canvas)?.at ?? 0) >= came) {
           const channel = new MessageChannel();

@@ -8,7 +8,10 @@ const SETTLE_MS = 2500;
 const CLOCKS = 5;
 const PAUSE_MS = 600;
 
-/** Steps a second while nobody watches, and by how many percent less with four plots in a browser, in alternation. */
+/**
+ * Steps a second while nobody watches, and by how many percent less with four plots in a browser, in
+ * alternation.
+ */
 export async function slowed(rounds: number): Promise<{ free: number; percent: number }> {
   const free: number[] = [];
   const percent: number[] = [];
@@ -33,7 +36,10 @@ interface Observer {
   close: () => void;
 }
 
-/** A page without a screen, which looks at the clock only when it is asked for; the engine runs free from now on. */
+/**
+ * A page without a screen, which looks at the clock only when it is asked for; the engine runs free from now
+ * on.
+ */
 async function connected({ server }: Stage): Promise<Observer> {
   const socket = new WebSocket(socketOf(server.url));
   const say = (message: object) => socket.send(JSON.stringify(message));
@@ -44,7 +50,12 @@ async function connected({ server }: Stage): Promise<Observer> {
     socket.onerror = () => fail(new Error("no connection to the studio"));
     socket.onmessage = ({ data }) => {
       if (typeof data !== "string") return;
-      const message = JSON.parse(data) as { type: string; frame: number; steps: number; document: object | null };
+      const message = JSON.parse(data) as {
+        type: string;
+        frame: number;
+        steps: number;
+        document: object | null;
+      };
       opened ||= message.type === "opened" && message.document !== null;
       if (message.type !== "clock") return;
       frame = message.frame;

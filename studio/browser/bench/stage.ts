@@ -1,4 +1,7 @@
-/** A server with a document, and browsers before it: what is measured is the page, so nothing else of the tests' harness runs. */
+/**
+ * A server with a document, and browsers before it: what is measured is the page, so nothing else of the
+ * tests' harness runs.
+ */
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -13,7 +16,10 @@ const SIZE = { width: 1280, height: 800 };
 export interface Stage {
   server: Server;
   browser: Browser;
-  /** A page of a fresh browser profile at the address of the server, with a script that runs before those of the page. */
+  /**
+   * A page of a fresh browser profile at the address of the server, with a script that runs before those of
+   * the page.
+   */
   open: (before?: string) => Promise<Page>;
 }
 

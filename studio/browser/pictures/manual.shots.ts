@@ -1,4 +1,7 @@
-/** Every picture of the manual's chapter on the studio, in light and in dark, 1280 x 800, into the folder that DEODAR_SHOTS names. */
+/**
+ * Every picture of the manual's chapter on the studio, in light and in dark, 1280 x 800, into the folder that
+ * DEODAR_SHOTS names.
+ */
 import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -20,16 +23,17 @@ async function open(colours: "light" | "dark", options: StudioOptions): Promise<
 /** Run until the clock shows this much document time, then stand still. */
 async function run(page: Page, milliseconds: number): Promise<void> {
   await page.getByRole("button", { name: /^play/i }).click();
-  await expect
-    .poll(async () => tick(page), { ...PATIENCE, interval: 100 })
-    .toBeGreaterThan(milliseconds);
+  await expect.poll(async () => tick(page), { ...PATIENCE, interval: 100 }).toBeGreaterThan(milliseconds);
   await page.getByRole("button", { name: /^pause/i }).click();
   await page.mouse.move(3, 400);
   await page.waitForTimeout(500); // the last frames are drawn
 }
 
 async function tick(page: Page): Promise<number> {
-  const said = await page.getByText(/^step \d+$/).first().textContent();
+  const said = await page
+    .getByText(/^step \d+$/)
+    .first()
+    .textContent();
   return Number(/\d+/.exec(said ?? "")?.[0] ?? 0);
 }
 
@@ -55,7 +59,11 @@ for (const colours of COLOURS) {
     await select(page, "u");
     await run(page, 700);
     await shot(page, name("selection"));
-    for (const curve of ["input", "interaction"]) await page.getByRole("button", { name: new RegExp(`^${curve}`, "i") }).first().click();
+    for (const curve of ["input", "interaction"])
+      await page
+        .getByRole("button", { name: new RegExp(`^${curve}`, "i") })
+        .first()
+        .click();
     await page.waitForTimeout(500);
     await shot(page, name("curves"));
   });
@@ -76,17 +84,24 @@ for (const colours of COLOURS) {
 
   test(`world, ${colours}`, async () => {
     const words = ["--world", "arena:z, start=-0.45 0.55, goal=-0.65 0.65, place_noise=0.005, place_every=2"];
-    const studio = await open(colours, { file: "spa.json", copies: ["examples/spa.json", ...spaArrays()], words });
+    const studio = await open(colours, {
+      file: "spa.json",
+      copies: ["examples/spa.json", ...spaArrays()],
+      words,
+    });
     const { page } = studio;
     const observer = await studio.observe();
     await observer.runs();
     await observer.ask({ type: "speed", factor: null });
     await run(page, 330);
-    const canvas = page.getByRole("tabpanel", { name: "World", exact: true }).getByRole("img", { name: /^The world from above/ });
+    const canvas = page
+      .getByRole("tabpanel", { name: "World", exact: true })
+      .getByRole("img", { name: /^The world from above/ });
     const area = await canvas.boundingBox();
     const border = observer.world.now.scene?.border ?? [0, 0, 1, 1];
     if (area === null) throw new Error("The world is not in sight.");
-    const at = (x: number, y: number) => toPixels(frameOf(border as [number, number, number, number], area.width, area.height), { x, y });
+    const at = (x: number, y: number) =>
+      toPixels(frameOf(border as [number, number, number, number], area.width, area.height), { x, y });
     const [from, to] = [at(-0.65, 0.65), at(-0.85, 0.2)];
     await page.mouse.move(area.x + from.x, area.y + from.y);
     await page.mouse.down();
@@ -119,13 +134,17 @@ for (const colours of COLOURS) {
 /** The arrays beside the example of planning. */
 function spaArrays(): string[] {
   const examples = join(import.meta.dirname, "..", "..", "..", "examples");
-  return readdirSync(examples).filter((file) => /^spa\..*\.npz$/.test(file)).map((file) => `examples/${file}`);
+  return readdirSync(examples)
+    .filter((file) => /^spa\..*\.npz$/.test(file))
+    .map((file) => `examples/${file}`);
 }
 
 /** The example with groups, one of them folded, with its document parameter and two parameters pinned. */
 async function startPinned(colours: "light" | "dark"): Promise<Studio> {
   const { readFileSync } = await import("node:fs");
-  const example = JSON.parse(readFileSync(join(import.meta.dirname, "..", "..", "..", "examples", "groups.json"), "utf-8"));
+  const example = JSON.parse(
+    readFileSync(join(import.meta.dirname, "..", "..", "..", "examples", "groups.json"), "utf-8"),
+  );
   const first = example.elements["search.intention"].id as string;
   const layout = {
     folded: ["lift"],

@@ -19,13 +19,20 @@ export function Costs() {
   return (
     <div className="costs">
       <div className="costs-head">
-        <Button size="compact-sm" variant="default" leftSection={<IconStopwatch size={15} />} loading={measuring} aria-label="Measure costs"
-          onClick={() => void request({ type: "measure_costs" })}>
+        <Button
+          size="compact-sm"
+          variant="default"
+          leftSection={<IconStopwatch size={15} />}
+          loading={measuring}
+          aria-label="Measure costs"
+          onClick={() => void request({ type: "measure_costs" })}
+        >
           {again ? "Measure again" : "Measure"}
         </Button>
         {costs !== null && again && (
           <span className="numbers" role="status">
-            A step takes {microsecondsText(costs.step)} µs; the elements, each measured alone, add up to {microsecondsText(sumOf(costs))} µs
+            A step takes {microsecondsText(costs.step)} µs; the elements, each measured alone, add up to{" "}
+            {microsecondsText(sumOf(costs))} µs
           </span>
         )}
       </div>
@@ -50,7 +57,10 @@ export function Costs() {
           </tbody>
         </table>
       ) : (
-        <p className="dim">How long each element takes in a step. The run goes on meanwhile; the first time takes about as long as compiling.</p>
+        <p className="dim">
+          How long each element takes in a step. The run goes on meanwhile; the first time takes about as long
+          as compiling.
+        </p>
       )}
     </div>
   );

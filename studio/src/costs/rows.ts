@@ -48,5 +48,7 @@ function aboutOf({ once, alike }: CostView): string {
   if (once) {
     return "Stands still: computed when something is changed and a few times a second, not in every step";
   }
-  return alike > 1 ? `Computed together with ${alike - 1} of the same structure; they share the time equally` : "Computed alone";
+  return alike > 1
+    ? `Computed together with ${alike - 1} of the same structure; they share the time equally`
+    : "Computed alone";
 }

@@ -35,7 +35,15 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
         <div className="graph-box-kind one-line">{title}</div>
         <Mark element={id} />
       </div>
-      {port !== null && <LiveBox element={id} port={port} label={`${port} of ${path}, live`} width={LIVE.width} height={live} />}
+      {port !== null && (
+        <LiveBox
+          element={id}
+          port={port}
+          label={`${port} of ${path}, live`}
+          width={LIVE.width}
+          height={live}
+        />
+      )}
       <Ports names={outputs} side="source" height={height} />
     </div>
   );
@@ -46,7 +54,14 @@ function Ports({ names, side, height }: { names: string[]; side: "source" | "tar
   return names.map((name, n) => {
     const top = portHeight(height, n, names.length);
     return (
-      <Handle key={name} id={name} type={side} position={side === "target" ? Position.Left : Position.Right} style={{ top }} title={name}>
+      <Handle
+        key={name}
+        id={name}
+        type={side}
+        position={side === "target" ? Position.Left : Position.Right}
+        style={{ top }}
+        title={name}
+      >
         {names.length > 1 && <span className={`graph-port graph-port-${side}`}>{name}</span>}
       </Handle>
     );

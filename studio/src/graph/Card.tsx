@@ -25,7 +25,18 @@ export function Card() {
   }
   const { element, left, top, width, height } = target;
   return (
-    <Popover key={element} opened position="right-start" offset={10} width={290} shadow="md" withinPortal trapFocus={false} returnFocus={false} closeOnEscape={false}>
+    <Popover
+      key={element}
+      opened
+      position="right-start"
+      offset={10}
+      width={290}
+      shadow="md"
+      withinPortal
+      trapFocus={false}
+      returnFocus={false}
+      closeOnEscape={false}
+    >
       <Popover.Target>
         <div aria-hidden style={{ position: "fixed", left, top, width, height, pointerEvents: "none" }} />
       </Popover.Target>

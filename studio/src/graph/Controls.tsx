@@ -32,7 +32,10 @@ export function Controls({ onSearch, onTidy }: Props) {
 }
 
 // The left margin keeps clear of the buttons.
-export const FIT: FitViewOptions = { padding: { top: "32px", right: "48px", bottom: "32px", left: "64px" }, maxZoom: 1.15 };
+export const FIT: FitViewOptions = {
+  padding: { top: "32px", right: "48px", bottom: "32px", left: "64px" },
+  maxZoom: 1.15,
+};
 export const GLIDE_MS = 200;
 
 function Control({ label, onClick, children }: { label: string; onClick: () => void; children: ReactNode }) {

@@ -12,10 +12,18 @@ import { troubleOf, warningOf } from "./trouble";
 import { keyOf } from "./tree";
 
 export const Folded = memo(function Folded({ data: { key, name, count } }: NodeProps<FoldedNode>) {
-  const inside = useStudio((state) => state.document?.elements.some((e) => within(e.group, key) && troubleOf(e.id, state) !== "") ?? false);
-  const warned = useStudio((state) => state.document?.elements.some((e) => within(e.group, key) && warningOf(e.id, state) !== "") ?? false);
+  const inside = useStudio(
+    (state) =>
+      state.document?.elements.some((e) => within(e.group, key) && troubleOf(e.id, state) !== "") ?? false,
+  );
+  const warned = useStudio(
+    (state) =>
+      state.document?.elements.some((e) => within(e.group, key) && warningOf(e.id, state) !== "") ?? false,
+  );
   const mark = inside ? "A problem is in this group" : warned ? "A warning is in this group" : "";
-  const selected = useStudio((state) => state.selected.some((id) => within(state.elements.get(id)?.group ?? [], key)));
+  const selected = useStudio((state) =>
+    state.selected.some((id) => within(state.elements.get(id)?.group ?? [], key)),
+  );
   return (
     <div
       className="graph-folded"
@@ -27,7 +35,13 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
       }}
     >
       <Handle type="target" position={Position.Left} />
-      <ActionIcon className="nodrag" size="sm" aria-label={`Unfold ${key}`} title="Unfold this group" onClick={() => fold(key, false)}>
+      <ActionIcon
+        className="nodrag"
+        size="sm"
+        aria-label={`Unfold ${key}`}
+        title="Unfold this group"
+        onClick={() => fold(key, false)}
+      >
         <IconChevronRight size={15} />
       </ActionIcon>
       <div className="graph-folded-words">

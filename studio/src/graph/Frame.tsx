@@ -11,7 +11,13 @@ export const Frame = memo(function Frame({ data: { key, name } }: NodeProps<Fram
   return (
     <div className="graph-frame">
       <div className="graph-frame-title">
-        <ActionIcon className="nodrag" size="sm" aria-label={`Fold ${key}`} title="Fold this group" onClick={() => fold(key, true)}>
+        <ActionIcon
+          className="nodrag"
+          size="sm"
+          aria-label={`Fold ${key}`}
+          title="Fold this group"
+          onClick={() => fold(key, true)}
+        >
           <IconChevronDown size={15} />
         </ActionIcon>
         <span className="one-line" title={key}>

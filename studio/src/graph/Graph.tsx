@@ -1,6 +1,17 @@
 // The architecture on a canvas.
 
-import { Background, BackgroundVariant, MarkerType, MiniMap, ReactFlow, ReactFlowProvider, useReactFlow, type Edge, type EdgeTypes, type NodeTypes } from "@xyflow/react";
+import {
+  Background,
+  BackgroundVariant,
+  MarkerType,
+  MiniMap,
+  ReactFlow,
+  ReactFlowProvider,
+  useReactFlow,
+  type Edge,
+  type EdgeTypes,
+  type NodeTypes,
+} from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
 import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { openPlot } from "../panels/openPlot";
@@ -23,7 +34,9 @@ import { WireEdge } from "./WireEdge";
 
 const NODES: NodeTypes = { box: Box, frame: Frame, folded: Folded };
 const EDGES: EdgeTypes = { wire: WireEdge };
-const ARROW = { markerEnd: { type: MarkerType.ArrowClosed, width: 14, height: 14, color: "var(--graph-wire)" } };
+const ARROW = {
+  markerEnd: { type: MarkerType.ArrowClosed, width: 14, height: 14, color: "var(--graph-wire)" },
+};
 // Painting dots costs a browser without a graphics card as much as a hundred boxes do.
 const MOST_DOTTED = 60;
 const MAP = { width: 150, height: 96 };
@@ -66,7 +79,10 @@ function Canvas({ structure }: { structure: Structure }) {
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
       const slash = event.key === "/" && !isTyping(event.target);
-      const control = event.key.toLowerCase() === "f" && (event.ctrlKey || event.metaKey) && (around.current?.contains(document.activeElement) ?? false);
+      const control =
+        event.key.toLowerCase() === "f" &&
+        (event.ctrlKey || event.metaKey) &&
+        (around.current?.contains(document.activeElement) ?? false);
       if (!event.defaultPrevented && (slash || control)) {
         event.preventDefault();
         setSearching(true);
@@ -77,13 +93,16 @@ function Canvas({ structure }: { structure: Structure }) {
   }, []);
 
   const tidy = useCallback(async () => {
-    const { problems = [] } = await place(scene({ ...structure, layout: { ...structure.layout, boxes: {} } }, kinds).places.elements);
+    const { problems = [] } = await place(
+      scene({ ...structure, layout: { ...structure.layout, boxes: {} } }, kinds).places.elements,
+    );
     if (problems.length === 0) {
       requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: glide(GLIDE_MS) }));
     }
   }, [structure, kinds, flow]);
 
-  // While the canvas is moved it is one layer that the browser only shifts: live boxes rest, and nothing is painted anew.
+  // While the canvas is moved it is one layer that the browser only shifts: live boxes rest, and nothing is
+  // painted anew.
   const move = useCallback(
     (moving: boolean) => {
       useHover.getState().close();
@@ -96,7 +115,13 @@ function Canvas({ structure }: { structure: Structure }) {
 
   return (
     <PainterContext value={painting}>
-      <div className="graph" ref={around} onPointerDownCapture={touched} onWheelCapture={touched} onKeyDownCapture={touched}>
+      <div
+        className="graph"
+        ref={around}
+        onPointerDownCapture={touched}
+        onWheelCapture={touched}
+        onKeyDownCapture={touched}
+      >
         <ReactFlow<SceneNode, Edge>
           nodes={nodes}
           edges={now.wires as Edge[]}
@@ -126,9 +151,19 @@ function Canvas({ structure }: { structure: Structure }) {
           fitView
           fitViewOptions={FIT}
         >
-          {nodes.length <= MOST_DOTTED && <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />}
+          {nodes.length <= MOST_DOTTED && (
+            <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />
+          )}
           <canvas ref={shown} className="graph-live-layer" aria-hidden />
-          <MiniMap style={MAP} pannable zoomable ariaLabel="Overview of the canvas" nodeStrokeWidth={0} nodeBorderRadius={4} nodeClassName={miniClass} />
+          <MiniMap
+            style={MAP}
+            pannable
+            zoomable
+            ariaLabel="Overview of the canvas"
+            nodeStrokeWidth={0}
+            nodeBorderRadius={4}
+            nodeClassName={miniClass}
+          />
         </ReactFlow>
         <Controls onSearch={() => setSearching(true)} onTidy={() => void tidy()} />
         {searching && (
@@ -156,8 +191,13 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
       return;
     }
     const wire = now.wires.find(({ id }) => id === now.pills.get(wanted));
-    const { x, y, width, height } = getNodesBounds(wire === undefined ? [wanted] : [wire.source, wire.target]);
-    void setCenter(x + width / 2, y + height / 2, { zoom: Math.max(getZoom(), 0.8), duration: glide(GLIDE_MS) });
+    const { x, y, width, height } = getNodesBounds(
+      wire === undefined ? [wanted] : [wire.source, wire.target],
+    );
+    void setCenter(x + width / 2, y + height / 2, {
+      zoom: Math.max(getZoom(), 0.8),
+      duration: glide(GLIDE_MS),
+    });
     setWanted(null);
   }, [wanted, now, getNodesBounds, setCenter, getZoom]);
   return (element) => {
@@ -169,7 +209,8 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
   };
 }
 
-// Until somebody reaches in, everything is in sight, whatever size the panel gets: at first it is seldom its own. Gives what to call then.
+// Until somebody reaches in, everything is in sight, whatever size the panel gets: at first it is seldom its
+// own. Gives what to call then.
 function useWhole(around: RefObject<HTMLElement | null>): () => void {
   const { fitView } = useReactFlow();
   const touched = useRef(false);
@@ -195,5 +236,7 @@ function miniClass({ type }: SceneNode): string {
 }
 
 function isTyping(target: EventTarget | null): boolean {
-  return target instanceof HTMLElement && (target.isContentEditable || target.matches("input, textarea, select"));
+  return (
+    target instanceof HTMLElement && (target.isContentEditable || target.matches("input, textarea, select"))
+  );
 }

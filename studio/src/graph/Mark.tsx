@@ -1,4 +1,5 @@
-// What is wrong with an element, as a mark on its box: an octagon for a problem, a triangle for a warning. It selects the element.
+// What is wrong with an element, as a mark on its box: an octagon for a problem, a triangle for a warning. It
+// selects the element.
 
 import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
 import { useStudio } from "../store";
@@ -29,5 +30,12 @@ export function Mark({ element }: { element: string }) {
 
 export function MarkIcon({ problem, size }: { problem: boolean; size: number }) {
   const Icon = problem ? IconAlertOctagon : IconAlertTriangle;
-  return <Icon className="graph-mark-icon" data-severity={problem ? "problem" : "warning"} size={size} aria-hidden />;
+  return (
+    <Icon
+      className="graph-mark-icon"
+      data-severity={problem ? "problem" : "warning"}
+      size={size}
+      aria-hidden
+    />
+  );
 }

@@ -20,7 +20,9 @@ export function Pill({ element: id }: { element: string }) {
   const said = trouble !== "" ? trouble : warning !== "" ? `Warning: ${warning}` : "";
   const number = useStudio(({ elements, kinds, document }) => {
     const element = elements.get(id);
-    return element === undefined || document === null ? "" : mainNumber(element, kinds.get(element.kind), document);
+    return element === undefined || document === null
+      ? ""
+      : mainNumber(element, kinds.get(element.kind), document);
   });
   const { enter, leave } = useHover.getState();
   return (
@@ -36,7 +38,13 @@ export function Pill({ element: id }: { element: string }) {
         event.stopPropagation();
         const { selected: before, select } = useStudio.getState();
         const rest = before.filter((other) => other !== id);
-        select(event.shiftKey || event.ctrlKey || event.metaKey ? (rest.length < before.length ? rest : [...before, id]) : [id]);
+        select(
+          event.shiftKey || event.ctrlKey || event.metaKey
+            ? rest.length < before.length
+              ? rest
+              : [...before, id]
+            : [id],
+        );
       }}
       onDoubleClick={(event) => {
         event.stopPropagation();

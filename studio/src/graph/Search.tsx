@@ -35,7 +35,11 @@ export function Search({ onFound, onClose }: Props) {
               if (event.key === "Escape") {
                 event.stopPropagation();
                 onClose();
-              } else if (event.key === "Enter" && combobox.getSelectedOptionIndex() < 0 && found[0] !== undefined) {
+              } else if (
+                event.key === "Enter" &&
+                combobox.getSelectedOptionIndex() < 0 &&
+                found[0] !== undefined
+              ) {
                 event.preventDefault();
                 onFound(found[0].element);
               }

@@ -1,6 +1,13 @@
 // A connection on the canvas, with the couplings that stand on it.
 
-import { BaseEdge, EdgeLabelRenderer, useInternalNode, useStoreApi, type EdgeProps, type InternalNode } from "@xyflow/react";
+import {
+  BaseEdge,
+  EdgeLabelRenderer,
+  useInternalNode,
+  useStoreApi,
+  type EdgeProps,
+  type InternalNode,
+} from "@xyflow/react";
 import { memo } from "react";
 import { useStudio } from "../store";
 import { Pill } from "./Pill";
@@ -13,18 +20,41 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   const from = useInternalNode(source);
   const to = useInternalNode(target);
   const flow = useStoreApi();
-  const touched = useStudio(({ selected }) => selected.includes(source) || selected.includes(target) || (data?.pills.some((p) => selected.includes(p)) ?? false));
+  const touched = useStudio(
+    ({ selected }) =>
+      selected.includes(source) ||
+      selected.includes(target) ||
+      (data?.pills.some((p) => selected.includes(p)) ?? false),
+  );
   if (from === undefined || to === undefined || data === undefined) {
     return null;
   }
-  const { path, middle } = course({ x: sourceX, y: sourceY }, { x: targetX, y: targetY }, rect(from), rect(to), data.lane, () => boxes(flow.getState().nodeLookup));
+  const { path, middle } = course(
+    { x: sourceX, y: sourceY },
+    { x: targetX, y: targetY },
+    rect(from),
+    rect(to),
+    data.lane,
+    () => boxes(flow.getState().nodeLookup),
+  );
   const several = data.count > 1;
   return (
     <>
-      <BaseEdge id={id} path={path} markerEnd={markerEnd} interactionWidth={12} className="graph-wire" data-reads={data.reads} data-touched={touched || undefined} />
+      <BaseEdge
+        id={id}
+        path={path}
+        markerEnd={markerEnd}
+        interactionWidth={12}
+        className="graph-wire"
+        data-reads={data.reads}
+        data-touched={touched || undefined}
+      />
       {(data.pills.length > 0 || several) && (
         <EdgeLabelRenderer>
-          <div className="graph-pills" style={{ transform: `translate(-50%, -50%) translate(${middle.x}px, ${middle.y}px)` }}>
+          <div
+            className="graph-pills"
+            style={{ transform: `translate(-50%, -50%) translate(${middle.x}px, ${middle.y}px)` }}
+          >
             {several ? (
               <span className="graph-count" title={`${data.count} connections`}>
                 {data.count}

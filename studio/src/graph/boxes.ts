@@ -20,7 +20,10 @@ export function liveHeight(element: ElementView): number {
 export function boxSize(element: ElementView): Size {
   const live = liveHeight(element);
   const ports = Math.max(element.inputs.length, element.outputs.length);
-  return { width: BOX.width, height: Math.max(BOX.title + (live === 0 ? 0 : live + BOX.pad), BOX.port * (ports + 1)) };
+  return {
+    width: BOX.width,
+    height: Math.max(BOX.title + (live === 0 ? 0 : live + BOX.pad), BOX.port * (ports + 1)),
+  };
 }
 
 // The height at which the n-th of so many ports of one side stands.

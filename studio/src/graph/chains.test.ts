@@ -12,7 +12,13 @@ const KINDS = kindsOf(
 
 const gain = (id: string, kind = "Gain") => fakeElement(id, kind);
 const of = (ids: string[], ...paths: string[]) =>
-  chains(fakeDocument([fakeElement("u"), fakeElement("v"), ...ids.map((id) => gain(id))], fakeConnections(...paths)), KINDS);
+  chains(
+    fakeDocument(
+      [fakeElement("u"), fakeElement("v"), ...ids.map((id) => gain(id))],
+      fakeConnections(...paths),
+    ),
+    KINDS,
+  );
 
 test("a connection without couplings is an edge", () => {
   const { edges, couplings } = of([], "u v");
@@ -22,7 +28,9 @@ test("a connection without couplings is an edge", () => {
 
 test("couplings in a chain stand on one edge, in their order", () => {
   const { edges, couplings } = of(["b", "a"], "u a b v");
-  expect(edges).toMatchObject([{ source: "u", source_port: "output", target: "v", target_port: "input", couplings: ["a", "b"] }]);
+  expect(edges).toMatchObject([
+    { source: "u", source_port: "output", target: "v", target_port: "input", couplings: ["a", "b"] },
+  ]);
   expect([...couplings].sort()).toEqual(["a", "b"]);
 });
 
@@ -48,7 +56,10 @@ test("a chain goes on from a coupling that is a node", () => {
 
 test("a coupling with two input ports is a node", () => {
   const two = fakeElement("a", "Gain", { inputs: ["input", "other"] });
-  const found = chains(fakeDocument([fakeElement("u"), two, fakeElement("v")], fakeConnections("u a v")), KINDS);
+  const found = chains(
+    fakeDocument([fakeElement("u"), two, fakeElement("v")], fakeConnections("u a v")),
+    KINDS,
+  );
   expect(found.couplings.size).toBe(0);
 });
 
@@ -60,12 +71,18 @@ test("a ring of couplings alone has nowhere to stand, so they are nodes", () => 
 
 test("kinds of outside packages are couplings if there is nothing of their own to see", () => {
   const drawn = (kind: string) =>
-    chains(fakeDocument([fakeElement("u"), gain("a", kind), fakeElement("v")], fakeConnections("u a v")), KINDS).couplings.size;
+    chains(
+      fakeDocument([fakeElement("u"), gain("a", kind), fakeElement("v")], fakeConnections("u a v")),
+      KINDS,
+    ).couplings.size;
   expect(["Mine", "Sheet", "Unit", "unheard of"].map(drawn)).toEqual([1, 0, 0, 0]);
 });
 
 test("a chain is delayed if any of its connections is", () => {
-  const connections = fakeConnections("u a v").map((c, i) => ({ ...c, reads: i === 1 ? "delayed" : "current" }));
+  const connections = fakeConnections("u a v").map((c, i) => ({
+    ...c,
+    reads: i === 1 ? "delayed" : "current",
+  }));
   const found = chains(fakeDocument([fakeElement("u"), gain("a"), fakeElement("v")], connections), KINDS);
   expect(found.edges[0]?.reads).toBe("delayed");
 });

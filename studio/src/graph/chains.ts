@@ -25,7 +25,10 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   const from = by(connections, "source");
   const links = new Set(
     document.elements
-      .filter((e) => isCoupling(e, kinds.get(e.kind)) && into.get(e.id)?.length === 1 && from.get(e.id)?.length === 1)
+      .filter(
+        (e) =>
+          isCoupling(e, kinds.get(e.kind)) && into.get(e.id)?.length === 1 && from.get(e.id)?.length === 1,
+      )
       .map((e) => e.id),
   );
   const edges: Chain[] = [];
@@ -42,7 +45,12 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   return { edges, couplings };
 }
 
-function follow(first: ConnectionView, links: Set<string>, from: Map<string, ConnectionView[]>, passed: Set<string>): Chain {
+function follow(
+  first: ConnectionView,
+  links: Set<string>,
+  from: Map<string, ConnectionView[]>,
+  passed: Set<string>,
+): Chain {
   const on: string[] = [];
   let last = first;
   let reads = first.reads;
@@ -62,7 +70,8 @@ function edge(first: ConnectionView, last: ConnectionView, couplings: string[], 
   return { id, source, source_port, target, target_port, couplings, reads };
 }
 
-// Kinds of outside packages do not say whether they are couplings: one with axes or levels of its own is something to look at.
+// Kinds of outside packages do not say whether they are couplings: one with axes or levels of its own is
+// something to look at.
 function isCoupling(element: ElementView, kind: Kind | undefined): boolean {
   if (kind === undefined || element.inputs.length !== 1 || element.outputs.length !== 1) {
     return false;

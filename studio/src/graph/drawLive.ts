@@ -6,7 +6,13 @@ import type { Live } from "../streams";
 import { follow, open, type Span } from "./range";
 import { short } from "./facts";
 
-export type Canvas = { element: HTMLCanvasElement; width: number; height: number; span: Span | null; port: string };
+export type Canvas = {
+  element: HTMLCanvasElement;
+  width: number;
+  height: number;
+  span: Span | null;
+  port: string;
+};
 
 // A screen's own pixels, but not more than pay for themselves in a box this small.
 const ratio = (): number => Math.min(2, window.devicePixelRatio);
@@ -33,7 +39,14 @@ export function drawLive(canvas: Canvas, { form, frame }: Live): void {
     squares(canvas, true);
     const most = Math.max(-lower, upper);
     const both = lower < 0;
-    paintHeat(canvas.element, values, form.shape[0] ?? 1, form.shape[1] ?? 1, both ? [-most, most] : [0, upper], both ? diverging : sequential);
+    paintHeat(
+      canvas.element,
+      values,
+      form.shape[0] ?? 1,
+      form.shape[1] ?? 1,
+      both ? [-most, most] : [0, upper],
+      both ? diverging : sequential,
+    );
   }
 }
 
@@ -49,7 +62,14 @@ function drawCurve(canvas: Canvas, values: Float32Array, lower: number, upper: n
   const { width, height, port } = canvas;
   const edge = 3;
   ctx.translate(0, edge);
-  const how = { width, height: height - 2 * edge, lower, upper, color: portColor(port, [port], shade()), zero: ink().line };
+  const how = {
+    width,
+    height: height - 2 * edge,
+    lower,
+    upper,
+    color: portColor(port, [port], shade()),
+    zero: ink().line,
+  };
   paintCurve(ctx, values.length === 1 ? [values[0] as number, values[0] as number] : values, how);
 }
 
@@ -79,7 +99,9 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
 
 // Digits that stand still enough to be read.
 function rounded(value: number): string {
-  return Math.abs(value) >= 1000 || (value !== 0 && Math.abs(value) < 0.01) ? short(Number(value.toPrecision(3))) : value.toFixed(2).replace("-", "−");
+  return Math.abs(value) >= 1000 || (value !== 0 && Math.abs(value) < 0.01)
+    ? short(Number(value.toPrecision(3)))
+    : value.toFixed(2).replace("-", "−");
 }
 
 function prepared(canvas: Canvas): CanvasRenderingContext2D | null {
@@ -113,7 +135,12 @@ function ink(): Ink {
   if (found === undefined) {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string) => style.getPropertyValue(name).trim();
-    found = { line: read("--border-strong"), ground: read("--border"), text: read("--text"), font: `12px ${getComputedStyle(document.body).fontFamily}` };
+    found = {
+      line: read("--border-strong"),
+      ground: read("--border"),
+      text: read("--text"),
+      font: `12px ${getComputedStyle(document.body).fontFamily}`,
+    };
     inks.set(now, found);
   }
   return found;

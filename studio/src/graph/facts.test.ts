@@ -13,7 +13,13 @@ const KIND = fakeKind("Field", "elements", {
 });
 const KINDS = kindsOf(KIND, fakeKind("Gaussian", "kernels", { title: "Gaussian kernel" }));
 const ELEMENT = fakeElement("u", "Field", {
-  values: { tau: 20, center: [1, -2.5], reduce: "max", file: "a.png", kernel: [{ kind: "Gaussian" }, { kind: "Own" }] },
+  values: {
+    tau: 20,
+    center: [1, -2.5],
+    reduce: "max",
+    file: "a.png",
+    kernel: [{ kind: "Gaussian" }, { kind: "Own" }],
+  },
   axes: { output: ["x"] },
 });
 const AXES = [{ key: "x", name: "x", lower: 0, upper: 1, samples: 5, periodic: false, unit: "deg" }];
@@ -24,7 +30,10 @@ test("the main values of an element, numbers first, with units", () => {
 });
 
 test("what a document parameter drives has its value", () => {
-  const document = fakeDocument([ELEMENT], [], { axes: AXES, knobs: [{ name: "tempo", value: 35, links: [{ element: "u", parameter: "tau" }] }] });
+  const document = fakeDocument([ELEMENT], [], {
+    axes: AXES,
+    knobs: [{ name: "tempo", value: 35, links: [{ element: "u", parameter: "tau" }] }],
+  });
   expect(mainNumber(ELEMENT, KIND, document)).toBe("35 ms");
 });
 
@@ -34,5 +43,12 @@ test("a coupling without a number has none", () => {
 });
 
 test("numbers are short", () => {
-  expect([0, 1, -2.5, 0.1 + 0.2, 1234567, 0.00012].map(short)).toEqual(["0", "1", "−2.5", "0.3", "1.23e+6", "1.20e−4"]);
+  expect([0, 1, -2.5, 0.1 + 0.2, 1234567, 0.00012].map(short)).toEqual([
+    "0",
+    "1",
+    "−2.5",
+    "0.3",
+    "1.23e+6",
+    "1.20e−4",
+  ]);
 });

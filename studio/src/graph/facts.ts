@@ -17,37 +17,68 @@ export function facts(element: ElementView, kind: Kind, kinds: Map<string, Kind>
     .sort((a, b) => rank(a) - rank(b))
     .flatMap((form) => {
       const value = said(form, current(element, form.name, context), element, kinds, context);
-      return value === "" ? [] : [{ name: form.name, label: form.meaning === "" ? form.name : form.meaning, symbol: form.symbol, value }];
+      return value === ""
+        ? []
+        : [
+            {
+              name: form.name,
+              label: form.meaning === "" ? form.name : form.meaning,
+              symbol: form.symbol,
+              value,
+            },
+          ];
     })
     .slice(0, MOST);
 }
 
 // The number that a coupling is known by: its first parameter that is a number. Empty where it has none.
 export function mainNumber(element: ElementView, kind: Kind | undefined, context: Context): string {
-  const form = kind?.parameters.find((p) => p.form === "number" && typeof current(element, p.name, context) === "number");
-  return form === undefined ? "" : withUnit(short(current(element, form.name, context) as number), unitOf(form.unit, element, context));
+  const form = kind?.parameters.find(
+    (p) => p.form === "number" && typeof current(element, p.name, context) === "number",
+  );
+  return form === undefined
+    ? ""
+    : withUnit(short(current(element, form.name, context) as number), unitOf(form.unit, element, context));
 }
 
 // At most four digits that count, with a true minus sign.
 export function short(value: number): string {
-  const text = value !== 0 && (Math.abs(value) >= 1e5 || Math.abs(value) < 1e-3) ? value.toExponential(2) : String(Number(value.toPrecision(4)));
+  const text =
+    value !== 0 && (Math.abs(value) >= 1e5 || Math.abs(value) < 1e-3)
+      ? value.toExponential(2)
+      : String(Number(value.toPrecision(4)));
   return text.replaceAll("-", "−");
 }
 
 // The value that counts: what a document parameter drives stands at the value of that one.
 function current(element: ElementView, name: string, { knobs }: Context): unknown {
-  const knob = knobs.find((k) => k.links.some((link) => link.element === element.id && link.parameter === name));
+  const knob = knobs.find((k) =>
+    k.links.some((link) => link.element === element.id && link.parameter === name),
+  );
   return knob?.value ?? element.values[name];
 }
 
-function said(form: ParameterForm, value: unknown, element: ElementView, kinds: Map<string, Kind>, context: Context): string {
+function said(
+  form: ParameterForm,
+  value: unknown,
+  element: ElementView,
+  kinds: Map<string, Kind>,
+  context: Context,
+): string {
   const unit = unitOf(form.unit, element, context);
   switch (form.form) {
     case "number":
     case "integer":
       return typeof value === "number" ? withUnit(short(value), unit) : "";
     case "per_axis":
-      return withUnit(typeof value === "number" ? short(value) : Array.isArray(value) ? value.map((v) => (typeof v === "number" ? short(v) : "")).join(", ") : "", unit);
+      return withUnit(
+        typeof value === "number"
+          ? short(value)
+          : Array.isArray(value)
+            ? value.map((v) => (typeof v === "number" ? short(v) : "")).join(", ")
+            : "",
+        unit,
+      );
     case "flag":
       return typeof value === "boolean" ? (value ? "yes" : "no") : "";
     case "text":
@@ -68,7 +99,11 @@ function title(part: unknown, kinds: Map<string, Kind>): string {
 
 function unitOf(unit: string, element: ElementView, { axes, time_unit }: Context): string {
   const keys = element.axes[element.outputs[0] ?? ""] ?? [];
-  return unitText(unit, time_unit, keys.flatMap((key) => axes.find((axis) => axis.key === key) ?? []));
+  return unitText(
+    unit,
+    time_unit,
+    keys.flatMap((key) => axes.find((axis) => axis.key === key) ?? []),
+  );
 }
 
 function withUnit(text: string, unit: string): string {

@@ -24,21 +24,64 @@ export function fakeElement(path: string, kind = "Field", more: Partial<ElementV
 export function fakeConnections(...paths: string[]): ConnectionView[] {
   return paths.flatMap((path) => {
     const on = path.split(" ");
-    return on.slice(1).map((target, i) => ({ source: on[i] as string, source_port: "output", target, target_port: "input", reads: "" }));
+    return on.slice(1).map((target, i) => ({
+      source: on[i] as string,
+      source_port: "output",
+      target,
+      target_port: "input",
+      reads: "",
+    }));
   });
 }
 
-export function fakeDocument(elements: ElementView[], connections: ConnectionView[] = [], more: Partial<DocumentView> = {}): DocumentView {
-  const rest = { notes: "", axes: [], groups: [], knobs: [], layout: {}, problems: [], unsaved: false, undo: 0, redo: 0 };
+export function fakeDocument(
+  elements: ElementView[],
+  connections: ConnectionView[] = [],
+  more: Partial<DocumentView> = {},
+): DocumentView {
+  const rest = {
+    notes: "",
+    axes: [],
+    groups: [],
+    knobs: [],
+    layout: {},
+    problems: [],
+    unsaved: false,
+    undo: 0,
+    redo: 0,
+  };
   return { file: "", title: "test", time_unit: "ms", dt: 1, ...rest, elements, connections, ...more };
 }
 
 export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): Kind {
-  return { name, room, title: name, equation: [], reference: "", parameters: [], ports: {}, levels: {}, example: null, ...more };
+  return {
+    name,
+    room,
+    title: name,
+    equation: [],
+    reference: "",
+    parameters: [],
+    ports: {},
+    levels: {},
+    example: null,
+    ...more,
+  };
 }
 
-export function fakeForm(name: string, form: ParameterForm["form"], more: Partial<ParameterForm> = {}): ParameterForm {
-  const rest = { cost: "live" as const, meaning: name, description: "", symbol: "", unit: "", lower: null, upper: null };
+export function fakeForm(
+  name: string,
+  form: ParameterForm["form"],
+  more: Partial<ParameterForm> = {},
+): ParameterForm {
+  const rest = {
+    cost: "live" as const,
+    meaning: name,
+    description: "",
+    symbol: "",
+    unit: "",
+    lower: null,
+    upper: null,
+  };
   return { name, form, ...rest, default: null, optional: false, choices: [], of: [], ...more };
 }
 

@@ -2,8 +2,16 @@ import { expect, test } from "vitest";
 import { fakeElement, fakeKind, kindsOf } from "./fakes";
 import { find } from "./find";
 
-const KINDS = kindsOf(fakeKind("Field", "elements", { title: "Neural field" }), fakeKind("Gain", "couplings", { title: "Gain" }));
-const ELEMENTS = [fakeElement("arm.field"), fakeElement("field"), fakeElement("arm.hand.grip"), fakeElement("k", "Gain")];
+const KINDS = kindsOf(
+  fakeKind("Field", "elements", { title: "Neural field" }),
+  fakeKind("Gain", "couplings", { title: "Gain" }),
+);
+const ELEMENTS = [
+  fakeElement("arm.field"),
+  fakeElement("field"),
+  fakeElement("arm.hand.grip"),
+  fakeElement("k", "Gain"),
+];
 
 const paths = (text: string) => find(text, ELEMENTS, KINDS).map((found) => found.path);
 

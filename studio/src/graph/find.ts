@@ -8,10 +8,21 @@ const MOST = 50;
 
 // Every word has to be somewhere; names that begin with what was typed come first.
 export function find(text: string, elements: ElementView[], kinds: Map<string, Kind>): Found[] {
-  const words = text.toLowerCase().split(/\s+/).filter((word) => word !== "");
+  const words = text
+    .toLowerCase()
+    .split(/\s+/)
+    .filter((word) => word !== "");
   return elements
-    .map((e) => ({ element: e.id, path: e.path, title: kinds.get(e.kind)?.title ?? e.kind, name: e.name.toLowerCase(), kind: e.kind }))
-    .filter(({ path, title, kind }) => words.every((word) => `${path} ${title} ${kind}`.toLowerCase().includes(word)))
+    .map((e) => ({
+      element: e.id,
+      path: e.path,
+      title: kinds.get(e.kind)?.title ?? e.kind,
+      name: e.name.toLowerCase(),
+      kind: e.kind,
+    }))
+    .filter(({ path, title, kind }) =>
+      words.every((word) => `${path} ${title} ${kind}`.toLowerCase().includes(word)),
+    )
     .map((found) => ({ found, rank: rank(found.name, words) }))
     .sort((a, b) => a.rank - b.rank || a.found.path.localeCompare(b.found.path))
     .slice(0, MOST)

@@ -9,7 +9,8 @@ type Run = { from: number; to: number; y: number; lane: number };
 // Edges closer than this to each other could be mistaken for one.
 const NEAR = 70;
 
-// Edges ahead count among those between the same two nodes; edges back among those that run below the same stretch, the short ones first.
+// Edges ahead count among those between the same two nodes; edges back among those that run below the same
+// stretch, the short ones first.
 export function lanes(wires: Wire[], rectOf: (node: string) => Rect): void {
   const pairs = new Map<string, number>();
   const back: { wire: Wire; run: Run }[] = [];
@@ -27,7 +28,11 @@ export function lanes(wires: Wire[], rectOf: (node: string) => Rect): void {
   }
   const settled: Run[] = [];
   for (const { wire, run } of back.sort((a, b) => a.run.to - a.run.from - (b.run.to - b.run.from))) {
-    const taken = new Set(settled.filter((other) => other.from <= run.to && run.from <= other.to && Math.abs(other.y - run.y) < NEAR).map(({ lane }) => lane));
+    const taken = new Set(
+      settled
+        .filter((other) => other.from <= run.to && run.from <= other.to && Math.abs(other.y - run.y) < NEAR)
+        .map(({ lane }) => lane),
+    );
     while (taken.has(run.lane)) {
       run.lane += 1;
     }

@@ -5,10 +5,25 @@ import { tree } from "./tree";
 
 const SIZE = { width: 100, height: 50 };
 
-function laid(paths: string[], bonds: [string, string][], boxes: Record<string, Point> = {}, folded: string[] = []) {
-  const found = tree(paths.map((path) => fakeElement(path)), [], folded, new Set());
+function laid(
+  paths: string[],
+  bonds: [string, string][],
+  boxes: Record<string, Point> = {},
+  folded: string[] = [],
+) {
+  const found = tree(
+    paths.map((path) => fakeElement(path)),
+    [],
+    folded,
+    new Set(),
+  );
   const sizes = new Map(paths.map((path) => [path, SIZE]));
-  const where = places(found.root, sizes, bonds.map(([source, target]) => ({ source, target, room: 0 })), new Map(Object.entries(boxes)));
+  const where = places(
+    found.root,
+    sizes,
+    bonds.map(([source, target]) => ({ source, target, room: 0 })),
+    new Map(Object.entries(boxes)),
+  );
   const at = (id: string) => where.elements.get(id) ?? { x: NaN, y: NaN };
   return { ...where, at };
 }
@@ -18,14 +33,27 @@ function meet(a: Rect, b: Rect): boolean {
 }
 
 test("connected elements stand from left to right", () => {
-  const { at } = laid(["b", "a", "c"], [["a", "b"], ["b", "c"]]);
+  const { at } = laid(
+    ["b", "a", "c"],
+    [
+      ["a", "b"],
+      ["b", "c"],
+    ],
+  );
   expect(at("a").x + SIZE.width).toBeLessThan(at("b").x);
   expect(at("b").x + SIZE.width).toBeLessThan(at("c").x);
 });
 
 test("boxes stay where the document has them, the rest stands beside them", () => {
   const boxes = { a: { x: 1000, y: 500 }, b: { x: 1200, y: 500 } };
-  const { at } = laid(["a", "b", "c"], [["a", "b"], ["b", "c"]], boxes);
+  const { at } = laid(
+    ["a", "b", "c"],
+    [
+      ["a", "b"],
+      ["b", "c"],
+    ],
+    boxes,
+  );
   expect([at("a"), at("b")]).toEqual([boxes.a, boxes.b]);
   expect(at("c").x).toBeGreaterThan(1250);
   expect(Math.abs(at("c").y - 500)).toBeLessThan(100);
@@ -38,7 +66,13 @@ test("what has no place is not put onto what has one", () => {
 });
 
 test("a group holds what is in it", () => {
-  const { at, groups } = laid(["g.a", "g.h.b", "c"], [["g.a", "g.h.b"], ["g.h.b", "c"]]);
+  const { at, groups } = laid(
+    ["g.a", "g.h.b", "c"],
+    [
+      ["g.a", "g.h.b"],
+      ["g.h.b", "c"],
+    ],
+  );
   const [outer, inner] = [groups.get("g") as Rect, groups.get("g/h") as Rect];
   expect(outer.x + FRAME.side).toBeLessThanOrEqual(at("g.a").x);
   expect(outer.x + outer.width).toBeGreaterThanOrEqual(inner.x + inner.width + FRAME.side);
@@ -47,7 +81,15 @@ test("a group holds what is in it", () => {
 });
 
 test("a folded group is as large as a box; what is in it keeps places for later", () => {
-  const { at, groups } = laid(["g.a", "g.b", "c"], [["g.a", "g.b"], ["g.b", "c"]], {}, ["g"]);
+  const { at, groups } = laid(
+    ["g.a", "g.b", "c"],
+    [
+      ["g.a", "g.b"],
+      ["g.b", "c"],
+    ],
+    {},
+    ["g"],
+  );
   expect(groups.get("g")).toMatchObject(FOLDED);
   expect(at("g.b").x - at("g.a").x).toBeGreaterThan(SIZE.width);
 });
@@ -60,6 +102,13 @@ test("a group that is unfolded pushes away what it would cover", () => {
 });
 
 test("rings are laid out too", () => {
-  const { at } = laid(["a", "b"], [["a", "b"], ["b", "a"], ["a", "a"]]);
+  const { at } = laid(
+    ["a", "b"],
+    [
+      ["a", "b"],
+      ["b", "a"],
+      ["a", "a"],
+    ],
+  );
   expect(Math.abs(at("a").x - at("b").x)).toBeGreaterThanOrEqual(SIZE.width);
 });

@@ -1,4 +1,5 @@
-// Where everything stands: boxes as the document gives them, the rest by dagre from left to right, group by group from inside out.
+// Where everything stands: boxes as the document gives them, the rest by dagre from left to right, group by
+// group from inside out.
 
 import { Graph, layout as arrange } from "@dagrejs/dagre";
 import type { Branch } from "./tree";
@@ -21,8 +22,14 @@ const GAP = { rank: 56, node: 28, pill: 24, apart: 24 };
 type Item = { id: string; rect: Rect; placed: boolean; inner: Laid | null; group: Branch | null };
 type Laid = { items: Item[]; rect: Rect; placed: boolean };
 
-// Positions on the canvas of all elements, also of those inside folded groups, and the rectangles of all groups.
-export function places(root: Branch, sizes: Map<string, Size>, bonds: Bond[], boxes: Map<string, Point>): Places {
+// Positions on the canvas of all elements, also of those inside folded groups, and the rectangles of all
+// groups.
+export function places(
+  root: Branch,
+  sizes: Map<string, Size>,
+  bonds: Bond[],
+  boxes: Map<string, Point>,
+): Places {
   const found: Places = { elements: new Map(), groups: new Map() };
   collect(level(root, sizes, bonds, boxes), { x: 0, y: 0 }, found);
   return found;
@@ -31,7 +38,13 @@ export function places(root: Branch, sizes: Map<string, Size>, bonds: Bond[], bo
 function level(branch: Branch, sizes: Map<string, Size>, bonds: Bond[], boxes: Map<string, Point>): Laid {
   const items: Item[] = branch.elements.map((id) => {
     const box = boxes.get(id);
-    return { id, rect: { ...(box ?? { x: 0, y: 0 }), ...sizeOf(sizes, id) }, placed: box !== undefined, inner: null, group: null };
+    return {
+      id,
+      rect: { ...(box ?? { x: 0, y: 0 }), ...sizeOf(sizes, id) },
+      placed: box !== undefined,
+      inner: null,
+      group: null,
+    };
   });
   for (const group of branch.groups) {
     const inner = level(group, sizes, bonds, boxes);
@@ -44,7 +57,8 @@ function level(branch: Branch, sizes: Map<string, Size>, bonds: Bond[], boxes: M
   return { items, rect: frameAround(items), placed };
 }
 
-// dagre for the items that have no place yet; those that have one stay, and the others come to stand as dagre sees them from there.
+// dagre for the items that have no place yet; those that have one stay, and the others come to stand as dagre
+// sees them from there.
 function spread(items: Item[], bonds: Bond[]): void {
   const free = items.filter((item) => !item.placed);
   if (free.length === 0) {
@@ -52,14 +66,15 @@ function spread(items: Item[], bonds: Bond[]): void {
   }
   const wished = byDagre(items, bonds);
   const fixed = items.filter((item) => item.placed);
-  const mean = (of: (item: Item) => number) => fixed.reduce((sum, item) => sum + of(item), 0) / Math.max(1, fixed.length);
+  const mean = (of: (item: Item) => number) =>
+    fixed.reduce((sum, item) => sum + of(item), 0) / Math.max(1, fixed.length);
   const dx = mean((item) => item.rect.x - (wished.get(item.id)?.x ?? 0));
   const dy = mean((item) => item.rect.y - (wished.get(item.id)?.y ?? 0));
   const taken = fixed.map((item) => item.rect);
   for (const item of free) {
     const wish = wished.get(item.id) ?? { x: 0, y: 0 };
     moveTo(item, wish.x + dx, wish.y + dy);
-    for (let hit = taken.find((rect) => meet(rect, item.rect)); fixed.length > 0 && hit !== undefined; ) {
+    for (let hit = taken.find((rect) => meet(rect, item.rect)); fixed.length > 0 && hit !== undefined;) {
       moveTo(item, item.rect.x, hit.y + hit.height + GAP.apart);
       hit = taken.find((rect) => meet(rect, item.rect));
     }
@@ -75,7 +90,12 @@ function byDagre(items: Item[], bonds: Bond[]): Map<string, Point> {
   }
   bonds.forEach(({ source, target, room }, i) => {
     if (source !== target) {
-      graph.setEdge(source, target, room > 0 ? { width: room, height: GAP.pill, labelpos: "c" } : { width: 0, height: 0 }, String(i));
+      graph.setEdge(
+        source,
+        target,
+        room > 0 ? { width: room, height: GAP.pill, labelpos: "c" } : { width: 0, height: 0 },
+        String(i),
+      );
     }
   });
   arrange(graph);
@@ -102,7 +122,8 @@ function lifted(branch: Branch, bonds: Bond[]): Bond[] {
   });
 }
 
-// An open group that grew (unfolded, or given another element) pushes what it covers to the right or down, whichever is less.
+// An open group that grew (unfolded, or given another element) pushes what it covers to the right or down,
+// whichever is less.
 function makeRoom(items: Item[]): void {
   const order = [...items].sort((a, b) => a.rect.x - b.rect.x || a.rect.y - b.rect.y);
   const settled: Item[] = [];

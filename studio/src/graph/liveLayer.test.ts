@@ -10,7 +10,13 @@ beforeEach(() => {
   vi.useFakeTimers();
   vi.stubGlobal("window", { devicePixelRatio: 1, setTimeout, clearTimeout });
   vi.stubGlobal("requestAnimationFrame", (frame: () => void) => frames.push(frame));
-  vi.stubGlobal("ResizeObserver", class { observe() {} disconnect() {} });
+  vi.stubGlobal(
+    "ResizeObserver",
+    class {
+      observe() {}
+      disconnect() {}
+    },
+  );
 });
 afterEach(() => {
   frames = [];
@@ -18,14 +24,33 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-const rect = (left: number, top: number, width: number, height: number) => ({ left, top, width, height, right: left + width, bottom: top + height });
-const slot = (left: number, top: number) => ({ getBoundingClientRect: () => rect(left, top, 100, 50) }) as unknown as HTMLElement;
+const rect = (left: number, top: number, width: number, height: number) => ({
+  left,
+  top,
+  width,
+  height,
+  right: left + width,
+  bottom: top + height,
+});
+const slot = (left: number, top: number) =>
+  ({ getBoundingClientRect: () => rect(left, top, 100, 50) }) as unknown as HTMLElement;
 const picture = (style = {}) => ({ width: 100, height: 100, style }) as unknown as HTMLCanvasElement;
 
 function stage() {
   const drawn: Drawn[] = [];
-  const ctx = { setTransform: () => {}, clearRect: () => drawn.splice(0), drawImage: (...given: Drawn) => drawn.push(given), imageSmoothingEnabled: true };
-  const canvas = { width: 0, height: 0, style: { transform: "" }, getBoundingClientRect: () => rect(10, 20, 400, 300), getContext: () => ctx };
+  const ctx = {
+    setTransform: () => {},
+    clearRect: () => drawn.splice(0),
+    drawImage: (...given: Drawn) => drawn.push(given),
+    imageSmoothingEnabled: true,
+  };
+  const canvas = {
+    width: 0,
+    height: 0,
+    style: { transform: "" },
+    getBoundingClientRect: () => rect(10, 20, 400, 300),
+    getContext: () => ctx,
+  };
   const layer = new LiveLayer();
   layer.attach(canvas as unknown as HTMLCanvasElement);
   return { layer, canvas, drawn };

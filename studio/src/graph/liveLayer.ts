@@ -1,5 +1,6 @@
-// All live pictures on one canvas over the boxes: a browser pays for every canvas that it puts on the page, and hundreds of small ones cost
-// more than one large one. Each box draws its picture on a canvas of its own that is not on the page; here they are copied to where the boxes stand.
+// All live pictures on one canvas over the boxes: a browser pays for every canvas that it puts on the page,
+// and hundreds of small ones cost more than one large one. Each box draws its picture on a canvas of its own
+// that is not on the page; here they are copied to where the boxes stand.
 
 import type { Viewport } from "@xyflow/react";
 
@@ -45,7 +46,8 @@ export class LiveLayer {
     }
   }
 
-  // While the view is moved the layer moves with it as it is, which costs a browser nothing; null: it stands still, and is painted anew.
+  // While the view is moved the layer moves with it as it is, which costs a browser nothing; null: it stands
+  // still, and is painted anew.
   move(view: Viewport | null): void {
     if (this.canvas === null) {
       return;
@@ -60,7 +62,9 @@ export class LiveLayer {
     this.still = window.setTimeout(() => this.move(null), STILL_MS);
     this.from ??= view;
     const scale = view.zoom / this.from.zoom;
-    this.canvas.style.transform = `translate(${view.x - this.from.x * scale}px, ${view.y - this.from.y * scale}px) scale(${scale})`;
+    const x = view.x - this.from.x * scale;
+    const y = view.y - this.from.y * scale;
+    this.canvas.style.transform = `translate(${x}px, ${y}px) scale(${scale})`;
   }
 
   // Show everything now, unless the view is being moved.
@@ -85,11 +89,26 @@ export class LiveLayer {
     ctx.clearRect(0, 0, base.width, base.height);
     for (const [slot, picture] of this.pictures) {
       const at = slot.getBoundingClientRect();
-      if (at.right > base.left && at.left < base.right && at.bottom > base.top && at.top < base.bottom && picture.width > 0) {
-        const whole = picture.style.objectFit === "contain" ? Math.min(at.width / picture.width, at.height / picture.height) : 0;
+      if (
+        at.right > base.left &&
+        at.left < base.right &&
+        at.bottom > base.top &&
+        at.top < base.bottom &&
+        picture.width > 0
+      ) {
+        const whole =
+          picture.style.objectFit === "contain"
+            ? Math.min(at.width / picture.width, at.height / picture.height)
+            : 0;
         const [w, h] = whole > 0 ? [picture.width * whole, picture.height * whole] : [at.width, at.height];
         ctx.imageSmoothingEnabled = picture.style.imageRendering !== "pixelated";
-        ctx.drawImage(picture, at.left - base.left + (at.width - w) / 2, at.top - base.top + (at.height - h) / 2, w, h);
+        ctx.drawImage(
+          picture,
+          at.left - base.left + (at.width - w) / 2,
+          at.top - base.top + (at.height - h) / 2,
+          w,
+          h,
+        );
       }
     }
   }

@@ -1,4 +1,5 @@
-// Where boxes stand after something was dragged: everything that is shown is kept where it is, so that nothing else moves.
+// Where boxes stand after something was dragged: everything that is shown is kept where it is, so that
+// nothing else moves.
 
 import type { Places, Point } from "./layout";
 import { groupNode, type SceneNode } from "./scene";
@@ -39,6 +40,8 @@ export function moved(nodes: SceneNode[], found: Tree, places: Places): Map<stri
 export function differ(boxes: Map<string, Point>, places: Places): boolean {
   return [...boxes].some(([id, { x, y }]) => {
     const before = places.elements.get(id);
-    return before === undefined || Math.round(before.x) !== Math.round(x) || Math.round(before.y) !== Math.round(y);
+    return (
+      before === undefined || Math.round(before.x) !== Math.round(x) || Math.round(before.y) !== Math.round(y)
+    );
   });
 }

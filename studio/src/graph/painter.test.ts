@@ -4,7 +4,9 @@ import { Painter } from "./painter";
 let frames: ((now: number) => void)[] = [];
 const next = (now = 0) => frames.splice(0).forEach((frame) => frame(now));
 
-beforeEach(() => vi.stubGlobal("requestAnimationFrame", (frame: (now: number) => void) => frames.push(frame)));
+beforeEach(() =>
+  vi.stubGlobal("requestAnimationFrame", (frame: (now: number) => void) => frames.push(frame)),
+);
 afterEach(() => {
   frames = [];
   vi.unstubAllGlobals();

@@ -1,10 +1,12 @@
-// When live boxes are drawn: in turn, as many for each picture of the browser as it can keep up with, and not while the canvas is moved.
+// When live boxes are drawn: in turn, as many for each picture of the browser as it can keep up with, and not
+// while the canvas is moved.
 
 type Draw = () => void;
 
 const BUDGET_MS = 5;
 
-// What a browser pays for a box comes after the drawing, when it puts the page together: it shows in the time between pictures.
+// What a browser pays for a box comes after the drawing, when it puts the page together: it shows in the time
+// between pictures.
 const FAST_MS = 24;
 const SLOW_MS = 36;
 const LEAST = 2;

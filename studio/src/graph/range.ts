@@ -1,4 +1,5 @@
-// The range that a small picture is drawn in: it grows at once and shrinks slowly, so that the eye can compare.
+// The range that a small picture is drawn in: it grows at once and shrinks slowly, so that the eye can
+// compare.
 
 export type Span = { lower: number; upper: number };
 

@@ -3,11 +3,21 @@ import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from ".
 import { differ, moved } from "./moved";
 import { foldedAround, groupNode, scene } from "./scene";
 
-const KINDS = kindsOf(fakeKind("Field", "elements", { title: "Neural field" }), fakeKind("Gain", "couplings"));
-const ELEMENTS = [fakeElement("s"), fakeElement("g.u"), fakeElement("g.v"), fakeElement("g.k", "Gain"), fakeElement("t")];
+const KINDS = kindsOf(
+  fakeKind("Field", "elements", { title: "Neural field" }),
+  fakeKind("Gain", "couplings"),
+);
+const ELEMENTS = [
+  fakeElement("s"),
+  fakeElement("g.u"),
+  fakeElement("g.v"),
+  fakeElement("g.k", "Gain"),
+  fakeElement("t"),
+];
 const WIRES = fakeConnections("s g.u", "s g.v", "g.u g.k g.v", "g.v t");
 
-const made = (folded: string[], boxes = {}) => scene(fakeDocument(ELEMENTS, WIRES, { layout: { folded, boxes } }), KINDS);
+const made = (folded: string[], boxes = {}) =>
+  scene(fakeDocument(ELEMENTS, WIRES, { layout: { folded, boxes } }), KINDS);
 
 test("an open group is a frame before its elements; couplings are on edges", () => {
   const { nodes, pills } = made([]);
@@ -18,7 +28,10 @@ test("an open group is a frame before its elements; couplings are on edges", () 
     ["s", "box"],
     ["t", "box"],
   ]);
-  expect(nodes.find((n) => n.id === "g.u")).toMatchObject({ parentId: "group:g", data: { title: "Neural field" } });
+  expect(nodes.find((n) => n.id === "g.u")).toMatchObject({
+    parentId: "group:g",
+    data: { title: "Neural field" },
+  });
   expect([...pills.keys()]).toEqual(["g.k"]);
 });
 
@@ -42,7 +55,9 @@ test("edges back take courses that differ", () => {
 test("a layout that nobody could have meant is passed over", () => {
   const odd = { boxes: { s: { x: "left", y: 1 }, t: null }, folded: [3, "g"] };
   expect(scene(fakeDocument(ELEMENTS, WIRES, { layout: odd }), KINDS).nodes).toHaveLength(3);
-  expect(scene(fakeDocument(ELEMENTS, WIRES, { layout: { boxes: 4, folded: "g" } }), KINDS).nodes).toHaveLength(5);
+  expect(
+    scene(fakeDocument(ELEMENTS, WIRES, { layout: { boxes: 4, folded: "g" } }), KINDS).nodes,
+  ).toHaveLength(5);
 });
 
 test("what hides an element is known", () => {
@@ -57,7 +72,9 @@ test("nothing moved is nothing to tell", () => {
 
 test("a frame that is moved takes its elements along", () => {
   const { nodes, tree, places } = made([]);
-  const shifted = nodes.map((n) => (n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 50, y: n.position.y } } : n));
+  const shifted = nodes.map((n) =>
+    n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 50, y: n.position.y } } : n,
+  );
   const boxes = moved(shifted, tree, places);
   expect(boxes.get("g.u")?.x).toBe((places.elements.get("g.u")?.x ?? 0) + 50);
   expect(boxes.get("s")).toEqual(places.elements.get("s"));
@@ -66,9 +83,14 @@ test("a frame that is moved takes its elements along", () => {
 
 test("a folded group that is moved takes along what it hides, and opens there", () => {
   const { nodes, tree, places } = made(["g"]);
-  const shifted = nodes.map((n) => (n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 300, y: n.position.y - 20 } } : n));
+  const shifted = nodes.map((n) =>
+    n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 300, y: n.position.y - 20 } } : n,
+  );
   const boxes = moved(shifted, tree, places);
-  expect(boxes.get("g.v")).toEqual({ x: (places.elements.get("g.v")?.x ?? 0) + 300, y: (places.elements.get("g.v")?.y ?? 0) - 20 });
+  expect(boxes.get("g.v")).toEqual({
+    x: (places.elements.get("g.v")?.x ?? 0) + 300,
+    y: (places.elements.get("g.v")?.y ?? 0) - 20,
+  });
   const again = made(["g"], Object.fromEntries(boxes));
   expect(again.places.groups.get("g")?.x).toBe((places.groups.get("g")?.x ?? 0) + 300);
 });

@@ -1,4 +1,5 @@
-// What the canvas shows of a document: nodes and edges as xyflow takes them. Pure; live values and parameters are no part of it.
+// What the canvas shows of a document: nodes and edges as xyflow takes them. Pure; live values and parameters
+// are no part of it.
 
 import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
 import type { DocumentView, ElementView, Kind } from "../protocol";
@@ -10,7 +11,14 @@ import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
 
 export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
 
-export type BoxData = { element: string; path: string; name: string; title: string; inputs: string[]; outputs: string[] };
+export type BoxData = {
+  element: string;
+  path: string;
+  name: string;
+  title: string;
+  inputs: string[];
+  outputs: string[];
+};
 export type GroupData = { key: string; name: string; count: number };
 export type WireData = { pills: string[]; reads: string; count: number; lane: number };
 
@@ -20,7 +28,13 @@ export type FoldedNode = Node<GroupData, "folded">;
 export type SceneNode = BoxNode | FrameNode | FoldedNode;
 export type Wire = Edge<WireData, "wire">;
 
-export type Scene = { nodes: SceneNode[]; wires: Wire[]; tree: Tree; places: Places; pills: Map<string, string> };
+export type Scene = {
+  nodes: SceneNode[];
+  wires: Wire[];
+  tree: Tree;
+  places: Places;
+  pills: Map<string, string>;
+};
 
 // Ids of nodes for groups cannot be those of elements, which are hashes.
 export const groupNode = (key: string): string => `group:${key}`;
@@ -33,7 +47,11 @@ export function scene(structure: Structure, kinds: Map<string, Kind>): Scene {
   const found = tree(elements, groups, readFolded(layout), chained.couplings);
   const names = new Map(elements.map((e) => [e.id, e]));
   const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e)]));
-  const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")) }));
+  const bonds = chained.edges.map((e) => ({
+    source: e.source,
+    target: e.target,
+    room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")),
+  }));
   const where = places(found.root, sizes, bonds, readBoxes(layout));
   const wires = wiresOf(chained.edges, found, names);
   lanes(wires, (node) => rectOf(node, where, sizes));
@@ -48,11 +66,21 @@ export function scene(structure: Structure, kinds: Map<string, Kind>): Scene {
 
 // The width that the pills of these names need on an edge, about.
 export function pillsWidth(names: string[]): number {
-  return names.reduce((sum, name) => sum + PILL.gap + Math.min(PILL.most, PILL.pad + PILL.letter * name.length), 0);
+  return names.reduce(
+    (sum, name) => sum + PILL.gap + Math.min(PILL.most, PILL.pad + PILL.letter * name.length),
+    0,
+  );
 }
 
-// Folded groups hide what is in them; an open group is a frame and stands before what is in it, as xyflow wants parents.
-function nodesOf(branch: Branch, names: Map<string, ElementView>, kinds: Map<string, Kind>, sizes: Map<string, Size>, where: Places): SceneNode[] {
+// Folded groups hide what is in them; an open group is a frame and stands before what is in it, as xyflow
+// wants parents.
+function nodesOf(
+  branch: Branch,
+  names: Map<string, ElementView>,
+  kinds: Map<string, Kind>,
+  sizes: Map<string, Size>,
+  where: Places,
+): SceneNode[] {
   const parent = branch.key === "" ? null : (where.groups.get(branch.key) ?? null);
   const stand = (at: Point) => ({
     position: { x: at.x - (parent?.x ?? 0), y: at.y - (parent?.y ?? 0) },
@@ -61,7 +89,9 @@ function nodesOf(branch: Branch, names: Map<string, ElementView>, kinds: Map<str
   const boxes = branch.elements.flatMap((id) => {
     const element = names.get(id);
     const at = where.elements.get(id);
-    return element === undefined || at === undefined ? [] : [boxNode(element, kinds, sizes.get(id) ?? FOLDED, stand(at))];
+    return element === undefined || at === undefined
+      ? []
+      : [boxNode(element, kinds, sizes.get(id) ?? FOLDED, stand(at))];
   });
   const groups = branch.groups.flatMap((group) => {
     const rect = where.groups.get(group.key);
@@ -94,12 +124,34 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
 
 function groupOf(group: Branch, rect: Rect, stand: Stand): FrameNode | FoldedNode {
   const data = { key: group.key, name: group.name, count: group.count };
-  const common = { id: groupNode(group.key), ...stand, width: rect.width, height: rect.height, measured: { width: rect.width, height: rect.height }, data, selectable: false };
+  const common = {
+    id: groupNode(group.key),
+    ...stand,
+    width: rect.width,
+    height: rect.height,
+    measured: { width: rect.width, height: rect.height },
+    data,
+    selectable: false,
+  };
   if (group.folded) {
     const handles = [...ports([""], "target", FOLDED), ...ports([""], "source", FOLDED)];
-    return { ...common, type: "folded", handles, ariaLabel: `Group ${group.key}, folded, ${group.count} elements`, zIndex: 2 };
+    return {
+      ...common,
+      type: "folded",
+      handles,
+      ariaLabel: `Group ${group.key}, folded, ${group.count} elements`,
+      zIndex: 2,
+    };
   }
-  return { ...common, type: "frame", handles: [], dragHandle: ".graph-frame-title", focusable: false, ariaLabel: `Group ${group.key}`, zIndex: 0 };
+  return {
+    ...common,
+    type: "frame",
+    handles: [],
+    dragHandle: ".graph-frame-title",
+    focusable: false,
+    ariaLabel: `Group ${group.key}`,
+    zIndex: 0,
+  };
 }
 
 // Handles are told to xyflow beforehand: edges to nodes out of sight are then drawn without mounting those.
@@ -116,7 +168,8 @@ function ports(names: string[], type: "source" | "target", { width, height }: Si
   }));
 }
 
-// Edges of elements in folded groups end at the group; those that then run between the same two ports become one, with their number.
+// Edges of elements in folded groups end at the group; those that then run between the same two ports become
+// one, with their number.
 function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): Wire[] {
   const wires = new Map<string, Wire>();
   for (const edge of edges) {
@@ -128,7 +181,8 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
     const target = to === null ? edge.target : groupNode(to.key);
     const sourceHandle = from === null ? edge.source_port : null;
     const targetHandle = to === null ? edge.target_port : null;
-    const id = from === null && to === null ? edge.id : [source, sourceHandle, target, targetHandle].join(" ");
+    const id =
+      from === null && to === null ? edge.id : [source, sourceHandle, target, targetHandle].join(" ");
     const known = wires.get(id)?.data;
     if (known !== undefined) {
       known.count += 1;
@@ -136,9 +190,23 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       continue;
     }
     const data = { pills: edge.couplings, reads: edge.reads, count: 1, lane: 0 };
-    const called = [from?.key ?? names.get(edge.source)?.path ?? edge.source, to?.key ?? names.get(edge.target)?.path ?? edge.target];
+    const called = [
+      from?.key ?? names.get(edge.source)?.path ?? edge.source,
+      to?.key ?? names.get(edge.target)?.path ?? edge.target,
+    ];
     const ariaLabel = called.join(" to ");
-    wires.set(id, { id, type: "wire", source, target, sourceHandle, targetHandle, data, ariaLabel, focusable: false, zIndex: 1 });
+    wires.set(id, {
+      id,
+      type: "wire",
+      source,
+      target,
+      sourceHandle,
+      targetHandle,
+      data,
+      ariaLabel,
+      focusable: false,
+      zIndex: 1,
+    });
   }
   return [...wires.values()];
 }

@@ -1,5 +1,5 @@
-// The part of the document that the canvas is built from. It stays the same object while only values change, so that a slider
-// that is dragged does not build the canvas anew.
+// The part of the document that the canvas is built from. It stays the same object while only values change,
+// so that a slider that is dragged does not build the canvas anew.
 
 import { useState } from "react";
 import type { ElementView } from "../protocol";
@@ -30,7 +30,9 @@ function alike(one: Structure, other: Structure): boolean {
     one.connections === other.connections &&
     one.groups === other.groups &&
     one.layout === other.layout &&
-    (one.elements === other.elements || (one.elements.length === other.elements.length && one.elements.every((e, i) => same(e, other.elements[i]))))
+    (one.elements === other.elements ||
+      (one.elements.length === other.elements.length &&
+        one.elements.every((e, i) => same(e, other.elements[i]))))
   );
 }
 
@@ -38,6 +40,11 @@ function alike(one: Structure, other: Structure): boolean {
 function same(one: ElementView, other: ElementView | undefined): boolean {
   return (
     one === other ||
-    (other !== undefined && one.id === other.id && one.path === other.path && one.kind === other.kind && one.inputs === other.inputs && one.axes === other.axes)
+    (other !== undefined &&
+      one.id === other.id &&
+      one.path === other.path &&
+      one.kind === other.kind &&
+      one.inputs === other.inputs &&
+      one.axes === other.axes)
   );
 }

@@ -2,7 +2,12 @@ import { expect, test } from "vitest";
 import { fakeElement } from "./fakes";
 import { around, below, hiddenBy, tree } from "./tree";
 
-const elements = [fakeElement("top"), fakeElement("arm.hand.u"), fakeElement("arm.v"), fakeElement("arm.gain")];
+const elements = [
+  fakeElement("top"),
+  fakeElement("arm.hand.u"),
+  fakeElement("arm.v"),
+  fakeElement("arm.gain"),
+];
 
 test("groups nest, also those that only elements name", () => {
   const found = tree(elements, [["empty"]], [], new Set());

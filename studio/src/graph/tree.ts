@@ -24,7 +24,12 @@ export type Tree = {
 export const keyOf = (path: string[]): string => path.join("/");
 
 // The tree of the groups; elements that are drawn on edges are left out.
-export function tree(elements: ElementView[], groups: string[][], folded: string[], without: Set<string>): Tree {
+export function tree(
+  elements: ElementView[],
+  groups: string[][],
+  folded: string[],
+  without: Set<string>,
+): Tree {
   const closed = new Set(folded);
   const root: Branch = { key: "", name: "", folded: false, groups: [], elements: [], count: 0 };
   const found: Tree = { root, groups: new Map([["", root]]), home: new Map(), outer: new Map() };
@@ -33,7 +38,14 @@ export function tree(elements: ElementView[], groups: string[][], folded: string
     let group = found.groups.get(key);
     if (group === undefined) {
       const above = branch(path.slice(0, -1));
-      group = { key, name: path[path.length - 1] ?? "", folded: closed.has(key), groups: [], elements: [], count: 0 };
+      group = {
+        key,
+        name: path[path.length - 1] ?? "",
+        folded: closed.has(key),
+        groups: [],
+        elements: [],
+        count: 0,
+      };
       above.groups.push(group);
       found.groups.set(key, group);
       found.outer.set(key, above.key);

@@ -13,7 +13,9 @@ test("the failure of the run comes before the problems of the document", () => {
 });
 
 test("a warning marks no element as broken", () => {
-  const document = fakeDocument([], [], { problems: [{ what: "never on", element: "u", severity: "warning" }] });
+  const document = fakeDocument([], [], {
+    problems: [{ what: "never on", element: "u", severity: "warning" }],
+  });
   expect(troubleOf("u", { document, clock: null })).toBe("");
 });
 

@@ -1,4 +1,5 @@
-// What is wrong with an element, in words; empty where nothing is. A warning marks an element too: it runs, but probably not as it was meant.
+// What is wrong with an element, in words; empty where nothing is. A warning marks an element too: it runs,
+// but probably not as it was meant.
 
 import { isWarning } from "../pages/problems";
 import type { Problem } from "../protocol";
@@ -23,7 +24,8 @@ export function troubleOf(element: string, { document, clock }: Said): string {
 
 // All warnings: each of them is a mistake of its own.
 export function warningOf(element: string, { document }: Said): string {
-  const found = document?.problems.filter((problem) => problem.element === element && isWarning(problem)) ?? [];
+  const found =
+    document?.problems.filter((problem) => problem.element === element && isWarning(problem)) ?? [];
   return found.map(text).join("\n\n");
 }
 

@@ -1,4 +1,5 @@
-// The nodes as they stand on the canvas: those of the scene, moved while they are dragged. The selection is the store's.
+// The nodes as they stand on the canvas: those of the scene, moved while they are dragged. The selection is
+// the store's.
 
 import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
@@ -33,7 +34,9 @@ export function useNodes(scene: Scene) {
     const boxes = moved(now, of.tree, of.places);
     if (differ(boxes, of.places)) {
       // Where it was not done, everything goes back to where the document has it.
-      void place(boxes).then(({ problems }) => (problems?.length ?? 0) > 0 && setNodes(latest.current.scene.nodes));
+      void place(boxes).then(
+        ({ problems }) => (problems?.length ?? 0) > 0 && setNodes(latest.current.scene.nodes),
+      );
     }
   }, []);
 
@@ -58,7 +61,8 @@ export function useNodes(scene: Scene) {
   return { nodes: shown, onNodesChange, settle };
 }
 
-// What xyflow says was selected becomes the selection of the store. Couplings on edges are no nodes: xyflow cannot take them out.
+// What xyflow says was selected becomes the selection of the store. Couplings on edges are no nodes: xyflow
+// cannot take them out.
 function choose(changes: NodeChange<SceneNode>[], nodes: SceneNode[], several: boolean): void {
   const choices = changes.filter((change) => change.type === "select");
   if (choices.length === 0) {
@@ -86,11 +90,15 @@ function reconciled(before: SceneNode[], next: SceneNode[]): SceneNode[] {
     if (old === undefined || old.type !== node.type) {
       return node;
     }
-    const same = Object.entries(node).every(([key, value]) => JSON.stringify(old[key as keyof SceneNode]) === JSON.stringify(value));
+    const same = Object.entries(node).every(
+      ([key, value]) => JSON.stringify(old[key as keyof SceneNode]) === JSON.stringify(value),
+    );
     return same && old.parentId === node.parentId ? old : node;
   });
 }
 
 function marked(nodes: SceneNode[], selected: Set<string>): SceneNode[] {
-  return nodes.map((node) => ((node.selected ?? false) === selected.has(node.id) ? node : { ...node, selected: selected.has(node.id) }));
+  return nodes.map((node) =>
+    (node.selected ?? false) === selected.has(node.id) ? node : { ...node, selected: selected.has(node.id) },
+  );
 }

@@ -4,7 +4,8 @@ import { course } from "./wirePath";
 const box = (x: number, y: number) => ({ x, y, width: 100, height: 50 });
 
 test("an edge ahead has its middle between its ends, and lanes lie apart", () => {
-  const at = (lane: number) => course({ x: 100, y: 25 }, { x: 300, y: 25 }, box(0, 0), box(300, 0), lane, () => []).middle;
+  const at = (lane: number) =>
+    course({ x: 100, y: 25 }, { x: 300, y: 25 }, box(0, 0), box(300, 0), lane, () => []).middle;
   expect(at(0)).toEqual({ x: 200, y: 25 });
   expect(at(1).y).toBeGreaterThan(45);
   expect(at(2).y).toBeLessThan(5);

@@ -13,9 +13,19 @@ export function goesBack(from: Point, to: Point): boolean {
   return to.x < from.x + 16;
 }
 
-// `lane` counts the edges that would run side by side: each takes its own course. `others` are boxes that an edge back keeps clear of.
-export function course(from: Point, to: Point, source: Rect, target: Rect, lane: number, others: () => Rect[]): Course {
-  return goesBack(from, to) ? around(from, to, below(from, to, [source, target], others(), lane), lane) : ahead(from, to, lane);
+// `lane` counts the edges that would run side by side: each takes its own course. `others` are boxes that an
+// edge back keeps clear of.
+export function course(
+  from: Point,
+  to: Point,
+  source: Rect,
+  target: Rect,
+  lane: number,
+  others: () => Rect[],
+): Course {
+  return goesBack(from, to)
+    ? around(from, to, below(from, to, [source, target], others(), lane), lane)
+    : ahead(from, to, lane);
 }
 
 function ahead(from: Point, to: Point, lane: number): Course {
@@ -31,14 +41,18 @@ function ahead(from: Point, to: Point, lane: number): Course {
 
 function around(from: Point, to: Point, y: number, lane: number): Course {
   const [right, left] = [from.x + BEND + lane * 8, to.x - BEND - lane * 8];
-  const path = `M${from.x},${from.y} C${right},${from.y} ${right},${y} ${from.x},${y} L${to.x},${y} C${left},${y} ${left},${to.y} ${to.x},${to.y}`;
+  const path =
+    `M${from.x},${from.y} C${right},${from.y} ${right},${y} ${from.x},${y} ` +
+    `L${to.x},${y} C${left},${y} ${left},${to.y} ${to.x},${to.y}`;
   return { path, middle: { x: (from.x + to.x) / 2, y } };
 }
 
 // A height below both ends at which nothing stands in the way.
 function below(from: Point, to: Point, ends: Rect[], others: Rect[], lane: number): number {
   let y = Math.max(...ends.map((end) => end.y + end.height)) + BELOW;
-  const near = others.filter((rect) => rect.x < from.x && rect.x + rect.width > to.x).sort((a, b) => a.y - b.y);
+  const near = others
+    .filter((rect) => rect.x < from.x && rect.x + rect.width > to.x)
+    .sort((a, b) => a.y - b.y);
   for (const rect of near) {
     if (rect.y - BELOW / 2 < y && rect.y + rect.height + BELOW > y) {
       y = rect.y + rect.height + BELOW;

@@ -4,7 +4,10 @@ import { wrapped } from "./wrap";
 
 function chain(n: number): [Map<string, Point>, Map<string, Size>] {
   const ids = Array.from({ length: n }, (_, i) => `e${i}`);
-  return [new Map(ids.map((id, i) => [id, { x: 200 * i, y: 0 }])), new Map(ids.map((id) => [id, { width: 160, height: 100 }]))];
+  return [
+    new Map(ids.map((id, i) => [id, { x: 200 * i, y: 0 }])),
+    new Map(ids.map((id) => [id, { width: 160, height: 100 }])),
+  ];
 }
 
 describe("lines", () => {

@@ -1,4 +1,5 @@
-// A layout that is much wider than high, broken into lines, as text is: a long chain would otherwise be too small to read.
+// A layout that is much wider than high, broken into lines, as text is: a long chain would otherwise be too
+// small to read.
 
 import type { Point, Size } from "./layout";
 

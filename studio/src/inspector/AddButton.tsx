@@ -8,7 +8,13 @@ type AddButtonProps = ButtonProps & Omit<ComponentPropsWithRef<"button">, keyof 
 
 export function AddButton({ children = "Add", className = "", ...rest }: AddButtonProps) {
   return (
-    <Button size="compact-xs" variant="subtle" className={`add-button ${className}`} leftSection={<IconPlus size={12} />} {...rest}>
+    <Button
+      size="compact-xs"
+      variant="subtle"
+      className={`add-button ${className}`}
+      leftSection={<IconPlus size={12} />}
+      {...rest}
+    >
       {children}
     </Button>
   );

@@ -11,7 +11,15 @@ const COSTS = {
   recompile: { text: "Compiles anew in the background; the state is kept", Icon: IconSettingsAutomation },
 };
 
-export function CostMark({ element, path, cost }: { element: string; path: string; cost: ParameterForm["cost"] }) {
+export function CostMark({
+  element,
+  path,
+  cost,
+}: {
+  element: string;
+  path: string;
+  cost: ParameterForm["cost"];
+}) {
   const busy = useBusy(element, path);
   if (busy) {
     return <Loader size={12} aria-label="Being made" />;

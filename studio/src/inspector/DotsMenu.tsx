@@ -14,7 +14,13 @@ type DotsMenuProps = {
 
 export function DotsMenu({ label, children, opened, onOpened }: DotsMenuProps) {
   return (
-    <Menu opened={opened} onChange={onOpened} position="bottom-end" shadow="md" classNames={{ dropdown: "compact-menu" }}>
+    <Menu
+      opened={opened}
+      onChange={onOpened}
+      position="bottom-end"
+      shadow="md"
+      classNames={{ dropdown: "compact-menu" }}
+    >
       <Menu.Target>
         <ActionIcon className="row-menu" size={18} aria-label={label}>
           <IconDots size={14} />

@@ -20,11 +20,14 @@ export function ElementInspector({ id }: { id: string }) {
   const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
   const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
   const found = element === undefined ? "" : JSON.stringify(axesOf(element, kind, axes));
-  const place = useMemo((): Place => ({ element: id, timeUnit, ...(JSON.parse(found || '{"axes": [], "own": false}') as Pick<Place, "axes" | "own">) }), [
-    id,
-    timeUnit,
-    found,
-  ]);
+  const place = useMemo(
+    (): Place => ({
+      element: id,
+      timeUnit,
+      ...(JSON.parse(found || '{"axes": [], "own": false}') as Pick<Place, "axes" | "own">),
+    }),
+    [id, timeUnit, found],
+  );
   if (element === undefined) {
     return <div className="inspector-empty">This element is gone.</div>;
   }

@@ -14,9 +14,15 @@ export function Inspector() {
     return <div className="inspector inspector-empty">No document is open.</div>;
   }
   if (selected.length > 1) {
-    return <div className="inspector inspector-empty">{selected.length} elements are selected. Select one to see its parameters.</div>;
+    return (
+      <div className="inspector inspector-empty">
+        {selected.length} elements are selected. Select one to see its parameters.
+      </div>
+    );
   }
   return (
-    <div className="inspector">{only === undefined ? <DocumentInspector /> : <ElementInspector key={only} id={only} />}</div>
+    <div className="inspector">
+      {only === undefined ? <DocumentInspector /> : <ElementInspector key={only} id={only} />}
+    </div>
   );
 }

@@ -1,4 +1,5 @@
-// A new document parameter, or another parameter for one that is there: which number of which element it drives.
+// A new document parameter, or another parameter for one that is there: which number of which element it
+// drives.
 
 import { Button, Select, TextInput } from "@mantine/core";
 import { useMemo, useState, type FormEvent } from "react";
@@ -24,7 +25,9 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
     event.preventDefault();
     const { element = "", path: parameter = "" } = options.find((option) => option.value === chosen) ?? {};
     const { answer } = await socket.ask(
-      name === undefined ? { type: "add_knob", name: typed.trim(), element, parameter } : { type: "link", name, element, parameter },
+      name === undefined
+        ? { type: "add_knob", name: typed.trim(), element, parameter }
+        : { type: "link", name, element, parameter },
     );
     const wrong = answer.problems?.[0] ?? null;
     setProblem(wrong);
@@ -33,7 +36,11 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
     }
   };
   return (
-    <form className="knob-adding" onSubmit={(event) => void onSubmit(event)} onKeyDown={(event) => event.key === "Escape" && onDone()}>
+    <form
+      className="knob-adding"
+      onSubmit={(event) => void onSubmit(event)}
+      onKeyDown={(event) => event.key === "Escape" && onDone()}
+    >
       {name === undefined && (
         <TextInput
           size="xs"
@@ -58,7 +65,11 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
         onChange={setChosen}
       />
       <div className="form-buttons">
-        <Button size="compact-xs" type="submit" disabled={chosen === null || (name === undefined && typed.trim() === "")}>
+        <Button
+          size="compact-xs"
+          type="submit"
+          disabled={chosen === null || (name === undefined && typed.trim() === "")}
+        >
           {name === undefined ? "Create" : "Link"}
         </Button>
         <Button size="compact-xs" variant="subtle" color="gray" onClick={onDone}>
@@ -79,7 +90,12 @@ function useOptions(): { value: string; label: string; element: string; path: st
       (document?.elements ?? []).flatMap((element) =>
         leavesOf(kinds, element.kind, element.values)
           .filter(({ path }) => driver(document, element.id, path) === undefined)
-          .map(({ path }) => ({ value: `${element.id} ${path}`, label: `${element.path}.${path}`, element: element.id, path })),
+          .map(({ path }) => ({
+            value: `${element.id} ${path}`,
+            label: `${element.path}.${path}`,
+            element: element.id,
+            path,
+          })),
       ),
     [document, kinds],
   );

@@ -29,21 +29,30 @@ export function KnobItem({ knob }: { knob: KnobView }) {
       </div>
       <div className="row-tools">
         <DotsMenu label={`More for ${name}`}>
-            {pinned ? (
-              <Menu.Item leftSection={<IconPinnedOff size={14} />} onClick={() => keepPins((pins) => withoutPin(pins, "", name))}>
-                Unpin from Sliders
-              </Menu.Item>
-            ) : (
-              <Menu.Item leftSection={<IconPin size={14} />} onClick={() => keepPins((pins) => withPin(pins, "", name))}>
-                Pin to Sliders
-              </Menu.Item>
-            )}
-            <Menu.Item leftSection={<IconLink size={14} />} onClick={() => setLinking(true)}>
-              Drive another parameter…
+          {pinned ? (
+            <Menu.Item
+              leftSection={<IconPinnedOff size={14} />}
+              onClick={() => keepPins((pins) => withoutPin(pins, "", name))}
+            >
+              Unpin from Sliders
             </Menu.Item>
-            <Menu.Item leftSection={<IconTrash size={14} />} onClick={() => void request({ type: "remove_knob", name })}>
-              Remove
+          ) : (
+            <Menu.Item
+              leftSection={<IconPin size={14} />}
+              onClick={() => keepPins((pins) => withPin(pins, "", name))}
+            >
+              Pin to Sliders
             </Menu.Item>
+          )}
+          <Menu.Item leftSection={<IconLink size={14} />} onClick={() => setLinking(true)}>
+            Drive another parameter…
+          </Menu.Item>
+          <Menu.Item
+            leftSection={<IconTrash size={14} />}
+            onClick={() => void request({ type: "remove_knob", name })}
+          >
+            Remove
+          </Menu.Item>
         </DotsMenu>
       </div>
       <div className="row-control">

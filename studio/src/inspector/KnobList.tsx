@@ -19,7 +19,11 @@ export function KnobList({ knobs }: { knobs: KnobView[] }) {
       {knobs.map((knob) => (
         <KnobItem key={knob.name} knob={knob} />
       ))}
-      {knobs.length === 0 && !adding && <p className="dim hint">None. One document parameter can drive parameters of several elements together.</p>}
+      {knobs.length === 0 && !adding && (
+        <p className="dim hint">
+          None. One document parameter can drive parameters of several elements together.
+        </p>
+      )}
     </section>
   );
 }

@@ -24,7 +24,11 @@ export function KnobNaming({ element, path, suggestion, onDone }: KnobNamingProp
     }
   };
   return (
-    <form className="knob-naming" onSubmit={(event) => void onSubmit(event)} onKeyDown={(event) => event.key === "Escape" && onDone()}>
+    <form
+      className="knob-naming"
+      onSubmit={(event) => void onSubmit(event)}
+      onKeyDown={(event) => event.key === "Escape" && onDone()}
+    >
       <TextInput
         size="xs"
         aria-label="Name of the document parameter"

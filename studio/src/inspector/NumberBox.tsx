@@ -1,4 +1,5 @@
-// A number to type: Enter or leaving the field takes it, Escape goes back, arrow keys step (with Shift ten steps).
+// A number to type: Enter or leaving the field takes it, Escape goes back, arrow keys step (with Shift ten
+// steps).
 
 import { TextInput } from "@mantine/core";
 import { useState, type KeyboardEvent } from "react";
@@ -26,7 +27,20 @@ export type NumberBoxProps = {
 const MOST_UNIT = 5;
 
 export function NumberBox(props: NumberBoxProps) {
-  const { label, value, unit = "", optional = false, placeholder, rejected, disabled, onCommit, onStep, onForget, onComplain, onLeave } = props;
+  const {
+    label,
+    value,
+    unit = "",
+    optional = false,
+    placeholder,
+    rejected,
+    disabled,
+    onCommit,
+    onStep,
+    onForget,
+    onComplain,
+    onLeave,
+  } = props;
   const [draft, setDraft] = useState<string | null>(null);
   const inside = unit.length <= MOST_UNIT ? unit : "";
 

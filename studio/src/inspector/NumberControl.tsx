@@ -25,7 +25,15 @@ type NumberControlProps = {
 
 const READING_MS = 6000;
 
-export function NumberControl({ label, setting, range, rangeKey, unit, optional = false, onRange }: NumberControlProps) {
+export function NumberControl({
+  label,
+  setting,
+  range,
+  rangeKey,
+  unit,
+  optional = false,
+  onRange,
+}: NumberControlProps) {
   const { value, problem, commit, move, end, nudge, forget } = setting;
   const [complaint, setComplaint] = useState<Problem | null>(null);
   const shown = useCalmRange(range, rangeKey, value);
@@ -43,11 +51,12 @@ export function NumberControl({ label, setting, range, rangeKey, unit, optional 
   };
   useEffect(() => () => clearTimeout(later.current), []);
 
-  const slider = value === null ? (
-    <span className="dim grow">none</span>
-  ) : (
-    <ValueSlider label={label} value={value} range={shown} onMove={move} onEnd={end} onNudge={nudge} />
-  );
+  const slider =
+    value === null ? (
+      <span className="dim grow">none</span>
+    ) : (
+      <ValueSlider label={label} value={value} range={shown} onMove={move} onEnd={end} onNudge={nudge} />
+    );
 
   return (
     <div className={onRange === undefined ? "number-control" : "number-control number-control-ranged"}>
@@ -72,7 +81,11 @@ export function NumberControl({ label, setting, range, rangeKey, unit, optional 
         placeholder={optional ? "none" : undefined}
         rejected={wrong !== null}
         onCommit={commit}
-        onStep={value === null ? undefined : (direction, coarse) => nudge(nudged(value, direction, coarse, including(shown, value)))}
+        onStep={
+          value === null
+            ? undefined
+            : (direction, coarse) => nudge(nudged(value, direction, coarse, including(shown, value)))
+        }
         onForget={onForget}
         onComplain={setComplaint}
         onLeave={onLeave}
@@ -87,7 +100,8 @@ function endText(end: number, { step, logarithmic }: Range): string {
   return numberText(logarithmic ? end : Math.round(end / step) * step);
 }
 
-// Ranges follow from values, but must not move under the hand: the first one stays, and grows where a value lies outside.
+// Ranges follow from values, but must not move under the hand: the first one stays, and grows where a value
+// lies outside.
 function useCalmRange(range: Range, key: string, value: number | null): Range {
   const kept = useRef({ key, range });
   if (kept.current.key !== key) {

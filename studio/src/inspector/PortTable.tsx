@@ -11,9 +11,14 @@ export function PortTable({ element, kind, axes }: PortTableProps) {
     if (keys === undefined) {
       return "";
     }
-    return keys.length === 0 ? "a number" : keys.map((key) => axes.find((axis) => axis.key === key)?.name ?? key).join(" × ");
+    return keys.length === 0
+      ? "a number"
+      : keys.map((key) => axes.find((axis) => axis.key === key)?.name ?? key).join(" × ");
   };
-  const rows = [...element.inputs.map((port) => ["in", port] as const), ...element.outputs.map((port) => ["out", port] as const)];
+  const rows = [
+    ...element.inputs.map((port) => ["in", port] as const),
+    ...element.outputs.map((port) => ["out", port] as const),
+  ];
   if (rows.length === 0) {
     return null;
   }

@@ -9,7 +9,11 @@ import { useStudio } from "../store";
 export function ProblemBanner({ element }: { element: string }) {
   // As text, because the clock brings new objects with the same content many times a second.
   const found = useStudio((state) =>
-    JSON.stringify([...(state.clock?.failure ?? []), ...(state.document?.problems ?? [])].filter((p) => (p.element ?? "") === element)),
+    JSON.stringify(
+      [...(state.clock?.failure ?? []), ...(state.document?.problems ?? [])].filter(
+        (p) => (p.element ?? "") === element,
+      ),
+    ),
   );
   const problems = JSON.parse(found) as Problem[];
   if (problems.length === 0) {
@@ -25,7 +29,9 @@ export function ProblemBanner({ element }: { element: string }) {
           <li key={i}>
             {isWarning(problem) && "Warning: "}
             {problem.what}
-            {problem.fix !== undefined && problem.fix !== "" && <div className="problem-fix">{problem.fix}</div>}
+            {problem.fix !== undefined && problem.fix !== "" && (
+              <div className="problem-fix">{problem.fix}</div>
+            )}
           </li>
         ))}
       </ul>

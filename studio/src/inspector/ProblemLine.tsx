@@ -5,7 +5,8 @@ import type { Problem } from "../protocol";
 export function ProblemLine({ problem }: { problem: Problem | null }) {
   return (
     <div className="problem-line" role="alert" hidden={problem === null}>
-      {problem !== null && [problem.what, problem.fix].filter((text) => text !== undefined && text !== "").join(". ")}
+      {problem !== null &&
+        [problem.what, problem.fix].filter((text) => text !== undefined && text !== "").join(". ")}
     </div>
   );
 }

@@ -37,7 +37,19 @@ type RowProps = {
   children?: ReactNode;
 };
 
-export function Row({ form, path, value, onReset, knob, label, leaf = false, inline = false, unit = "", extra, children }: RowProps) {
+export function Row({
+  form,
+  path,
+  value,
+  onReset,
+  knob,
+  label,
+  leaf = false,
+  inline = false,
+  unit = "",
+  extra,
+  children,
+}: RowProps) {
   const { element } = usePlace();
   const [opened, setOpened] = useState(false);
   const [naming, setNaming] = useState(false);
@@ -47,7 +59,10 @@ export function Row({ form, path, value, onReset, knob, label, leaf = false, inl
   const withMenu = resettable || leaf;
 
   const onContextMenu = (event: MouseEvent) => {
-    if (withMenu && !(event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement)) {
+    if (
+      withMenu &&
+      !(event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement)
+    ) {
       event.preventDefault();
       event.stopPropagation();
       setOpened(true);
@@ -64,7 +79,11 @@ export function Row({ form, path, value, onReset, knob, label, leaf = false, inl
       onContextMenu={onContextMenu}
     >
       <div className="row-label">
-        <Tooltip label={<Meaning form={form} path={path} />} disabled={form.description === "" && form.meaning === ""} position="top-start">
+        <Tooltip
+          label={<Meaning form={form} path={path} />}
+          disabled={form.description === "" && form.meaning === ""}
+          position="top-start"
+        >
           <span className="row-name">
             {label === undefined && symbolOf(form) !== "" && <Tex source={symbolOf(form)} />}
             <span className="one-line" title={label}>
@@ -73,7 +92,9 @@ export function Row({ form, path, value, onReset, knob, label, leaf = false, inl
           </span>
         </Tooltip>
         {unit !== "" && <span className="dim unit">{unit}</span>}
-        {resettable && !atDefault && <span className="row-dot" role="img" aria-label="not the default" title="not the default" />}
+        {resettable && !atDefault && (
+          <span className="row-dot" role="img" aria-label="not the default" title="not the default" />
+        )}
         {knob !== undefined && (
           <span className="row-knob" title={`Driven by the document parameter ${knob.name}`}>
             <IconLink size={11} />
@@ -103,7 +124,9 @@ export function Row({ form, path, value, onReset, knob, label, leaf = false, inl
           <span className="row-menu" />
         )}
       </div>
-      {naming && <KnobNaming element={element} path={path} suggestion={form.name} onDone={() => setNaming(false)} />}
+      {naming && (
+        <KnobNaming element={element} path={path} suggestion={form.name} onDone={() => setNaming(false)} />
+      )}
     </div>
   );
 }

@@ -1,7 +1,14 @@
 // What can be done with a parameter beside changing it: back to the default, pin, link.
 
 import { Menu } from "@mantine/core";
-import { IconArrowBackUp, IconLink, IconLinkOff, IconPin, IconPinnedOff, IconPlus } from "@tabler/icons-react";
+import {
+  IconArrowBackUp,
+  IconLink,
+  IconLinkOff,
+  IconPin,
+  IconPinnedOff,
+  IconPlus,
+} from "@tabler/icons-react";
 import type { ReactNode } from "react";
 
 import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../pins/pins";
@@ -34,7 +41,17 @@ export function RowMenu(props: RowMenuProps) {
   );
 }
 
-function RowMenuItems({ element, path, knob, byDefault, atDefault, onReset, pinnable, linkable, onName }: RowMenuProps) {
+function RowMenuItems({
+  element,
+  path,
+  knob,
+  byDefault,
+  atDefault,
+  onReset,
+  pinnable,
+  linkable,
+  onName,
+}: RowMenuProps) {
   const pinned = useStudio((state) => pinsOf(state.document?.layout).some((pin) => isAt(pin, element, path)));
   const knobs = useStudio((state) => state.document?.knobs);
   const link = (name: string) => void request({ type: "link", name, element, parameter: path });
@@ -53,11 +70,17 @@ function RowMenuItems({ element, path, knob, byDefault, atDefault, onReset, pinn
       )}
       {pinnable &&
         (pinned ? (
-          <Menu.Item leftSection={<IconPinnedOff size={14} />} onClick={() => keepPins((pins) => withoutPin(pins, element, path))}>
+          <Menu.Item
+            leftSection={<IconPinnedOff size={14} />}
+            onClick={() => keepPins((pins) => withoutPin(pins, element, path))}
+          >
             Unpin from Sliders
           </Menu.Item>
         ) : (
-          <Menu.Item leftSection={<IconPin size={14} />} onClick={() => keepPins((pins) => withPin(pins, element, path))}>
+          <Menu.Item
+            leftSection={<IconPin size={14} />}
+            onClick={() => keepPins((pins) => withPin(pins, element, path))}
+          >
             Pin to Sliders
           </Menu.Item>
         ))}

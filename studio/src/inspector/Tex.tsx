@@ -1,4 +1,5 @@
-// TeX, typeset. KaTeX is large and comes when it is first needed; until then, and where it cannot read the source, the source is shown.
+// TeX, typeset. KaTeX is large and comes when it is first needed; until then, and where it cannot read the
+// source, the source is shown.
 
 import type Katex from "katex";
 import { useEffect, useMemo, useState } from "react";
@@ -9,7 +10,9 @@ let typesetter: Typesetter | null = null;
 let coming: Promise<Typesetter> | null = null;
 
 function load(): Promise<Typesetter> {
-  coming ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(([katex]) => (typesetter = katex.default));
+  coming ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(
+    ([katex]) => (typesetter = katex.default),
+  );
   return coming;
 }
 

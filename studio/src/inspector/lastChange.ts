@@ -14,7 +14,11 @@ export function noteChange(element: string, parameter: string): void {
 
 // Whether the server is busy with the change of this parameter, or of something inside it.
 export function useBusy(element: string, parameter: string): boolean {
-  const last = useLastChange((change) => change.element === element && (change.parameter === parameter || change.parameter.startsWith(`${parameter}.`)));
+  const last = useLastChange(
+    (change) =>
+      change.element === element &&
+      (change.parameter === parameter || change.parameter.startsWith(`${parameter}.`)),
+  );
   const busy = useStudio((state) => (state.clock?.busy ?? "") !== "");
   return last && busy;
 }

@@ -1,4 +1,5 @@
-// The first field of a small form that a menu opens. A menu gives the focus back when it closes; the field takes it after that.
+// The first field of a small form that a menu opens. A menu gives the focus back when it closes; the field
+// takes it after that.
 
 import { useEffect, useRef } from "react";
 

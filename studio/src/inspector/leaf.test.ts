@@ -3,7 +3,11 @@ import { describe, expect, test } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind, ParameterForm } from "../protocol";
 import { axesOf, driver, formAt, leavesOf, linkable, type Kinds } from "./leaf";
 
-const form = (name: string, of: ParameterForm["form"] = "number", cost: ParameterForm["cost"] = "live"): ParameterForm => ({
+const form = (
+  name: string,
+  of: ParameterForm["form"] = "number",
+  cost: ParameterForm["cost"] = "live",
+): ParameterForm => ({
   name,
   form: of,
   cost,
@@ -21,7 +25,17 @@ const form = (name: string, of: ParameterForm["form"] = "number", cost: Paramete
 
 const kind = (name: string, parameters: ParameterForm[]): [string, Kind] => [
   name,
-  { name, room: "elements", title: name, equation: [], reference: "", parameters, ports: {}, levels: {}, example: null },
+  {
+    name,
+    room: "elements",
+    title: name,
+    equation: [],
+    reference: "",
+    parameters,
+    ports: {},
+    levels: {},
+    example: null,
+  },
 ];
 
 const kinds: Kinds = new Map([
@@ -59,16 +73,32 @@ describe("a parameter by its path", () => {
     ["extra.rate", "extra"],
   ])("%s", (path, name) => expect(formAt(kinds, "Sheet", values, path)?.name).toBe(name));
 
-  test.each(["", "nothing", "tau.0", "lobes.1.width", "lobes.0.width.2", "extra.speed", "extent.0", "output.nothing"])("%s is nowhere", (path) =>
-    expect(formAt(kinds, "Sheet", values, path)).toBe(undefined),
-  );
+  test.each([
+    "",
+    "nothing",
+    "tau.0",
+    "lobes.1.width",
+    "lobes.0.width.2",
+    "extra.speed",
+    "extent.0",
+    "output.nothing",
+  ])("%s is nowhere", (path) => expect(formAt(kinds, "Sheet", values, path)).toBe(undefined));
 
-  test("nor is anything of a kind that is not known", () => expect(formAt(kinds, "Stranger", values, "tau")).toBe(undefined));
+  test("nor is anything of a kind that is not known", () =>
+    expect(formAt(kinds, "Stranger", values, "tau")).toBe(undefined));
 });
 
 test("the numbers that can be driven", () => {
   const paths = leavesOf(kinds, "Sheet", values).map((leaf) => leaf.path);
-  expect(paths).toEqual(["tau", "output.slope", "lobes.0.width.0", "lobes.0.width.1", "lobes.0.inner.slope", "extent", "extra.rate"]);
+  expect(paths).toEqual([
+    "tau",
+    "output.slope",
+    "lobes.0.width.0",
+    "lobes.0.width.1",
+    "lobes.0.inner.slope",
+    "extent",
+    "extra.rate",
+  ]);
 });
 
 test("whole numbers and numbers that compile anew cannot be driven", () => {
@@ -86,8 +116,21 @@ test("the document parameter that drives a number", () => {
 });
 
 test("the axes of an element are its own, or those of its ports", () => {
-  const axes = ["x", "y"].map((key): AxisView => ({ key, name: key, lower: 0, upper: 1, samples: 2, periodic: false, unit: "" }));
-  const element = (name: string) => ({ kind: name, values: { axes: ["y"] }, axes: { input: [], output: ["x", "y"] } }) as unknown as ElementView;
+  const axes = ["x", "y"].map((key): AxisView => ({
+    key,
+    name: key,
+    lower: 0,
+    upper: 1,
+    samples: 2,
+    periodic: false,
+    unit: "",
+  }));
+  const element = (name: string) =>
+    ({
+      kind: name,
+      values: { axes: ["y"] },
+      axes: { input: [], output: ["x", "y"] },
+    }) as unknown as ElementView;
   const read = (name: string) => axesOf(element(name), kinds.get(name), axes);
   expect(read("Sheet")).toEqual({ axes: [axes[1]], own: true });
   expect(read("Follower")).toEqual({ axes, own: false });

@@ -1,4 +1,5 @@
-// Parameters by their path, at any depth: what a path such as kernel.0.sigma names, and which of them are numbers that can be driven.
+// Parameters by their path, at any depth: what a path such as kernel.0.sigma names, and which of them are
+// numbers that can be driven.
 
 import type { AxisView, DocumentView, ElementView, Kind, KnobView, ParameterForm } from "../protocol";
 import type { Values } from "../values";
@@ -29,10 +30,14 @@ export function formAt(kinds: Kinds, kind: string, values: unknown, path: string
     case "part":
       return rest.length === 0 ? form : below(value, rest);
     case "parts":
-      return rest.length === 0 ? form : below(Array.isArray(value) ? (value as unknown[])[Number(rest[0])] : undefined, rest.slice(1));
+      return rest.length === 0
+        ? form
+        : below(Array.isArray(value) ? (value as unknown[])[Number(rest[0])] : undefined, rest.slice(1));
     case "per_axis":
     case "numbers":
-      return rest.length === 0 || (rest.length === 1 && isHolder(value) && (rest[0] ?? "") in value) ? form : undefined;
+      return rest.length === 0 || (rest.length === 1 && isHolder(value) && (rest[0] ?? "") in value)
+        ? form
+        : undefined;
     default:
       return rest.length === 0 ? form : undefined;
   }
@@ -51,25 +56,38 @@ export function leavesOf(kinds: Kinds, kind: string, values: unknown, prefix = "
     }
     if (form.form === "parts") {
       const items = Array.isArray(value) ? (value as unknown[]) : [];
-      return items.flatMap((item, i) => (isValues(item) ? leavesOf(kinds, String(item["kind"]), item, `${path}.${i}.`) : []));
+      return items.flatMap((item, i) =>
+        isValues(item) ? leavesOf(kinds, String(item["kind"]), item, `${path}.${i}.`) : [],
+      );
     }
     if (!linkable(form) || value === null || value === undefined) {
       return [];
     }
-    return isHolder(value) ? Object.keys(value).map((key) => ({ path: `${path}.${key}`, form })) : [{ path, form }];
+    return isHolder(value)
+      ? Object.keys(value).map((key) => ({ path: `${path}.${key}`, form }))
+      : [{ path, form }];
   });
 }
 
 // The document parameter that drives a parameter of an element.
 export function driver(document: DocumentView | null, element: string, path: string): KnobView | undefined {
-  return document?.knobs.find((knob) => knob.links.some((link) => link.element === element && link.parameter === path));
+  return document?.knobs.find((knob) =>
+    knob.links.some((link) => link.element === element && link.parameter === path),
+  );
 }
 
 // The axes of an element: its own parameter, or else those of its ports.
-export function axesOf(element: ElementView, kind: Kind | undefined, axes: AxisView[]): Omit<Standing, "path"> {
+export function axesOf(
+  element: ElementView,
+  kind: Kind | undefined,
+  axes: AxisView[],
+): Omit<Standing, "path"> {
   const form = kind?.parameters.find((p) => p.form === "axes" || p.form === "axis");
   const keys = form !== undefined ? [element.values[form.name]].flat() : longest(Object.values(element.axes));
-  return { axes: keys.flatMap((key) => axes.find((axis) => axis.key === key) ?? []), own: form !== undefined };
+  return {
+    axes: keys.flatMap((key) => axes.find((axis) => axis.key === key) ?? []),
+    own: form !== undefined,
+  };
 }
 
 function longest(lists: string[][]): string[] {

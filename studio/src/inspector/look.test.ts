@@ -19,17 +19,31 @@ const form = (given: Partial<ParameterForm>): ParameterForm => ({
   of: [],
   ...given,
 });
-const kind = { name: "Spot", parameters: [form({ name: "axes", form: "axes", unit: "" }), form({})] } as unknown as Kind;
+const kind = {
+  name: "Spot",
+  parameters: [form({ name: "axes", form: "axes", unit: "" }), form({})],
+} as unknown as Kind;
 const axes = [
   { key: "x", name: "x", lower: 0, upper: 100, unit: "deg" },
   { key: "y", name: "y", lower: -20, upper: 20, unit: "cm" },
 ] as AxisView[];
-const element = { id: "1", kind: "Spot", values: { axes: ["x", "y"], place: [30, 5] }, axes: {} } as unknown as ElementView;
+const element = {
+  id: "1",
+  kind: "Spot",
+  values: { axes: ["x", "y"], place: [30, 5] },
+  axes: {},
+} as unknown as ElementView;
 const around = { kinds: new Map([["Spot", kind]]), axes, timeUnit: "ms" };
 
 test("a number away from its form keeps range, unit, symbol and cost", () => {
   const look = lookOf(around, element, "place.1", 5);
-  expect(look).toMatchObject({ unit: "cm", symbol: "\\mu", cost: "rebuild", meaning: "where it lies.", optional: false });
+  expect(look).toMatchObject({
+    unit: "cm",
+    symbol: "\\mu",
+    cost: "rebuild",
+    meaning: "where it lies.",
+    optional: false,
+  });
   expect(look?.range).toMatchObject({ lower: -20, upper: 20 });
 });
 

@@ -9,7 +9,14 @@ import { symbolOf } from "./part";
 import { axesAt, type Range, sliderRange } from "./range";
 import { unitText } from "./unit";
 
-export type Look = { range: Range; unit: string; symbol: string; cost: ParameterForm["cost"]; meaning: string; optional: boolean };
+export type Look = {
+  range: Range;
+  unit: string;
+  symbol: string;
+  cost: ParameterForm["cost"];
+  meaning: string;
+  optional: boolean;
+};
 
 type Surroundings = { kinds: Kinds; axes: AxisView[]; timeUnit: string };
 
@@ -31,7 +38,12 @@ const UNDECLARED: ParameterForm = {
 };
 
 // Undefined where no number stands at that path.
-export function lookOf({ kinds, axes, timeUnit }: Surroundings, element: ElementView | undefined, path: string, value: unknown): Look | undefined {
+export function lookOf(
+  { kinds, axes, timeUnit }: Surroundings,
+  element: ElementView | undefined,
+  path: string,
+  value: unknown,
+): Look | undefined {
   const form = element && formAt(kinds, element.kind, element.values, path);
   if (element === undefined || form === undefined) {
     return undefined;
@@ -52,7 +64,10 @@ export function useLook(element: string, path: string, value: unknown): Look | u
   const kinds = useStudio((state) => state.kinds);
   const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
   const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
-  return useMemo(() => lookOf({ kinds, axes, timeUnit }, found, path, value), [kinds, axes, timeUnit, found, path, value]);
+  return useMemo(
+    () => lookOf({ kinds, axes, timeUnit }, found, path, value),
+    [kinds, axes, timeUnit, found, path, value],
+  );
 }
 
 // A document parameter has the range and the unit of the first parameter that it drives.

@@ -9,7 +9,10 @@ export function numberText(value: number): string {
   }
   const size = Math.abs(value);
   if (size !== 0 && (size >= 1e7 || size < 1e-4)) {
-    return value.toExponential(DIGITS - 1).replace(/\.?0+e/, "e").replace("e+", "e");
+    return value
+      .toExponential(DIGITS - 1)
+      .replace(/\.?0+e/, "e")
+      .replace("e+", "e");
   }
   return String(Number(value.toPrecision(DIGITS)));
 }

@@ -7,24 +7,47 @@ import { fresh, moved, recast, same, summary, symbolOf, without, words } from ".
 const form = (name: string, of: ParameterForm["form"] = "number"): ParameterForm =>
   ({ name, form: of, cost: "live", unit: "", default: 0, choices: [], of: [] }) as unknown as ParameterForm;
 
-const kind = (name: string, parameters: ParameterForm[], example: unknown): [string, Kind] => [name, { name, title: name, parameters, example } as unknown as Kind];
+const kind = (name: string, parameters: ParameterForm[], example: unknown): [string, Kind] => [
+  name,
+  { name, title: name, parameters, example } as unknown as Kind,
+];
 
 const kinds: Kinds = new Map([
-  kind("Hill", [form("height"), form("full_width", "per_axis"), form("flat", "flag")], { kind: "Hill", height: 1, full_width: 5, flat: false }),
-  kind("Valley", [form("height"), form("full_width"), form("slope")], { kind: "Valley", height: -1, full_width: 3, slope: 2 }),
+  kind("Hill", [form("height"), form("full_width", "per_axis"), form("flat", "flag")], {
+    kind: "Hill",
+    height: 1,
+    full_width: 5,
+    flat: false,
+  }),
+  kind("Valley", [form("height"), form("full_width"), form("slope")], {
+    kind: "Valley",
+    height: -1,
+    full_width: 3,
+    slope: 2,
+  }),
 ]);
 
 describe("a part in one line", () => {
-  test("its first numbers", () => expect(summary(kinds, { kind: "Hill", height: 12, full_width: [5, 3], flat: true })).toBe("height 12, full width 5 × 3"));
-  test("nothing of what is not known", () => expect(summary(kinds, { kind: "Stranger", height: 1 })).toBe(""));
+  test("its first numbers", () =>
+    expect(summary(kinds, { kind: "Hill", height: 12, full_width: [5, 3], flat: true })).toBe(
+      "height 12, full width 5 × 3",
+    ));
+  test("nothing of what is not known", () =>
+    expect(summary(kinds, { kind: "Stranger", height: 1 })).toBe(""));
   test("nor of nothing", () => expect(summary(kinds, null)).toBe(""));
 });
 
 describe("another kind in the place of a part", () => {
   test("what both have keeps its value, if it has the same form", () => {
-    expect(recast(kinds, "Valley", { kind: "Hill", height: 7, full_width: [1, 2], flat: true })).toEqual({ kind: "Valley", height: 7, full_width: 3, slope: 2 });
+    expect(recast(kinds, "Valley", { kind: "Hill", height: 7, full_width: [1, 2], flat: true })).toEqual({
+      kind: "Valley",
+      height: 7,
+      full_width: 3,
+      slope: 2,
+    });
   });
-  test("in the place of none: the example", () => expect(recast(kinds, "Hill", null)).toEqual({ kind: "Hill", height: 1, full_width: 5, flat: false }));
+  test("in the place of none: the example", () =>
+    expect(recast(kinds, "Hill", null)).toEqual({ kind: "Hill", height: 1, full_width: 5, flat: false }));
 });
 
 test("items of a list", () => {
@@ -58,4 +81,6 @@ test.each([
   ["spread_out", "\\mathrm{spread\\_out}", ""],
   ["k", "k", ""],
   ["other", "", ""],
-])("the symbol of %s, written %s, is shown as %s", (name, symbol, shown) => expect(symbolOf({ ...form(name), symbol })).toBe(shown));
+])("the symbol of %s, written %s, is shown as %s", (name, symbol, shown) =>
+  expect(symbolOf({ ...form(name), symbol })).toBe(shown),
+);

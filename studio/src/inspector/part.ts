@@ -16,9 +16,18 @@ export function summary(kinds: Kinds, part: unknown): string {
   const forms = kindOf(kinds, part)?.parameters ?? [];
   return forms
     .map((form) => [form, (part as Values)[form.name]] as const)
-    .filter(([form, value]) => (form.form === "number" || form.form === "integer" || form.form === "per_axis") && value !== null)
+    .filter(
+      ([form, value]) =>
+        (form.form === "number" || form.form === "integer" || form.form === "per_axis") && value !== null,
+    )
     .slice(0, MOST)
-    .map(([form, value]) => `${words(form.name)} ${[value].flat().map((v) => numberText(Number(v))).join(" × ")}`)
+    .map(
+      ([form, value]) =>
+        `${words(form.name)} ${[value]
+          .flat()
+          .map((v) => numberText(Number(v)))
+          .join(" × ")}`,
+    )
     .join(", ");
 }
 
@@ -42,7 +51,9 @@ export function words(name: string): string {
 
 // The symbol that an equation has for a parameter; none where that is no more than its name again.
 export function symbolOf(form: ParameterForm): string {
-  return form.symbol.replaceAll("\\", "") === `mathrm{${form.name}}` || form.symbol === form.name ? "" : form.symbol;
+  return form.symbol.replaceAll("\\", "") === `mathrm{${form.name}}` || form.symbol === form.name
+    ? ""
+    : form.symbol;
 }
 
 export function without<T>(items: T[], index: number): T[] {
@@ -52,7 +63,9 @@ export function without<T>(items: T[], index: number): T[] {
 export function moved<T>(items: T[], from: number, to: number): T[] {
   const rest = without(items, from);
   const item = items[from];
-  return item === undefined || to < 0 || to >= items.length ? items : [...rest.slice(0, to), item, ...rest.slice(to)];
+  return item === undefined || to < 0 || to >= items.length
+    ? items
+    : [...rest.slice(0, to), item, ...rest.slice(to)];
 }
 
 // A name that is not taken yet.
@@ -71,7 +84,11 @@ export function same(a: unknown, b: unknown): boolean {
   }
   const [left, right] = [a as Values, b as Values];
   const keys = Object.keys(left);
-  return Array.isArray(a) === Array.isArray(b) && keys.length === Object.keys(right).length && keys.every((key) => key in right && same(left[key], right[key]));
+  return (
+    Array.isArray(a) === Array.isArray(b) &&
+    keys.length === Object.keys(right).length &&
+    keys.every((key) => key in right && same(left[key], right[key]))
+  );
 }
 
 // Axes and arrays belong to a document: a kind has no default for them that would fit in.

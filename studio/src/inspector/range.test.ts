@@ -20,7 +20,15 @@ const form = (given: Partial<ParameterForm>): ParameterForm => ({
   ...given,
 });
 
-const axis = (key: string, lower: number, upper: number): AxisView => ({ key, name: key, lower, upper, samples: 11, periodic: false, unit: "deg" });
+const axis = (key: string, lower: number, upper: number): AxisView => ({
+  key,
+  name: key,
+  lower,
+  upper,
+  samples: 11,
+  periodic: false,
+  unit: "deg",
+});
 
 const standing = (path = "p", axes: AxisView[] = [], own = true): Standing => ({ path, axes, own });
 
@@ -30,7 +38,8 @@ const ends = (given: Partial<ParameterForm>, value: unknown, place = standing())
 };
 
 describe("a range from declared bounds", () => {
-  test("both bounds are the range", () => expect(ends({ lower: 0, upper: 1, default: 0.15 }, 0.15)).toEqual([0, 1]));
+  test("both bounds are the range", () =>
+    expect(ends({ lower: 0, upper: 1, default: 0.15 }, 0.15)).toEqual([0, 1]));
 
   test("bounds that are far apart are limits only", () => {
     const range = sliderRange(form({ lower: 1e-6, upper: 1e6, default: 4 }), 4, standing());
@@ -54,7 +63,9 @@ describe("a range from the size of default and value", () => {
     [0, 0.6, [-2, 2]],
     [1, -6, [-20, 20]],
     [0.5, 0.5, [-1, 1]],
-  ])("default %d, value %d", (byDefault, value, range) => expect(ends({ default: byDefault }, value)).toEqual(range));
+  ])("default %d, value %d", (byDefault, value, range) =>
+    expect(ends({ default: byDefault }, value)).toEqual(range),
+  );
 
   test("it is two to four times the size", () => {
     for (let value = 0.013; value < 1000; value *= 1.37) {
@@ -107,7 +118,8 @@ describe("ranges along axes", () => {
     expect(sliderRange(place, 3, standing("p.1", axes))).toMatchObject({ lower: -20, upper: 20 });
   });
 
-  test("one number for several axes: on any of them", () => expect(sliderRange(place, 3, standing("p", axes))).toMatchObject({ lower: -20, upper: 100 }));
+  test("one number for several axes: on any of them", () =>
+    expect(sliderRange(place, 3, standing("p", axes))).toMatchObject({ lower: -20, upper: 100 }));
 
   test("a width is at most half the axis", () => {
     expect(sliderRange(width, 5, standing("p.0", axes))).toMatchObject({ lower: 0, upper: 50 });
@@ -116,11 +128,18 @@ describe("ranges along axes", () => {
   });
 
   test("a distance goes both ways", () => {
-    expect(sliderRange(place, 3, standing("kernel.0.p", axes.slice(0, 1)))).toMatchObject({ lower: -50, upper: 50 });
-    expect(sliderRange(place, 3, standing("p", axes.slice(0, 1), false))).toMatchObject({ lower: -50, upper: 50 });
+    expect(sliderRange(place, 3, standing("kernel.0.p", axes.slice(0, 1)))).toMatchObject({
+      lower: -50,
+      upper: 50,
+    });
+    expect(sliderRange(place, 3, standing("p", axes.slice(0, 1), false))).toMatchObject({
+      lower: -50,
+      upper: 50,
+    });
   });
 
-  test("without axes the size counts", () => expect(sliderRange(width, 5, standing())).toMatchObject({ lower: 0, upper: 10 }));
+  test("without axes the size counts", () =>
+    expect(sliderRange(width, 5, standing())).toMatchObject({ lower: 0, upper: 10 }));
 });
 
 describe("ranges that grow", () => {
@@ -131,7 +150,9 @@ describe("ranges that grow", () => {
   test("a value outside moves the end that it beats", () => {
     expect(including(range, 45)).toMatchObject({ lower: 0, upper: 50 });
     expect(including(range, -3)).toMatchObject({ lower: -3, upper: 10 });
-    expect(sliderRange(form({ form: "per_axis", unit: "axis" }), 130, standing("p", [axis("x", 0, 100)]))).toMatchObject({ lower: 0, upper: 200 });
+    expect(
+      sliderRange(form({ form: "per_axis", unit: "axis" }), 130, standing("p", [axis("x", 0, 100)])),
+    ).toMatchObject({ lower: 0, upper: 200 });
   });
 
   test("by decades where it is logarithmic", () => {
@@ -153,7 +174,9 @@ describe("steps", () => {
   });
 
   test("whole for whole numbers", () => {
-    expect(sliderRange(form({ form: "integer", lower: 1, upper: 10, default: 5 }), 5, standing()).step).toBe(1);
+    expect(sliderRange(form({ form: "integer", lower: 1, upper: 10, default: 5 }), 5, standing()).step).toBe(
+      1,
+    );
     expect(sliderRange(form({ form: "integer", default: 500, lower: 0 }), 500, standing()).step).toBe(5);
   });
 

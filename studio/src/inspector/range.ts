@@ -10,7 +10,8 @@ export type Range = {
   step: number;
 };
 
-// Where a parameter stands: its path below the element, the axes of the element, and whether they are the element's own parameter.
+// Where a parameter stands: its path below the element, the axes of the element, and whether they are the
+// element's own parameter.
 export type Standing = {
   path: string;
   axes: AxisView[];
@@ -24,13 +25,16 @@ const WIDE = 1e3;
 const STEPS = 200;
 
 export function sliderRange(form: ParameterForm, value: unknown, standing: Standing): Range {
-  const sizes = [...numbersOf(value), ...numbersOf(defaultAt(form, standing.path))].filter((v) => Math.abs(v) < ENDLESS);
+  const sizes = [...numbersOf(value), ...numbersOf(defaultAt(form, standing.path))].filter(
+    (v) => Math.abs(v) < ENDLESS,
+  );
   const whole = form.form === "integer";
   const range = sensible(form, sizes, standing);
   return numbersOf(value).reduce(including, stepped(range.lower, range.upper, range.logarithmic, whole));
 }
 
-// The same range where it holds the value, else a wider one; the end that is beaten moves so far that it is not beaten again at once.
+// The same range where it holds the value, else a wider one; the end that is beaten moves so far that it is
+// not beaten again at once.
 export function including(range: Range, value: number): Range {
   if ((value >= range.lower && value <= range.upper) || Math.abs(value) >= ENDLESS) {
     return range;
@@ -53,14 +57,23 @@ export function chosen(range: Range, lower: number | undefined, upper: number | 
   if (!(low < high)) {
     return range;
   }
-  const whole = Number.isInteger(range.step) && range.step > 0 && Number.isInteger(low) && Number.isInteger(high) && high - low >= STEPS;
+  const whole =
+    Number.isInteger(range.step) &&
+    range.step > 0 &&
+    Number.isInteger(low) &&
+    Number.isInteger(high) &&
+    high - low >= STEPS;
   return stepped(low, high, range.logarithmic && low > 0, whole);
 }
 
 function sensible(form: ParameterForm, sizes: number[], { path, axes, own }: Standing): Omit<Range, "step"> {
   const { lower, upper, unit } = form;
   const size = Math.max(0, ...sizes.map(Math.abs));
-  if (lower !== null && upper !== null && upper - lower <= WIDE * Math.max(size, Number(form.form === "integer"), Math.abs(lower))) {
+  if (
+    lower !== null &&
+    upper !== null &&
+    upper - lower <= WIDE * Math.max(size, Number(form.form === "integer"), Math.abs(lower))
+  ) {
     return { lower, upper, logarithmic: false };
   }
   if (unit === "axis" && axes.length > 0) {
@@ -70,14 +83,19 @@ function sensible(form: ParameterForm, sizes: number[], { path, axes, own }: Sta
   const high = upper ?? Infinity;
   if (low > 0 && size / low >= WIDE && form.form !== "integer") {
     const decade = Math.log10(size);
-    return { lower: Math.max(low, 10 ** Math.floor(decade - 1)), upper: Math.min(high, 10 ** Math.ceil(decade + 1)), logarithmic: true };
+    return {
+      lower: Math.max(low, 10 ** Math.floor(decade - 1)),
+      upper: Math.min(high, 10 ** Math.ceil(decade + 1)),
+      logarithmic: true,
+    };
   }
   const far = size > 0 ? nice(2 * size) : ifZero(unit);
   const negative = low < 0 && !(unit === "time" && sizes.every((v) => v >= 0));
   return within(negative ? -far : 0, far, low, high);
 }
 
-// Places lie on the axis, distances (of parts inside, of elements without axes of their own) go both ways, widths up to half the axis.
+// Places lie on the axis, distances (of parts inside, of elements without axes of their own) go both ways,
+// widths up to half the axis.
 function along(axes: AxisView[], bound: number | null, place: boolean): Omit<Range, "step"> {
   const half = Math.max(...axes.map((axis) => (axis.upper - axis.lower) / 2));
   if (bound !== null) {
@@ -86,7 +104,11 @@ function along(axes: AxisView[], bound: number | null, place: boolean): Omit<Ran
   if (!place) {
     return { lower: -half, upper: half, logarithmic: false };
   }
-  return { lower: Math.min(...axes.map((axis) => axis.lower)), upper: Math.max(...axes.map((axis) => axis.upper)), logarithmic: false };
+  return {
+    lower: Math.min(...axes.map((axis) => axis.lower)),
+    upper: Math.max(...axes.map((axis) => axis.upper)),
+    logarithmic: false,
+  };
 }
 
 // One axis where the path ends in its number, else all.
@@ -102,7 +124,9 @@ function within(lower: number, upper: number, low: number, high: number): Omit<R
   if (least < most) {
     return { lower: least, upper: most, logarithmic: false };
   }
-  return low > lower ? { lower: low, upper: low + upper, logarithmic: false } : { lower: high - upper, upper: high, logarithmic: false };
+  return low > lower
+    ? { lower: low, upper: low + upper, logarithmic: false }
+    : { lower: high - upper, upper: high, logarithmic: false };
 }
 
 // For a value of 0 with a default of 0 nothing is known of the size: what is usual in this unit.
@@ -140,14 +164,19 @@ export function defaultAt(form: ParameterForm, path: string): unknown {
   if (inside === "") {
     return form.default;
   }
-  return form.form === "per_axis" && typeof form.default === "number" ? form.default : valueAt(form.default, inside);
+  return form.form === "per_axis" && typeof form.default === "number"
+    ? form.default
+    : valueAt(form.default, inside);
 }
 
-// ---------------------------------------------------------------------------------------------- values on a slider
+// ---------------------------------------------------------------------------------------------- values on a
+// slider
 
 // The value nearest to where the slider stands that is round.
 export function snapped(value: number, range: Range): number {
-  const round = range.logarithmic ? Number(value.toPrecision(3)) : Number((Math.round(value / range.step) * range.step).toPrecision(12));
+  const round = range.logarithmic
+    ? Number(value.toPrecision(3))
+    : Number((Math.round(value / range.step) * range.step).toPrecision(12));
   return Math.min(range.upper, Math.max(range.lower, round));
 }
 

@@ -1,4 +1,5 @@
-// One parameter as a control holds it: what the server says, or one's own value while it is dragged; and what is wrong with the last try.
+// One parameter as a control holds it: what the server says, or one's own value while it is dragged; and what
+// is wrong with the last try.
 
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 
@@ -20,8 +21,14 @@ export type Setting<T = unknown> = {
   forget: () => void;
 };
 
-// `element` is empty for a document parameter. A value that compiles the program anew is sent when the drag ends, not on the way.
-export function useSetting<T>(element: string, parameter: string, stored: T, cost: ParameterForm["cost"]): Setting<T> {
+// `element` is empty for a document parameter. A value that compiles the program anew is sent when the drag
+// ends, not on the way.
+export function useSetting<T>(
+  element: string,
+  parameter: string,
+  stored: T,
+  cost: ParameterForm["cost"],
+): Setting<T> {
   const [own, setOwn] = useState<{ value: T } | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
   const latest = useRef<{ value: T } | null>(null);
@@ -64,7 +71,10 @@ export function useSetting<T>(element: string, parameter: string, stored: T, cos
     },
     [gesture],
   );
-  const commit = useCallback(async (value: T) => ((await send(value, 0)).problems ?? []).length === 0, [send]);
+  const commit = useCallback(
+    async (value: T) => ((await send(value, 0)).problems ?? []).length === 0,
+    [send],
+  );
   const forget = useCallback(() => setProblem(null), []);
 
   return { value: own === null ? stored : own.value, problem, commit, move, end, nudge, forget };

@@ -3,7 +3,15 @@ import { describe, expect, test } from "vitest";
 import type { AxisView } from "../protocol";
 import { unitText } from "./unit";
 
-const axis = (unit: string): AxisView => ({ key: "x", name: "x", lower: 0, upper: 1, samples: 2, periodic: false, unit });
+const axis = (unit: string): AxisView => ({
+  key: "x",
+  name: "x",
+  lower: 0,
+  upper: 1,
+  samples: 2,
+  periodic: false,
+  unit,
+});
 
 describe("units as they are read", () => {
   test.each([

@@ -2,7 +2,8 @@
 
 import type { AxisView } from "../protocol";
 
-// Document time is counted in this; no unit is written for abstract time, and for steps of one's own what a step is.
+// Document time is counted in this; no unit is written for abstract time, and for steps of one's own what a
+// step is.
 export function timeText(timeUnit: string): string {
   if (timeUnit === "abstract") {
     return "";

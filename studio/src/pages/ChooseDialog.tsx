@@ -9,7 +9,11 @@ import type { Asking } from "./dialogs";
 import { parent } from "./paths";
 import { useFolder } from "./useFolder";
 
-const ACCEPTED = { files: "application/json,.json,.deodar", pictures: "image/*", values: "application/json,.json" };
+const ACCEPTED = {
+  files: "application/json,.json,.deodar",
+  pictures: "image/*",
+  values: "application/json,.json",
+};
 
 export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) {
   const file = useStudio((state) => state.document?.file ?? "");
@@ -19,10 +23,19 @@ export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) 
     <>
       {wants === "values" && (
         <Text size="sm" mb="sm">
-          Elements of the same name and kind take the values that they have in the file. Connections stay, and undo takes all of it back.
+          Elements of the same name and kind take the values that they have in the file. Connections stay, and
+          undo takes all of it back.
         </Text>
       )}
-      <FolderBrowser path={path} listing={listing} wants={wants === "pictures" ? "pictures" : "files"} onFolder={setPath} onFile={answer} marked={file} first />
+      <FolderBrowser
+        path={path}
+        listing={listing}
+        wants={wants === "pictures" ? "pictures" : "files"}
+        onFolder={setPath}
+        onFile={answer}
+        marked={file}
+        first
+      />
       <Group gap="xs" mt="md" justify="space-between">
         <FileButton accept={ACCEPTED[wants]} onChange={(chosen) => chosen !== null && answer(chosen)}>
           {(props) => (

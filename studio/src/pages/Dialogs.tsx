@@ -14,9 +14,18 @@ import { type Asked, useDialogs } from "./dialogs";
 export function Dialogs() {
   const { asked, cancel } = useDialogs();
   return (
-    <Modal opened={asked !== null} onClose={cancel} title={asked === null ? "" : titleOf(asked)} size={sizeOf(asked)} centered
-      zIndex={350} transitionProps={{ duration: 0 }} overlayProps={{ backgroundOpacity: 0.4 }} closeButtonProps={{ "aria-label": "Close" }}
-      styles={{ title: { fontSize: 16, fontWeight: 600 } }}>
+    <Modal
+      opened={asked !== null}
+      onClose={cancel}
+      title={asked === null ? "" : titleOf(asked)}
+      size={sizeOf(asked)}
+      centered
+      zIndex={350}
+      transitionProps={{ duration: 0 }}
+      overlayProps={{ backgroundOpacity: 0.4 }}
+      closeButtonProps={{ "aria-label": "Close" }}
+      styles={{ title: { fontSize: 16, fontWeight: 600 } }}
+    >
       {asked !== null && contentOf(asked)}
     </Modal>
   );
@@ -41,7 +50,11 @@ function contentOf(asked: Asked) {
   }
 }
 
-const WANTED = { files: "Open a file", pictures: "Choose a picture", values: "Take over the values of a file" };
+const WANTED = {
+  files: "Open a file",
+  pictures: "Choose a picture",
+  values: "Take over the values of a file",
+};
 
 function titleOf(asked: Asked): string {
   switch (asked.name) {

@@ -21,7 +21,9 @@ export function DocumentName() {
         <h1 className="one-line" title={title}>
           {title}
         </h1>
-        {unsaved && <span className={classes.dot} role="img" aria-label="Unsaved edits" title="Unsaved edits" />}
+        {unsaved && (
+          <span className={classes.dot} role="img" aria-label="Unsaved edits" title="Unsaved edits" />
+        )}
       </div>
       <div className={`${classes.file} one-line`} title={file}>
         {file === "" ? "not in a file yet" : file}

@@ -49,7 +49,9 @@ export function DropArea() {
   }
   return (
     <div className={classes.area} aria-hidden="true">
-      <div className={classes.text}>Drop a document to open it{senses && ", or a picture to show it to the sensors"}</div>
+      <div className={classes.text}>
+        Drop a document to open it{senses && ", or a picture to show it to the sensors"}
+      </div>
     </div>
   );
 }

@@ -10,7 +10,11 @@ import classes from "./ExampleCard.module.css";
 export function ExampleCard({ example }: { example: ExampleView }) {
   const [missing, setMissing] = useState(example.picture === "");
   return (
-    <button type="button" className={classes.card} onClick={() => void leave({ type: "open_example", name: example.name })}>
+    <button
+      type="button"
+      className={classes.card}
+      onClick={() => void leave({ type: "open_example", name: example.name })}
+    >
       <span className={classes.picture}>
         {missing && <Mark size={40} color="var(--border-strong)" />}
         {!missing && <img src={example.picture} alt="" loading="lazy" onError={() => setMissing(true)} />}

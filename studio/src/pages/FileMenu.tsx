@@ -1,7 +1,17 @@
 // The mark of deodar and, behind it, everything about files.
 
 import { Menu, UnstyledButton } from "@mantine/core";
-import { IconChevronDown, IconDeviceFloppy, IconFileExport, IconFileImport, IconFolderOpen, IconHistory, IconLayoutGrid, IconNotes, IconX } from "@tabler/icons-react";
+import {
+  IconChevronDown,
+  IconDeviceFloppy,
+  IconFileExport,
+  IconFileImport,
+  IconFolderOpen,
+  IconHistory,
+  IconLayoutGrid,
+  IconNotes,
+  IconX,
+} from "@tabler/icons-react";
 
 import { useStudio } from "../store";
 import { Mark } from "./Mark";
@@ -26,38 +36,65 @@ export function FileMenu() {
         </UnstyledButton>
       </Menu.Target>
       <Menu.Dropdown>
-        <Menu.Item leftSection={<IconFolderOpen {...ICON} />} rightSection={<Keys keys="Ctrl+O" />} onClick={() => void open()}>
+        <Menu.Item
+          leftSection={<IconFolderOpen {...ICON} />}
+          rightSection={<Keys keys="Ctrl+O" />}
+          onClick={() => void open()}
+        >
           Open…
         </Menu.Item>
         <Menu.Sub>
           <Menu.Sub.Target>
-            <Menu.Sub.Item leftSection={<IconHistory {...ICON} />} disabled={recent === undefined || recent.length === 0}>
+            <Menu.Sub.Item
+              leftSection={<IconHistory {...ICON} />}
+              disabled={recent === undefined || recent.length === 0}
+            >
               Open recent
             </Menu.Sub.Item>
           </Menu.Sub.Target>
           <Menu.Sub.Dropdown>
             {recent?.map((path) => (
-              <Menu.Item key={path} maw={360} title={path} onClick={() => void leave({ type: "open_file", path })}>
+              <Menu.Item
+                key={path}
+                maw={360}
+                title={path}
+                onClick={() => void leave({ type: "open_file", path })}
+              >
                 {path}
               </Menu.Item>
             ))}
           </Menu.Sub.Dropdown>
         </Menu.Sub>
-        <Menu.Item leftSection={<IconLayoutGrid {...ICON} />} onClick={() => useView.setState({ gallery: true })}>
+        <Menu.Item
+          leftSection={<IconLayoutGrid {...ICON} />}
+          onClick={() => useView.setState({ gallery: true })}
+        >
           Examples
         </Menu.Item>
         <Menu.Divider />
-        <Menu.Item leftSection={<IconDeviceFloppy {...ICON} />} rightSection={<Keys keys="Ctrl+S" />} onClick={() => void save()}>
+        <Menu.Item
+          leftSection={<IconDeviceFloppy {...ICON} />}
+          rightSection={<Keys keys="Ctrl+S" />}
+          onClick={() => void save()}
+        >
           Save
         </Menu.Item>
-        <Menu.Item leftSection={<IconFileExport {...ICON} />} rightSection={<Keys keys="Ctrl+Shift+S" />} onClick={() => void saveAs()}>
+        <Menu.Item
+          leftSection={<IconFileExport {...ICON} />}
+          rightSection={<Keys keys="Ctrl+Shift+S" />}
+          onClick={() => void saveAs()}
+        >
           Save as…
         </Menu.Item>
         <Menu.Divider />
         <Menu.Item leftSection={<IconFileImport {...ICON} />} onClick={() => void takeValues()}>
           Take over values…
         </Menu.Item>
-        <Menu.Item leftSection={<IconNotes {...ICON} />} disabled={!noted} onClick={() => void ask("notes", null)}>
+        <Menu.Item
+          leftSection={<IconNotes {...ICON} />}
+          disabled={!noted}
+          onClick={() => void ask("notes", null)}
+        >
           Notes
         </Menu.Item>
         <Menu.Divider />

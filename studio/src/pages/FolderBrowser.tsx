@@ -22,7 +22,15 @@ type Props = {
   first?: boolean;
 };
 
-export function FolderBrowser({ path, listing: { folder, problem }, wants, onFolder, onFile, marked, first = false }: Props) {
+export function FolderBrowser({
+  path,
+  listing: { folder, problem },
+  wants,
+  onFolder,
+  onFile,
+  marked,
+  first = false,
+}: Props) {
   const root = useStudio((state) => state.welcome?.root ?? "");
   const list = useRef<HTMLUListElement>(null);
   const before = useRef(path);
@@ -52,7 +60,13 @@ export function FolderBrowser({ path, listing: { folder, problem }, wants, onFol
           </span>
         ))}
       </nav>
-      <ul ref={list} className={classes.list} aria-label="Content of the folder" tabIndex={-1} data-autofocus={first || undefined}>
+      <ul
+        ref={list}
+        className={classes.list}
+        aria-label="Content of the folder"
+        tabIndex={-1}
+        data-autofocus={first || undefined}
+      >
         {folder?.folders.map((name) => (
           <li key={`${name}/`}>
             <button type="button" className={classes.entry} title={name} onClick={() => onFolder(at(name))}>
@@ -63,14 +77,23 @@ export function FolderBrowser({ path, listing: { folder, problem }, wants, onFol
         ))}
         {names.map((name) => (
           <li key={name}>
-            <button type="button" className={classes.entry} title={name} data-marked={at(name) === marked || undefined}
-              onClick={() => onFile(at(name))}>
+            <button
+              type="button"
+              className={classes.entry}
+              title={name}
+              data-marked={at(name) === marked || undefined}
+              onClick={() => onFile(at(name))}
+            >
               <FileIcon size={17} stroke={1.6} aria-hidden="true" />
               <span className="one-line">{name}</span>
             </button>
           </li>
         ))}
-        {empty && <li className={classes.empty}>{wants === "files" ? "No documents (.json, .deodar) here" : "No pictures here"}</li>}
+        {empty && (
+          <li className={classes.empty}>
+            {wants === "files" ? "No documents (.json, .deodar) here" : "No pictures here"}
+          </li>
+        )}
         {problem !== null && (
           <li className={classes.empty}>
             <ProblemText problem={problem} />

@@ -29,7 +29,12 @@ export function GalleryPage() {
             <p>Open an architecture of neural fields, run it, and see it answer.</p>
           </div>
           {title !== null && (
-            <Button variant="default" maw={260} leftSection={<IconArrowLeft size={16} />} onClick={() => useView.setState({ gallery: false })}>
+            <Button
+              variant="default"
+              maw={260}
+              leftSection={<IconArrowLeft size={16} />}
+              onClick={() => useView.setState({ gallery: false })}
+            >
               Back to {title}
             </Button>
           )}
@@ -51,7 +56,12 @@ export function GalleryPage() {
             <ul className={classes.recent} aria-label="Recent files">
               {recent.map((path) => (
                 <li key={path}>
-                  <button type="button" className={classes.file} title={path} onClick={() => void leave({ type: "open_file", path })}>
+                  <button
+                    type="button"
+                    className={classes.file}
+                    title={path}
+                    onClick={() => void leave({ type: "open_file", path })}
+                  >
                     <IconFile size={16} stroke={1.5} aria-hidden="true" />
                     <span className="one-line">{lastPart(path)}</span>
                     <span className={`${classes.folder} one-line`}>{parent(path)}</span>
@@ -76,7 +86,8 @@ export function GalleryPage() {
         </section>
 
         <footer className={classes.footer}>
-          deodar {welcome?.version} <span title="Files are read and written below this folder">{welcome?.root}</span>
+          deodar {welcome?.version}{" "}
+          <span title="Files are read and written below this folder">{welcome?.root}</span>
         </footer>
       </div>
     </main>

@@ -12,7 +12,9 @@ export function LostBanner() {
       {(connection === "lost" || connection === "refused") && (
         <div className={classes.banner}>
           <IconPlugConnectedX size={16} aria-hidden="true" />
-          {connection === "lost" ? "Connection lost, trying again" : "The studio was started again: open the address that it printed"}
+          {connection === "lost"
+            ? "Connection lost, trying again"
+            : "The studio was started again: open the address that it printed"}
         </div>
       )}
     </div>

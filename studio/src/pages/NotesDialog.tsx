@@ -6,7 +6,13 @@ import classes from "./NotesDialog.module.css";
 export function NotesDialog() {
   const notes = useStudio((state) => state.document?.notes ?? "");
   return (
-    <div className={classes.notes} role="document" aria-label="Notes of the document" tabIndex={0} data-autofocus>
+    <div
+      className={classes.notes}
+      role="document"
+      aria-label="Notes of the document"
+      tabIndex={0}
+      data-autofocus
+    >
       {notes}
     </div>
   );

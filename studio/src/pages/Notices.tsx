@@ -1,4 +1,5 @@
-// What the studio has to say, at the lower right: errors and offers stay until they are put away, the rest goes by itself.
+// What the studio has to say, at the lower right: errors and offers stay until they are put away, the rest
+// goes by itself.
 
 import { Button, CloseButton } from "@mantine/core";
 import { IconAlertTriangle, IconCircleCheck } from "@tabler/icons-react";

@@ -7,7 +7,9 @@ import classes from "./ProblemText.module.css";
 export function ProblemText({ problem }: { problem: Problem }) {
   return (
     <div className={classes.problem}>
-      {problem.where !== undefined && problem.where !== "" && <div className={classes.where}>{problem.where}</div>}
+      {problem.where !== undefined && problem.where !== "" && (
+        <div className={classes.where}>{problem.where}</div>
+      )}
       <div className={classes.what}>
         {isWarning(problem) && "Warning: "}
         {problem.what}

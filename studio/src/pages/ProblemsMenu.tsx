@@ -21,7 +21,15 @@ export function ProblemsMenu() {
   return (
     <Popover position="bottom-end" withArrow shadow="md" trapFocus returnFocus>
       <Popover.Target>
-        <Button size="compact-sm" color={color} variant="light" px={7} leftSection={<IconAlertTriangle size={15} />} aria-label={label} title={label}>
+        <Button
+          size="compact-sm"
+          color={color}
+          variant="light"
+          px={7}
+          leftSection={<IconAlertTriangle size={15} />}
+          aria-label={label}
+          title={label}
+        >
           {problems.length}
         </Button>
       </Popover.Target>

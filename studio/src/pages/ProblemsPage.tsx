@@ -42,11 +42,20 @@ export function ProblemsPage({ trouble }: { trouble: Trouble }) {
         </ol>
         <Group gap="xs">
           {isWhole(trouble.file) && (
-            <Button leftSection={<IconRefresh size={16} />} loading={trying} onClick={() => void again()} autoFocus>
+            <Button
+              leftSection={<IconRefresh size={16} />}
+              loading={trying}
+              onClick={() => void again()}
+              autoFocus
+            >
               Try again
             </Button>
           )}
-          <Button variant="default" leftSection={<IconArrowLeft size={16} />} onClick={() => void leave({ type: "close" })}>
+          <Button
+            variant="default"
+            leftSection={<IconArrowLeft size={16} />}
+            onClick={() => void leave({ type: "close" })}
+          >
             Back to the gallery
           </Button>
         </Group>
@@ -58,5 +67,8 @@ export function ProblemsPage({ trouble }: { trouble: Trouble }) {
 // The file is named above; where in it is what matters here.
 function within(file: string, problem: Problem): Problem {
   const where = problem.where ?? "";
-  return { ...problem, where: where === file ? "" : where.startsWith(`${file}: `) ? where.slice(file.length + 2) : where };
+  return {
+    ...problem,
+    where: where === file ? "" : where.startsWith(`${file}: `) ? where.slice(file.length + 2) : where,
+  };
 }

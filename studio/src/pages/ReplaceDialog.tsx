@@ -8,7 +8,8 @@ export function ReplaceDialog({ question, answer }: Asking<"replace">) {
   return (
     <>
       <Text size="sm" style={{ overflowWrap: "anywhere" }}>
-        <b>{question.path}</b> {question.own ? "was changed on disk since it was opened or saved here." : "is there already."}
+        <b>{question.path}</b>{" "}
+        {question.own ? "was changed on disk since it was opened or saved here." : "is there already."}
       </Text>
       <Group gap="xs" mt="lg" justify="flex-end">
         <Button variant="subtle" color="gray" onClick={() => answer("cancel")}>

@@ -9,7 +9,11 @@ export function SchemeToggle() {
   const other = scheme === "dark" ? "light" : "dark";
   return (
     <Tooltip label={other === "dark" ? "Dark colours" : "Light colours"}>
-      <ActionIcon size={28} aria-label={other === "dark" ? "Dark colours" : "Light colours"} onClick={() => setColorScheme(other)}>
+      <ActionIcon
+        size={28}
+        aria-label={other === "dark" ? "Dark colours" : "Light colours"}
+        onClick={() => setColorScheme(other)}
+      >
         {other === "dark" ? <IconMoon size={17} /> : <IconSun size={17} />}
       </ActionIcon>
     </Tooltip>

@@ -13,12 +13,22 @@ export function UndoButtons() {
   return (
     <>
       <Tooltip label={`Undo (${keysText("Ctrl+Z")})`}>
-        <ActionIcon aria-label="Undo" size={28} disabled={undo === 0} onClick={() => void request({ type: "undo" })}>
+        <ActionIcon
+          aria-label="Undo"
+          size={28}
+          disabled={undo === 0}
+          onClick={() => void request({ type: "undo" })}
+        >
           <IconArrowBackUp size={18} />
         </ActionIcon>
       </Tooltip>
       <Tooltip label={`Redo (${keysText("Ctrl+Shift+Z")})`}>
-        <ActionIcon aria-label="Redo" size={28} disabled={redo === 0} onClick={() => void request({ type: "redo" })}>
+        <ActionIcon
+          aria-label="Redo"
+          size={28}
+          disabled={redo === 0}
+          onClick={() => void request({ type: "redo" })}
+        >
           <IconArrowForwardUp size={18} />
         </ActionIcon>
       </Tooltip>

@@ -7,11 +7,15 @@ type Conversations = {
   unsaved: { question: { title: string }; answer: "save" | "discard" | "cancel" };
   // A file is in the way; where it is the document's own, it was changed by something else.
   replace: { question: { path: string; own: boolean }; answer: "replace" | "elsewhere" | "cancel" };
-  // A file below the root (its path), or one of the person's own: to open it, to show it to the sensors, or for its values.
+  // A file below the root (its path), or one of the person's own: to open it, to show it to the sensors, or
+  // for its values.
   choose: { question: { wants: "files" | "pictures" | "values" }; answer: string | File | null };
   save_as: { question: { path: string }; answer: string | null };
   // What became of the values of a file.
-  taken: { question: { file: string; carried: number; unmatched: readonly string[] }; answer: "keep" | "undo" };
+  taken: {
+    question: { file: string; carried: number; unmatched: readonly string[] };
+    answer: "keep" | "undo";
+  };
   // The notes of the document, with the report on a file of another tool.
   notes: { question: null; answer: null };
   shortcuts: { question: null; answer: null };
@@ -22,7 +26,11 @@ type Name = keyof Conversations;
 export type Question<K extends Name> = Conversations[K]["question"];
 export type AnswerTo<K extends Name> = Conversations[K]["answer"];
 
-export type Asking<K extends Name> = { name: K; question: Question<K>; answer: (answer: AnswerTo<K>) => void };
+export type Asking<K extends Name> = {
+  name: K;
+  question: Question<K>;
+  answer: (answer: AnswerTo<K>) => void;
+};
 
 export type Asked = { [K in Name]: Asking<K> }[Name];
 
@@ -32,7 +40,15 @@ const nothingAsked: Dialogs = { asked: null, cancel: () => {} };
 
 export const useDialogs = create<Dialogs>(() => nothingAsked);
 
-const CANCELLED: { [K in Name]: AnswerTo<K> } = { unsaved: "cancel", replace: "cancel", choose: null, save_as: null, taken: "keep", notes: null, shortcuts: null };
+const CANCELLED: { [K in Name]: AnswerTo<K> } = {
+  unsaved: "cancel",
+  replace: "cancel",
+  choose: null,
+  save_as: null,
+  taken: "keep",
+  notes: null,
+  shortcuts: null,
+};
 
 // Ask the person. A question that still stands is cancelled.
 export function ask<K extends Name>(name: K, question: Question<K>): Promise<AnswerTo<K>> {

@@ -6,11 +6,32 @@ import { choosePicture, leave, open, save, saveAs, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
 
 const document: DocumentView = {
-  file: "", title: "selection", time_unit: "ms", dt: null, notes: "", axes: [], elements: [], connections: [], groups: [], knobs: [],
-  layout: {}, problems: [], unsaved: true, undo: 1, redo: 0,
+  file: "",
+  title: "selection",
+  time_unit: "ms",
+  dt: null,
+  notes: "",
+  axes: [],
+  elements: [],
+  connections: [],
+  groups: [],
+  knobs: [],
+  layout: {},
+  problems: [],
+  unsaved: true,
+  undo: 1,
+  redo: 0,
 };
 const picture: Kind = {
-  name: "Picture", room: "worlds", title: "Picture", equation: [], reference: "", parameters: [], ports: {}, levels: {}, example: null,
+  name: "Picture",
+  room: "worlds",
+  title: "Picture",
+  equation: [],
+  reference: "",
+  parameters: [],
+  ports: {},
+  levels: {},
+  example: null,
 };
 
 function given(state: Partial<DocumentView>): void {
@@ -163,7 +184,9 @@ describe("a file that was dropped", () => {
   it("is a picture for what senses", async () => {
     useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
     server({});
-    expect(await takeFile(new File([new Uint8Array([0, 255, 7])], "a.png", { type: "image/png" }))).toBe(true);
+    expect(await takeFile(new File([new Uint8Array([0, 255, 7])], "a.png", { type: "image/png" }))).toBe(
+      true,
+    );
     expect(sent).toEqual([{ type: "use_world_content", kind: "Picture", name: "a.png", content: "AP8H" }]);
   });
 

@@ -1,6 +1,16 @@
-// Conversations with the person and the server that take several steps: opening, saving, reading a file of the person's own.
+// Conversations with the person and the server that take several steps: opening, saving, reading a file of
+// the person's own.
 
-import type { Answer, Close, OpenExample, OpenFile, OpenPackage, OpenText, Problem, Recover } from "../protocol";
+import type {
+  Answer,
+  Close,
+  OpenExample,
+  OpenFile,
+  OpenPackage,
+  OpenText,
+  Problem,
+  Recover,
+} from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { ask } from "./dialogs";
@@ -87,7 +97,10 @@ export async function takeFile(file: File): Promise<boolean> {
 // Whether a file is more than one message may hold; then that is said.
 export function isTooLarge(file: File): boolean {
   if (file.size > MOST_BYTES) {
-    refuse({ what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`, fix: "Put it below the studio's folder and open it there." });
+    refuse({
+      what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`,
+      fix: "Put it below the studio's folder and open it there.",
+    });
   }
   return file.size > MOST_BYTES;
 }
@@ -102,19 +115,29 @@ async function showPicture(picture: string | File): Promise<boolean> {
   const { kinds, clock } = useStudio.getState();
   const world = [...kinds.values()].find((kind) => kind.room === "worlds");
   if (clock?.senses !== true || world === undefined) {
-    return refuse({ what: "Nothing here reads a picture.", fix: "Open a document with a sensor first, for example one from the gallery." });
+    return refuse({
+      what: "Nothing here reads a picture.",
+      fix: "Open a document with a sensor first, for example one from the gallery.",
+    });
   }
   const answer =
     typeof picture === "string"
       ? await request({ type: "use_world", kind: world.name, path: picture })
-      : await request({ type: "use_world_content", kind: world.name, name: picture.name, content: await base64(picture) });
+      : await request({
+          type: "use_world_content",
+          kind: world.name,
+          name: picture.name,
+          content: await base64(picture),
+        });
   return (answer.problems ?? []).length === 0;
 }
 
 // What became of a file of another tool is said where it was opened.
 function arrived({ imported = "" }: Answer): boolean {
   if (imported !== "") {
-    useStudio.getState().notify({ what: imported }, "info", { label: "Show the report", run: () => ask("notes", null) });
+    useStudio
+      .getState()
+      .notify({ what: imported }, "info", { label: "Show the report", run: () => ask("notes", null) });
   }
   return true;
 }

@@ -1,6 +1,17 @@
 import { describe, expect, it } from "vitest";
 
-import { belowRoot, isWhole, joined, lastPart, nameProblem, parent, rootName, sortOf, steps, withEnding } from "./paths";
+import {
+  belowRoot,
+  isWhole,
+  joined,
+  lastPart,
+  nameProblem,
+  parent,
+  rootName,
+  sortOf,
+  steps,
+  withEnding,
+} from "./paths";
 
 describe("paths", () => {
   it("go up and down", () => {
@@ -27,7 +38,13 @@ describe("paths", () => {
     expect(belowRoot("C:\\models", "C:\\models\\a\\b.json")).toBe("a/b.json");
     expect(belowRoot("/data/me", "/data/mean.json")).toBe("/data/mean.json");
     expect(belowRoot("/data/me", "dropped.json")).toBe("dropped.json");
-    expect(["/a.json", "C:\\a.json", "a.json", "a/b.json", ""].map(isWhole)).toEqual([true, true, false, false, false]);
+    expect(["/a.json", "C:\\a.json", "a.json", "a/b.json", ""].map(isWhole)).toEqual([
+      true,
+      true,
+      false,
+      false,
+      false,
+    ]);
   });
 });
 

@@ -23,7 +23,8 @@ export function rootName(root: string): string {
   return root.split(/[\\/]/).filter(Boolean).at(-1) ?? root;
 }
 
-// Whether a path is one of the system, from its top: a file that was opened. What was dropped on the page has only a name.
+// Whether a path is one of the system, from its top: a file that was opened. What was dropped on the page has
+// only a name.
 export function isWhole(path: string): boolean {
   return /^([\\/]|[a-z]:)/i.test(path);
 }

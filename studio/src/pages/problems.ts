@@ -9,7 +9,9 @@ export function isWarning(problem: Problem): boolean {
 // "1 problem, 2 warnings"; empty without either.
 export function countText(found: readonly Problem[]): string {
   const warnings = found.filter(isWarning).length;
-  return [counted(found.length - warnings, "problem"), counted(warnings, "warning")].filter((text) => text !== "").join(", ");
+  return [counted(found.length - warnings, "problem"), counted(warnings, "warning")]
+    .filter((text) => text !== "")
+    .join(", ");
 }
 
 function counted(n: number, noun: string): string {

@@ -19,7 +19,11 @@ describe("taking over the values of a file", () => {
     server({ carried: 1, unmatched: ["k: element Convolve: dropped"] });
     const questions = person("preset.json", "keep");
     expect(await takeValues()).toBe(true);
-    expect(questions[1]?.question).toEqual({ file: "preset.json", carried: 1, unmatched: ["k: element Convolve: dropped"] });
+    expect(questions[1]?.question).toEqual({
+      file: "preset.json",
+      carried: 1,
+      unmatched: ["k: element Convolve: dropped"],
+    });
     expect(sent).toHaveLength(1);
     expect(notices()).toEqual([]);
   });

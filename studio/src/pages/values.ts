@@ -7,7 +7,8 @@ import { ask } from "./dialogs";
 import { done, isTooLarge } from "./flows";
 import { lastPart } from "./paths";
 
-// Ask for a file and take its values over. What did not match is shown. True where something was taken over and kept.
+// Ask for a file and take its values over. What did not match is shown. True where something was taken over
+// and kept.
 export async function takeValues(): Promise<boolean> {
   const chosen = await ask("choose", { wants: "values" });
   if (chosen === null || (chosen instanceof File && isTooLarge(chosen))) {
@@ -40,5 +41,7 @@ async function sent(chosen: string | File): Promise<Answer> {
 
 // How many values changed, in a sentence.
 export function takenText(carried: number, file: string): string {
-  return carried === 0 ? `No value of ${file} differs from what is open.` : `${carried === 1 ? "1 value was" : `${carried} values were`} taken over from ${file}.`;
+  return carried === 0
+    ? `No value of ${file} differs from what is open.`
+    : `${carried === 1 ? "1 value was" : `${carried} values were`} taken over from ${file}.`;
 }

@@ -1,4 +1,5 @@
-// The panels of the page, which can be moved, stacked, closed and resized. Their arrangement is kept with the document.
+// The panels of the page, which can be moved, stacked, closed and resized. Their arrangement is kept with the
+// document.
 
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
@@ -26,7 +27,8 @@ const COMPONENTS = {
   plot: PlotPanel,
 };
 
-// Panels are parted by a gap through which the ground shows: lines above them would be drawn over every plot again and again.
+// Panels are parted by a gap through which the ground shows: lines above them would be drawn over every plot
+// again and again.
 const THEME: DockviewTheme = { name: "deodar", className: "dock-theme", dndPanelOverlay: "group", gap: 1 };
 const SAVE_AFTER_MS = 600;
 

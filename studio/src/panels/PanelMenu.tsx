@@ -17,7 +17,12 @@ export function PanelMenu() {
   return (
     <Menu position="bottom-end" width={280} shadow="md" onClose={() => setSearch("")}>
       <Menu.Target>
-        <Button size="compact-sm" variant="default" leftSection={<IconLayoutGridAdd size={15} />} aria-label="Open panels and plots">
+        <Button
+          size="compact-sm"
+          variant="default"
+          leftSection={<IconLayoutGridAdd size={15} />}
+          aria-label="Open panels and plots"
+        >
           Panels
         </Button>
       </Menu.Target>
@@ -38,7 +43,12 @@ export function PanelMenu() {
         />
         <ScrollArea.Autosize mah={260} type="auto">
           {found.slice(0, MOST).map((element) => (
-            <Menu.Item key={element.id} leftSection={<IconChartLine size={15} />} title={element.path} onClick={() => openPlot({ element: element.id })}>
+            <Menu.Item
+              key={element.id}
+              leftSection={<IconChartLine size={15} />}
+              title={element.path}
+              onClick={() => openPlot({ element: element.id })}
+            >
               <span className="dock-item one-line">{element.path}</span>
             </Menu.Item>
           ))}

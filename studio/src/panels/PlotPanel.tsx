@@ -22,8 +22,16 @@ const PLOTS: Record<PlotKind, ComponentType<PlotProps>> = {
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
   const plot = readParams(params);
   const element = useStudio((state) => state.elements.get(plot.element));
-  const port = useStudio(() => (element === undefined || portsOf(element).includes(plot.port) ? plot.port : mainPort(element, useStudio.getState().kinds.get(element.kind))));
-  const offered = useStudio((state) => (element === undefined || state.document === null ? "course" : plotKinds(portAxes(state.document, element, port)).join()));
+  const port = useStudio(() =>
+    element === undefined || portsOf(element).includes(plot.port)
+      ? plot.port
+      : mainPort(element, useStudio.getState().kinds.get(element.kind)),
+  );
+  const offered = useStudio((state) =>
+    element === undefined || state.document === null
+      ? "course"
+      : plotKinds(portAxes(state.document, element, port)).join(),
+  );
   const visible = useVisible(api);
   const kinds = offered.split(",") as PlotKind[];
   const kind = plot.kind !== null && kinds.includes(plot.kind) ? plot.kind : (kinds[0] ?? "course");

@@ -16,7 +16,10 @@ const arrangement = (width: number, left: number, active = "a", title = "A") =>
       height: 500,
       orientation: "HORIZONTAL",
     },
-    panels: { a: { id: "a", contentComponent: "graph", title }, b: { id: "b", contentComponent: "plot", params: { element: "u" } } },
+    panels: {
+      a: { id: "a", contentComponent: "graph", title },
+      b: { id: "b", contentComponent: "plot", params: { element: "u" } },
+    },
     activeGroup: active,
   }) as unknown as SerializedDockview;
 
@@ -24,7 +27,9 @@ it("only arrangements of panels that there are can be used", () => {
   expect(isArrangement(arrangement(1000, 600))).toBe(true);
   expect(isArrangement(undefined)).toBe(false);
   expect(isArrangement({ grid: 1, panels: {} })).toBe(false);
-  expect(isArrangement({ grid: {}, panels: { a: { id: "a", contentComponent: "no such thing" } } })).toBe(false);
+  expect(isArrangement({ grid: {}, panels: { a: { id: "a", contentComponent: "no such thing" } } })).toBe(
+    false,
+  );
   expect(isArrangement({ grid: {}, panels: { a: { id: "b", contentComponent: "graph" } } })).toBe(false);
 });
 

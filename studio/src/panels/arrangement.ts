@@ -14,7 +14,13 @@ const PLOT = 0.4;
 export function arrangeFirst(api: DockviewApi): void {
   api.clear();
   api.addPanel({ id: "graph", component: "graph", title: TOOLS.graph.title });
-  api.addPanel({ id: "inspector", component: "inspector", title: TOOLS.inspector.title, position: { direction: "right" }, initialWidth: TOOLS.inspector.width });
+  api.addPanel({
+    id: "inspector",
+    component: "inspector",
+    title: TOOLS.inspector.title,
+    position: { direction: "right" },
+    initialWidth: TOOLS.inspector.width,
+  });
   api.addPanel({
     id: "pins",
     component: "pins",
@@ -58,12 +64,20 @@ export function isArrangement(stored: unknown): stored is SerializedDockview {
   if (!isRecord(stored) || !isRecord(stored["grid"]) || !isRecord(stored["panels"])) {
     return false;
   }
-  return Object.entries(stored["panels"]).every(([id, panel]) => isRecord(panel) && panel["id"] === id && COMPONENTS.includes(panel["contentComponent"] as string));
+  return Object.entries(stored["panels"]).every(
+    ([id, panel]) =>
+      isRecord(panel) && panel["id"] === id && COMPONENTS.includes(panel["contentComponent"] as string),
+  );
 }
 
-// What an arrangement is, apart from the size of the window, where the focus is, and titles, which follow from the document.
+// What an arrangement is, apart from the size of the window, where the focus is, and titles, which follow
+// from the document.
 export function signature(arrangement: SerializedDockview): string {
-  const panels = Object.entries(arrangement.panels).map(([id, { contentComponent, params }]) => [id, contentComponent, params]);
+  const panels = Object.entries(arrangement.panels).map(([id, { contentComponent, params }]) => [
+    id,
+    contentComponent,
+    params,
+  ]);
   return JSON.stringify({ ...arrangement, panels, grid: shares(arrangement.grid.root), activeGroup: null });
 }
 

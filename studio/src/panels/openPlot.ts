@@ -27,7 +27,13 @@ export function openPlot(wish: PlotWish): void {
     return;
   }
   const position = placeFor(dock);
-  dock.addPanel({ id: freeId(dock), component: "plot", title: plotTitle(plot), params: { ...plot, settings: {} }, ...(position === null ? {} : { position }) });
+  dock.addPanel({
+    id: freeId(dock),
+    component: "plot",
+    title: plotTitle(plot),
+    params: { ...plot, settings: {} },
+    ...(position === null ? {} : { position }),
+  });
 }
 
 // Show one of the panels that exist once.
@@ -65,7 +71,11 @@ function isPlot(panel: IDockviewPanel): boolean {
 
 function isSame(panel: IDockviewPanel, plot: Plot): boolean {
   const params = readParams(panel.params ?? {});
-  return params.element === plot.element && params.kind === plot.kind && (params.port === plot.port || plot.kind === "curve");
+  return (
+    params.element === plot.element &&
+    params.kind === plot.kind &&
+    (params.port === plot.port || plot.kind === "curve")
+  );
 }
 
 function freeId(api: DockviewApi): string {

@@ -14,7 +14,10 @@ export function share({ width, height }: Box): "right" | "below" | "within" {
 
 export function placeFor(api: DockviewApi): AddPanelPositionOptions | null {
   const plots = api.groups.filter((group) => group.panels.some((panel) => panel.api.component === "plot"));
-  const largest = plots.reduce<DockviewGroupPanel | null>((best, group) => (best === null || area(group) > area(best) ? group : best), null);
+  const largest = plots.reduce<DockviewGroupPanel | null>(
+    (best, group) => (best === null || area(group) > area(best) ? group : best),
+    null,
+  );
   if (largest !== null) {
     return { referenceGroup: largest, direction: share(largest) };
   }

@@ -32,7 +32,11 @@ export function PinEditing({ what, pin, range, onDone }: PinEditingProps) {
     onDone();
   };
   return (
-    <form className="pin-editing" onSubmit={onSubmit} onKeyDown={(event) => event.key === "Escape" && onDone()}>
+    <form
+      className="pin-editing"
+      onSubmit={onSubmit}
+      onKeyDown={(event) => event.key === "Escape" && onDone()}
+    >
       {what === "label" ? (
         <TextInput
           size="xs"

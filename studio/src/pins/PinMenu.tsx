@@ -1,7 +1,14 @@
 // What can be done with a pinned row.
 
 import { Menu } from "@mantine/core";
-import { IconArrowDown, IconArrowUp, IconArrowsHorizontal, IconPencil, IconPinnedOff, IconWand } from "@tabler/icons-react";
+import {
+  IconArrowDown,
+  IconArrowUp,
+  IconArrowsHorizontal,
+  IconPencil,
+  IconPinnedOff,
+  IconWand,
+} from "@tabler/icons-react";
 
 import { DotsMenu } from "../inspector/DotsMenu";
 
@@ -20,24 +27,32 @@ export function PinMenu({ path, place, ranged, onEdit, onAutomatic, onMove, onUn
   const { index, count } = place;
   return (
     <DotsMenu label={`More for ${path}`}>
-        <Menu.Item leftSection={<IconArrowsHorizontal size={14} />} onClick={() => onEdit("range")}>
-          Change range…
-        </Menu.Item>
-        <Menu.Item leftSection={<IconWand size={14} />} disabled={!ranged} onClick={onAutomatic}>
-          Automatic range
-        </Menu.Item>
-        <Menu.Item leftSection={<IconPencil size={14} />} onClick={() => onEdit("label")}>
-          Rename…
-        </Menu.Item>
-        <Menu.Item leftSection={<IconArrowUp size={14} />} disabled={index === 0} onClick={() => onMove(index - 1)}>
-          Move up
-        </Menu.Item>
-        <Menu.Item leftSection={<IconArrowDown size={14} />} disabled={index === count - 1} onClick={() => onMove(index + 1)}>
-          Move down
-        </Menu.Item>
-        <Menu.Item leftSection={<IconPinnedOff size={14} />} onClick={onUnpin}>
-          Unpin
-        </Menu.Item>
+      <Menu.Item leftSection={<IconArrowsHorizontal size={14} />} onClick={() => onEdit("range")}>
+        Change range…
+      </Menu.Item>
+      <Menu.Item leftSection={<IconWand size={14} />} disabled={!ranged} onClick={onAutomatic}>
+        Automatic range
+      </Menu.Item>
+      <Menu.Item leftSection={<IconPencil size={14} />} onClick={() => onEdit("label")}>
+        Rename…
+      </Menu.Item>
+      <Menu.Item
+        leftSection={<IconArrowUp size={14} />}
+        disabled={index === 0}
+        onClick={() => onMove(index - 1)}
+      >
+        Move up
+      </Menu.Item>
+      <Menu.Item
+        leftSection={<IconArrowDown size={14} />}
+        disabled={index === count - 1}
+        onClick={() => onMove(index + 1)}
+      >
+        Move down
+      </Menu.Item>
+      <Menu.Item leftSection={<IconPinnedOff size={14} />} onClick={onUnpin}>
+        Unpin
+      </Menu.Item>
     </DotsMenu>
   );
 }

@@ -34,7 +34,9 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
   const element = useStudio((state) => state.elements.get(id));
   const select = useStudio((state) => state.select);
   const knob = useStudio((state) =>
-    id === "" ? state.document?.knobs.find((k) => k.name === parameter) : driver(state.document, id, parameter),
+    id === ""
+      ? state.document?.knobs.find((k) => k.name === parameter)
+      : driver(state.document, id, parameter),
   );
   const [editing, setEditing] = useState<"" | "range" | "label">("");
   const stored = knob === undefined ? valueAt(element?.values, parameter) : knob.value;
@@ -42,7 +44,12 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
   const knobLook = useKnobLook(knob);
   const look = id === "" ? knobLook : ownLook;
   const value = typeof stored === "number" ? stored : null;
-  const setting = useSetting<number | null>(knob === undefined ? id : "", knob?.name ?? parameter, value, look?.cost ?? "live");
+  const setting = useSetting<number | null>(
+    knob === undefined ? id : "",
+    knob?.name ?? parameter,
+    value,
+    look?.cost ?? "live",
+  );
   const unpin = () => keepPins((pins) => withoutPin(pins, id, parameter));
   const gone = look === undefined || (id === "" && knob === undefined) || (value === null && !look.optional);
   const path = id === "" ? parameter : `${element?.path ?? id}.${parameter}`;
@@ -60,7 +67,12 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
   };
 
   return (
-    <li className={`pin ${mark === "" ? "" : `pin-${mark}`}`} data-pin={path} onDragOver={takeDrag} onDrop={onDrop}>
+    <li
+      className={`pin ${mark === "" ? "" : `pin-${mark}`}`}
+      data-pin={path}
+      onDragOver={takeDrag}
+      onDrop={onDrop}
+    >
       <div className="pin-line">
         <UnstyledButton
           className="pin-grip"
@@ -76,8 +88,15 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
         >
           <IconGripVertical size={13} />
         </UnstyledButton>
-        <Tooltip label={<Explanation path={path} meaning={look?.meaning ?? ""} links={knob?.links ?? []} />} position="top-start">
-          <UnstyledButton className="pin-name" onClick={() => select(id === "" ? [] : [id])} onDoubleClick={() => setEditing("label")}>
+        <Tooltip
+          label={<Explanation path={path} meaning={look?.meaning ?? ""} links={knob?.links ?? []} />}
+          position="top-start"
+        >
+          <UnstyledButton
+            className="pin-name"
+            onClick={() => select(id === "" ? [] : [id])}
+            onDoubleClick={() => setEditing("label")}
+          >
             {look !== undefined && look.symbol !== "" && id !== "" && <Tex source={look.symbol} />}
             <PinName pin={pin} path={element?.path ?? ""} />
           </UnstyledButton>
@@ -89,13 +108,19 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
           </span>
         )}
         <span className="row-tools">
-          <CostMark element={knob === undefined ? id : ""} path={knob?.name ?? parameter} cost={look?.cost ?? "live"} />
+          <CostMark
+            element={knob === undefined ? id : ""}
+            path={knob?.name ?? parameter}
+            cost={look?.cost ?? "live"}
+          />
           <PinMenu
             path={path}
             place={place}
             ranged={pin.lower !== undefined || pin.upper !== undefined}
             onEdit={setEditing}
-            onAutomatic={() => keepPins((pins) => changedPin(pins, pin, { lower: undefined, upper: undefined }))}
+            onAutomatic={() =>
+              keepPins((pins) => changedPin(pins, pin, { lower: undefined, upper: undefined }))
+            }
             onMove={onMove}
             onUnpin={unpin}
           />
@@ -115,7 +140,13 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
         />
       )}
       {editing !== "" && look !== undefined && (
-        <PinEditing key={editing} what={editing} pin={pin} range={chosen(look.range, pin.lower, pin.upper)} onDone={() => setEditing("")} />
+        <PinEditing
+          key={editing}
+          what={editing}
+          pin={pin}
+          range={chosen(look.range, pin.lower, pin.upper)}
+          onDone={() => setEditing("")}
+        />
       )}
     </li>
   );

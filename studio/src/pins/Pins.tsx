@@ -1,4 +1,5 @@
-// The panel of sliders: parameters of any element and document parameters, side by side, kept with the document.
+// The panel of sliders: parameters of any element and document parameters, side by side, kept with the
+// document.
 
 import "../inspector/inspector.css";
 import "./pins.css";
@@ -36,7 +37,10 @@ export function Pins() {
           <p>
             <b>No sliders yet.</b>
           </p>
-          <p>Select an element and choose “Pin to Sliders” in the menu of a parameter. The sliders are kept with the document.</p>
+          <p>
+            Select an element and choose “Pin to Sliders” in the menu of a parameter. The sliders are kept
+            with the document.
+          </p>
         </div>
       )}
       <ul className="pin-list" aria-label="Pinned parameters">

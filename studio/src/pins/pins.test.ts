@@ -13,11 +13,14 @@ describe("pins as they are kept", () => {
   });
 
   test("what cannot be read is left out", () => {
-    expect(pinsOf({ pins: [tau, null, 3, { element: 1, parameter: "tau" }, { element: "1" }, tempo] })).toEqual([tau, tempo]);
+    expect(
+      pinsOf({ pins: [tau, null, 3, { element: 1, parameter: "tau" }, { element: "1" }, tempo] }),
+    ).toEqual([tau, tempo]);
     expect(pinsOf({ pins: [{ ...tau, lower: "low", upper: null, label: "", color: "red" }] })).toEqual([tau]);
   });
 
-  test("of equal ones the first", () => expect(pinsOf({ pins: [tempo, { ...tempo, label: "other" }] })).toEqual([tempo]));
+  test("of equal ones the first", () =>
+    expect(pinsOf({ pins: [tempo, { ...tempo, label: "other" }] })).toEqual([tempo]));
 
   test("the same list for the same layout, so that nothing is drawn in vain", () => {
     const layout = { pins: [tau] };
@@ -33,7 +36,14 @@ test("a parameter is pinned once", () => {
 });
 
 test("range and label of one pin", () => {
-  expect(changedPin([tau, tempo], tau, { lower: 1, upper: 9 })).toEqual([{ ...tau, lower: 1, upper: 9 }, tempo]);
-  expect(changedPin([tempo], tempo, { lower: undefined, upper: undefined })).toEqual([{ element: "", parameter: "tempo", label: "pace" }]);
-  expect(changedPin([tempo], tempo, { label: "" })).toEqual([{ element: "", parameter: "tempo", lower: 0, upper: 5 }]);
+  expect(changedPin([tau, tempo], tau, { lower: 1, upper: 9 })).toEqual([
+    { ...tau, lower: 1, upper: 9 },
+    tempo,
+  ]);
+  expect(changedPin([tempo], tempo, { lower: undefined, upper: undefined })).toEqual([
+    { element: "", parameter: "tempo", label: "pace" },
+  ]);
+  expect(changedPin([tempo], tempo, { label: "" })).toEqual([
+    { element: "", parameter: "tempo", lower: 0, upper: 5 },
+  ]);
 });

@@ -4,7 +4,8 @@ import type { DocumentView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 
-// `element` is empty for a document parameter. `lower` and `upper` are a range that was chosen, `label` a name of one's own.
+// `element` is empty for a document parameter. `lower` and `upper` are a range that was chosen, `label` a
+// name of one's own.
 export type Pin = {
   element: string;
   parameter: string;
@@ -26,7 +27,9 @@ export function pinsOf(layout: Layout | undefined): Pin[] {
   }
   let pins = read.get(kept);
   if (pins === undefined) {
-    pins = (kept as unknown[]).flatMap(pinOf).filter((pin, i, all) => all.findIndex((p) => isAt(p, pin.element, pin.parameter)) === i);
+    pins = (kept as unknown[])
+      .flatMap(pinOf)
+      .filter((pin, i, all) => all.findIndex((p) => isAt(p, pin.element, pin.parameter)) === i);
     read.set(kept, pins);
   }
   return pins;
@@ -66,7 +69,11 @@ export function withoutPin(pins: Pin[], element: string, parameter: string): Pin
 }
 
 // Another range or label for one pin; undefined takes it away.
-export function changedPin(pins: Pin[], pin: Pin, change: Partial<Pick<Pin, "lower" | "upper" | "label">>): Pin[] {
+export function changedPin(
+  pins: Pin[],
+  pin: Pin,
+  change: Partial<Pick<Pin, "lower" | "upper" | "label">>,
+): Pin[] {
   return pins.map((p) => (isAt(p, pin.element, pin.parameter) ? (pinOf({ ...p, ...change })[0] ?? p) : p));
 }
 

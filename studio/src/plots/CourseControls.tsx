@@ -28,11 +28,17 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
 
   const found = elements.get(chosen);
   const ports = found === undefined ? [] : portsOf(found);
-  const port = ports.includes(wantedPort) ? wantedPort : found === undefined ? "" : mainPort(found, kinds.get(found.kind));
+  const port = ports.includes(wantedPort)
+    ? wantedPort
+    : found === undefined
+      ? ""
+      : mainPort(found, kinds.get(found.kind));
   const axes = (document !== null && found !== undefined && portAxes(document, found, port)) || [];
   const place = (axis: AxisView) => places[axis.key] ?? (axis.lower + axis.upper) / 2;
   const trace: TraceSetting =
-    axes.length === 0 ? { element: chosen, port, reduce: "at", at: [] } : { element: chosen, port, reduce, at: reduce === "at" ? axes.map(place) : [] };
+    axes.length === 0
+      ? { element: chosen, port, reduce: "at", at: [] }
+      : { element: chosen, port, reduce, at: reduce === "at" ? axes.map(place) : [] };
   const there = traces.some((other) => JSON.stringify(other) === JSON.stringify(trace));
   const idle = there || port === "";
 
@@ -46,7 +52,10 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
           size="xs"
           fullWidth
           aria-label="Length of the time that is shown"
-          data={WINDOWS.map((length) => ({ value: String(length), label: length === null ? "all" : String(length) }))}
+          data={WINDOWS.map((length) => ({
+            value: String(length),
+            label: length === null ? "all" : String(length),
+          }))}
           value={String(settings.window)}
           onChange={(value) => set({ window: value === "null" ? null : Number(value) })}
         />
@@ -104,8 +113,14 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
             ))}
           </div>
         )}
-        {/* It keeps the focus when there is nothing more to add, so that Escape still closes the settings. */}
-        <Button size="compact-xs" variant="light" data-disabled={idle || undefined} aria-disabled={idle} onClick={() => !idle && set({ traces: [...traces, trace] })}>
+        {/* The focus stays here when nothing can be added, so that Escape still closes the settings. */}
+        <Button
+          size="compact-xs"
+          variant="light"
+          data-disabled={idle || undefined}
+          aria-disabled={idle}
+          onClick={() => !idle && set({ traces: [...traces, trace] })}
+        >
           {there ? "Already in this plot" : "Add"}
         </Button>
       </div>

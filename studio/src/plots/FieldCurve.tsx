@@ -43,14 +43,18 @@ export function FieldCurve(props: PlotProps) {
   const calm = useRef(new CalmRange(ROOM));
   const data = useRef<uPlot.AlignedData>([[]]);
   const levels = useLevels(element.id, level, () => chart.current?.setData(data.current));
-  const wishes = useMemo<Wish[]>(() => curves.map((other) => ({ type: "watch", element: element.id, port: other, most: MOST })), [element.id, curves.join()]);
+  const wishes = useMemo<Wish[]>(
+    () => curves.map((other) => ({ type: "watch", element: element.id, port: other, most: MOST })),
+    [element.id, curves.join()],
+  );
   const draw = (lives: Live[]) => {
     data.current = columns(lives);
     chart.current?.setData(data.current);
   };
   const streaming = useStreams(wishes, visible, draw);
   const x = streaming.forms.find((form) => form !== null)?.axes[0] ?? documentAxis(element.id, port);
-  const onRight = (other: string) => names.length > 0 && other === "output" && other !== level && curves.some((curve) => curve !== other);
+  const onRight = (other: string) =>
+    names.length > 0 && other === "output" && other !== level && curves.some((curve) => curve !== other);
 
   const lines = (): Level[] => (withLevels ? levels.current : []);
   const options = (look: Look): ChartOptions => ({
@@ -60,7 +64,14 @@ export function FieldCurve(props: PlotProps) {
       left: {
         range: (_, low, high) => {
           const extent = Number.isFinite(low) && Number.isFinite(high) ? ([low, high] as const) : null;
-          return [...(settings.range ?? calm.current.next(extent, lines().map((line) => line.value), performance.now()))];
+          return [
+            ...(settings.range ??
+              calm.current.next(
+                extent,
+                lines().map((line) => line.value),
+                performance.now(),
+              )),
+          ];
         },
       },
       right: { range: (_, low, high) => rightRange(low, high) },
@@ -68,7 +79,9 @@ export function FieldCurve(props: PlotProps) {
     axes: [
       axis(look, { scale: "x", side: 2, ...(x === null ? {} : { label: axisLabel(x) }) }),
       axis(look, { scale: "left", side: 3 }),
-      ...(curves.some(onRight) ? [axis(look, { scale: "right", side: 1, label: "output", grid: false })] : []),
+      ...(curves.some(onRight)
+        ? [axis(look, { scale: "right", side: 1, label: "output", grid: false })]
+        : []),
     ],
     series: [
       {},
@@ -82,12 +95,25 @@ export function FieldCurve(props: PlotProps) {
     ],
     hooks: { draw: [(self) => drawLevels(self, lines(), look)] },
   });
-  // What is drawn of the axis, not the axis: a chart made anew when its first values come would end what a hand holds.
-  const key = JSON.stringify([element.id, curves, withLevels, settings.range, x && [x.name, x.unit, x.lower, x.upper]]);
+  // What is drawn of the axis, not the axis: a chart made anew when its first values come would end what a
+  // hand holds.
+  const key = JSON.stringify([
+    element.id,
+    curves,
+    withLevels,
+    settings.range,
+    x && [x.name, x.unit, x.lower, x.upper],
+  ]);
   const injection = (): Injection | null => {
     const { document } = useStudio.getState();
     return element.pushable && document !== null && x !== null
-      ? { element, document, shown: [x], amplitude: settings.amplitude ?? pushAmplitude(levels.current), width: settings.width }
+      ? {
+          element,
+          document,
+          shown: [x],
+          amplitude: settings.amplitude ?? pushAmplitude(levels.current),
+          width: settings.width,
+        }
       : null;
   };
   const latest = useLatest(injection);
@@ -97,12 +123,19 @@ export function FieldCurve(props: PlotProps) {
       data: () => (data.current.length === curves.length + 1 ? data.current : [[], ...curves.map(() => [])]),
       label: `${curves.join(", ")} of ${element.path} over ${x?.name ?? "its axis"}`,
       read: (self) => readAt(self, x, curves),
-      attach: (self, look) => attachInjection(self, self.root.parentElement ?? self.root, () => latest.current(), portColor("input", ports, look.shade)),
+      attach: (self, look) =>
+        attachInjection(
+          self,
+          self.root.parentElement ?? self.root,
+          () => latest.current(),
+          portColor("input", ports, look.shade),
+        ),
     },
     key,
   );
 
-  const toggle = (name: string) => set({ shown: shown.includes(name) ? shown.filter((other) => other !== name) : [...shown, name] });
+  const toggle = (name: string) =>
+    set({ shown: shown.includes(name) ? shown.filter((other) => other !== name) : [...shown, name] });
   return (
     <PlotFrame
       {...props}
@@ -111,26 +144,57 @@ export function FieldCurve(props: PlotProps) {
       legend={
         <>
           {ports.map((other) => (
-            <Chip key={other} label={other} color={portColor(other, ports, scheme)} on={shown.includes(other)} toggle={() => toggle(other)} />
+            <Chip
+              key={other}
+              label={other}
+              color={portColor(other, ports, scheme)}
+              on={shown.includes(other)}
+              toggle={() => toggle(other)}
+            />
           ))}
-          {names.length > 0 && <Chip label={LEVELS} color="var(--text-dim)" dashed on={withLevels} toggle={() => toggle(LEVELS)} />}
+          {names.length > 0 && (
+            <Chip
+              label={LEVELS}
+              color="var(--text-dim)"
+              dashed
+              on={withLevels}
+              toggle={() => toggle(LEVELS)}
+            />
+          )}
         </>
       }
       controls={
         <>
-          <RangeControl range={settings.range} shown={() => rangeOf(chart.current)} set={(range) => set({ range })} />
-          {element.pushable && <PushControl amplitude={settings.amplitude ?? pushAmplitude(levels.current)} width={settings.width} set={set} />}
+          <RangeControl
+            range={settings.range}
+            shown={() => rangeOf(chart.current)}
+            set={(range) => set({ range })}
+          />
+          {element.pushable && (
+            <PushControl
+              amplitude={settings.amplitude ?? pushAmplitude(levels.current)}
+              width={settings.width}
+              set={set}
+            />
+          )}
         </>
       }
       exportAs={() => {
         if (chart.current !== null) {
           const { width, height } = chart.current;
-          const legend = (look: Look) => curves.map((other) => ({ label: other, color: portColor(other, ports, look.shade) }));
+          const legend = (look: Look) =>
+            curves.map((other) => ({ label: other, color: portColor(other, ports, look.shade) }));
           void exportPng({ title: element.path, width, height, options, data: data.current, legend });
         }
       }}
     >
-      <div ref={host} className="plot-host" tabIndex={0} role="group" aria-label={`Drawing of ${element.path}${element.pushable ? "; hold I to inject" : ""}`} />
+      <div
+        ref={host}
+        className="plot-host"
+        tabIndex={0}
+        role="group"
+        aria-label={`Drawing of ${element.path}${element.pushable ? "; hold I to inject" : ""}`}
+      />
     </PlotFrame>
   );
 }
@@ -143,7 +207,12 @@ function columns(lives: Live[]): uPlot.AlignedData {
   const axis = lives.find((live) => live.form !== null)?.form?.axes[0];
   const places = axis === undefined ? new Float64Array() : points(axis);
   const nothing = () => Array.from(places, () => null);
-  return [places, ...lives.map(({ frame: newest }) => (newest?.values.length === places.length ? newest.values : nothing()))];
+  return [
+    places,
+    ...lives.map(({ frame: newest }) =>
+      newest?.values.length === places.length ? newest.values : nothing(),
+    ),
+  ];
 }
 
 // 0 to 1 with a little room for the line, unless values lie outside.

@@ -38,9 +38,17 @@ export function HeatMap(props: PlotProps) {
   const heat = useRef<HTMLCanvasElement | null>(null);
   const newest = useRef<Live | null>(null);
   const calm = useRef(new CalmRange());
-  const colors = useRef<{ range: Range; middle: number | null; name: ScaleName; table: Scale }>({ range: [0, 1], middle: null, name, table: scale(name) });
+  const colors = useRef<{ range: Range; middle: number | null; name: ScaleName; table: Scale }>({
+    range: [0, 1],
+    middle: null,
+    name,
+    table: scale(name),
+  });
   const levels = useLevels(element.id, port, () => paint());
-  const wishes = useMemo<Wish[]>(() => [{ type: "watch", element: element.id, port, most: MOST }], [element.id, port]);
+  const wishes = useMemo<Wish[]>(
+    () => [{ type: "watch", element: element.id, port, most: MOST }],
+    [element.id, port],
+  );
   const streaming = useStreams(wishes, visible, ([live]) => {
     newest.current = live ?? null;
     paint();
@@ -52,9 +60,15 @@ export function HeatMap(props: PlotProps) {
   // The colours change only with the range: then the bar is drawn anew.
   const follow = (values: Float32Array) => {
     const middle = twoSided ? (thresholdOf(levels.current) ?? 0) : null;
-    const range = settings.range ?? calm.current.next(extent(values), middle === null ? [] : [middle], performance.now());
+    const range =
+      settings.range ?? calm.current.next(extent(values), middle === null ? [] : [middle], performance.now());
     const now = colors.current;
-    if (now.range[0] !== range[0] || now.range[1] !== range[1] || now.middle !== middle || now.name !== name) {
+    if (
+      now.range[0] !== range[0] ||
+      now.range[1] !== range[1] ||
+      now.middle !== middle ||
+      now.name !== name
+    ) {
       const table = middle === null ? scale(name) : centred(scale(name), range[0], range[1], middle);
       colors.current = { range, middle, name, table };
       chart.current?.redraw(false, false);
@@ -81,14 +95,25 @@ export function HeatMap(props: PlotProps) {
         axis(look, { scale: "y", side: 3, label: axisLabel(y), grid: false }),
       ],
       series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
-      hooks: { draw: [(self) => drawColorBar(self, look, colors.current.table, colors.current.range, colors.current.middle)] },
+      hooks: {
+        draw: [
+          (self) =>
+            drawColorBar(self, look, colors.current.table, colors.current.range, colors.current.middle),
+        ],
+      },
     };
   };
   const data = (): uPlot.AlignedData => [edges(x), edges(y)];
   const injection = useLatest((): Injection | null => {
     const { document } = useStudio.getState();
     return element.pushable && document !== null && form !== null
-      ? { element, document, shown: [x, y], amplitude: settings.amplitude ?? pushAmplitude(levels.current), width: settings.width }
+      ? {
+          element,
+          document,
+          shown: [x, y],
+          amplitude: settings.amplitude ?? pushAmplitude(levels.current),
+          width: settings.width,
+        }
       : null;
   });
   const repaint = useLatest(paint);
@@ -104,7 +129,12 @@ export function HeatMap(props: PlotProps) {
         self.under.append(canvas);
         heat.current = canvas;
         repaint.current();
-        return attachInjection(self, self.root.parentElement ?? self.root, () => injection.current(), "#ffffff");
+        return attachInjection(
+          self,
+          self.root.parentElement ?? self.root,
+          () => injection.current(),
+          "#ffffff",
+        );
       },
     },
     JSON.stringify([element.id, port, x, y, down, settings.range, name]),
@@ -122,22 +152,48 @@ export function HeatMap(props: PlotProps) {
           <NativeSelect
             size="xs"
             label="Colours"
-            data={[{ value: "auto", label: "Fitting the port" }, ...SCALES.map((other) => ({ value: other.name, label: other.label }))]}
+            data={[
+              { value: "auto", label: "Fitting the port" },
+              ...SCALES.map((other) => ({ value: other.name, label: other.label })),
+            ]}
             value={settings.scale}
             onChange={(event) => set({ scale: event.currentTarget.value as ScaleName | "auto" })}
           />
-          <RangeControl range={settings.range} shown={() => colors.current.range} set={(range) => set({ range })} />
-          {element.pushable && <PushControl amplitude={settings.amplitude ?? pushAmplitude(levels.current)} width={settings.width} set={set} />}
+          <RangeControl
+            range={settings.range}
+            shown={() => colors.current.range}
+            set={(range) => set({ range })}
+          />
+          {element.pushable && (
+            <PushControl
+              amplitude={settings.amplitude ?? pushAmplitude(levels.current)}
+              width={settings.width}
+              set={set}
+            />
+          )}
         </>
       }
       exportAs={() => {
         if (chart.current !== null && heat.current !== null) {
           const { width, height } = chart.current;
-          void exportPng({ title: `${element.path} ${port}`, width, height, options, data: data(), image: heat.current });
+          void exportPng({
+            title: `${element.path} ${port}`,
+            width,
+            height,
+            options,
+            data: data(),
+            image: heat.current,
+          });
         }
       }}
     >
-      <div ref={host} className="plot-host" tabIndex={0} role="group" aria-label={`Drawing of ${element.path}${element.pushable ? "; hold I to inject" : ""}`} />
+      <div
+        ref={host}
+        className="plot-host"
+        tabIndex={0}
+        role="group"
+        aria-label={`Drawing of ${element.path}${element.pushable ? "; hold I to inject" : ""}`}
+      />
     </PlotFrame>
   );
 }
@@ -150,10 +206,15 @@ function edges(axis: AxisView): [number, number] {
 }
 
 function readAt(chart: uPlot, live: Live | null, x: AxisView, y: AxisView): string {
-  const at = [chart.posToVal(chart.cursor.left ?? 0, "x"), chart.posToVal(chart.cursor.top ?? 0, "y")] as const;
+  const at = [
+    chart.posToVal(chart.cursor.left ?? 0, "x"),
+    chart.posToVal(chart.cursor.top ?? 0, "y"),
+  ] as const;
   const [ix, iy] = [nearest(x, at[0]), nearest(y, at[1])];
   const value = live?.frame?.values[ix * y.samples + iy];
-  return value === undefined ? "" : `${x.name} ${reading(at[0])}   ${y.name} ${reading(at[1])}   ${reading(value)}`;
+  return value === undefined
+    ? ""
+    : `${x.name} ${reading(at[0])}   ${y.name} ${reading(at[1])}   ${reading(value)}`;
 }
 
 function nearest(axis: AxisView, value: number): number {

@@ -19,11 +19,20 @@ export function Picture(props: PlotProps) {
   const paint = () => {
     const live = newest.current;
     const [nx, ny] = live?.form?.shape ?? [];
-    if (canvas.current !== null && live?.frame != null && live.form?.channels === true && nx !== undefined && ny !== undefined) {
+    if (
+      canvas.current !== null &&
+      live?.frame != null &&
+      live.form?.channels === true &&
+      nx !== undefined &&
+      ny !== undefined
+    ) {
       paintPicture(canvas.current, live.frame.values, nx, ny);
     }
   };
-  const wishes = useMemo<Wish[]>(() => [{ type: "watch", element: element.id, port, most: MOST }], [element.id, port]);
+  const wishes = useMemo<Wish[]>(
+    () => [{ type: "watch", element: element.id, port, most: MOST }],
+    [element.id, port],
+  );
   const streaming = useStreams(wishes, visible, ([live]) => {
     newest.current = live ?? null;
     paint();
@@ -38,7 +47,12 @@ export function Picture(props: PlotProps) {
       streaming={streaming}
       exportAs={() => canvas.current !== null && exportPicture(`${element.path} ${port}`, canvas.current)}
     >
-      <canvas ref={canvas} className="plot-picture" role="img" aria-label={`Picture at ${port} of ${element.path}`} />
+      <canvas
+        ref={canvas}
+        className="plot-picture"
+        role="img"
+        aria-label={`Picture at ${port} of ${element.path}`}
+      />
     </PlotFrame>
   );
 }

@@ -1,4 +1,5 @@
-// What all plots have in common: a line with the element, the choices and the menu, and below it the drawing or a word why there is none.
+// What all plots have in common: a line with the element, the choices and the menu, and below it the drawing
+// or a word why there is none.
 
 import { ActionIcon, Menu, NativeSelect, Popover, Tooltip } from "@mantine/core";
 import { IconAdjustmentsHorizontal, IconDots, IconPhotoDown } from "@tabler/icons-react";
@@ -35,7 +36,8 @@ type Frame = PlotProps & {
 };
 
 export function PlotFrame(props: Frame) {
-  const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } = props;
+  const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } =
+    props;
   const running = useStudio((state) => state.clock?.running ?? false);
   const { lost, seen } = streaming;
   return (

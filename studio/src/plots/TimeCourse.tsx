@@ -23,10 +23,30 @@ export function TimeCourse(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
   const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
-  const own = useStudio((state) => JSON.stringify(ownTrace(element.id, port, state.document === null ? 0 : (portAxes(state.document, element, port)?.length ?? 0))));
+  const own = useStudio((state) =>
+    JSON.stringify(
+      ownTrace(
+        element.id,
+        port,
+        state.document === null ? 0 : (portAxes(state.document, element, port)?.length ?? 0),
+      ),
+    ),
+  );
   const kept = JSON.stringify(settings.traces);
-  const traces = useMemo(() => (kept === "[]" ? [JSON.parse(own) as TraceSetting] : (JSON.parse(kept) as TraceSetting[])), [own, kept]);
-  const labels = useStudio((state) => traces.map((trace) => labelOf(trace, trace.element === element.id ? "" : (state.elements.get(trace.element)?.path ?? "gone"))).join("\n")).split("\n");
+  const traces = useMemo(
+    () => (kept === "[]" ? [JSON.parse(own) as TraceSetting] : (JSON.parse(kept) as TraceSetting[])),
+    [own, kept],
+  );
+  const labels = useStudio((state) =>
+    traces
+      .map((trace) =>
+        labelOf(
+          trace,
+          trace.element === element.id ? "" : (state.elements.get(trace.element)?.path ?? "gone"),
+        ),
+      )
+      .join("\n"),
+  ).split("\n");
 
   const lives = useRef<Live[]>([]);
   const data = useRef<uPlot.AlignedData>([[]]);
@@ -36,11 +56,17 @@ export function TimeCourse(props: PlotProps) {
 
   const draw = () => {
     const histories = lives.current.map((live) => live.history);
-    const ends = histories.flatMap(({ times }) => (times.length > 0 ? [[times[0], times[times.length - 1]] as [number, number]] : []));
+    const ends = histories.flatMap(({ times }) =>
+      times.length > 0 ? [[times[0], times[times.length - 1]] as [number, number]] : [],
+    );
     if (ends.length === 0 || histories.length !== traces.length) {
       return;
     }
-    span.current = timeRange(Math.min(...ends.map((end) => end[0])), Math.max(...ends.map((end) => end[1])), settings.window);
+    span.current = timeRange(
+      Math.min(...ends.map((end) => end[0])),
+      Math.max(...ends.map((end) => end[1])),
+      settings.window,
+    );
     data.current = sideBySide(histories, span.current[0]) as uPlot.AlignedData;
     chart.current?.setData(data.current);
   };
@@ -64,7 +90,10 @@ export function TimeCourse(props: PlotProps) {
         },
       },
     },
-    axes: [axis(look, { scale: "x", side: 2, label: timeUnit === "" ? "time" : `time (${timeUnit})` }), axis(look, { scale: "y", side: 3 })],
+    axes: [
+      axis(look, { scale: "x", side: 2, label: timeUnit === "" ? "time" : `time (${timeUnit})` }),
+      axis(look, { scale: "y", side: 3 }),
+    ],
     series: [
       {},
       ...labels.map((label, i) => ({
@@ -97,19 +126,48 @@ export function TimeCourse(props: PlotProps) {
         <span key={label} className="plot-chip plot-still" title={label}>
           <span className="plot-swatch" style={{ borderColor: curveColor(i, scheme) }} />
           <span className="plot-label one-line">{label}</span>
-          {labels.length > 1 && <CloseButton size={16} iconSize={12} aria-label={`Take ${label} out of this plot`} onClick={() => remove(i)} />}
+          {labels.length > 1 && (
+            <CloseButton
+              size={16}
+              iconSize={12}
+              aria-label={`Take ${label} out of this plot`}
+              onClick={() => remove(i)}
+            />
+          )}
         </span>
       ))}
-      controls={<CourseControls element={element.id} traces={traces} settings={settings} shown={() => rangeOf(chart.current)} set={set} />}
+      controls={
+        <CourseControls
+          element={element.id}
+          traces={traces}
+          settings={settings}
+          shown={() => rangeOf(chart.current)}
+          set={set}
+        />
+      }
       exportAs={() => {
         if (chart.current !== null) {
           const { width, height } = chart.current;
-          const legend = (look: Look) => labels.map((label, i) => ({ label, color: curveColor(i, look.shade) }));
-          void exportPng({ title: `${element.path} over time`, width, height, options, data: data.current, legend });
+          const legend = (look: Look) =>
+            labels.map((label, i) => ({ label, color: curveColor(i, look.shade) }));
+          void exportPng({
+            title: `${element.path} over time`,
+            width,
+            height,
+            options,
+            data: data.current,
+            legend,
+          });
         }
       }}
     >
-      <div ref={host} className="plot-host" tabIndex={0} role="group" aria-label={`Drawing of ${element.path} over time`} />
+      <div
+        ref={host}
+        className="plot-host"
+        tabIndex={0}
+        role="group"
+        aria-label={`Drawing of ${element.path} over time`}
+      />
     </PlotFrame>
   );
 }

@@ -13,7 +13,13 @@ const GAP = 12;
 const WIDTH = 12;
 const TICK = 4;
 
-export function drawColorBar(chart: uPlot, look: Look, scale: Scale, range: Range, mark: number | null): void {
+export function drawColorBar(
+  chart: uPlot,
+  look: Look,
+  scale: Scale,
+  range: Range,
+  mark: number | null,
+): void {
   const { ctx, bbox } = chart;
   const unit = look.unit * devicePixelRatio;
   const left = bbox.left + bbox.width + GAP * unit;

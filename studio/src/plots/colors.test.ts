@@ -1,7 +1,8 @@
 import { expect, it } from "vitest";
 import { centred, curveColor, inOrder, portColor, scale, SCALES } from "./colors";
 
-const lightness = (table: Uint8ClampedArray, i: number) => 0.3 * (table[4 * i] ?? 0) + 0.59 * (table[4 * i + 1] ?? 0) + 0.11 * (table[4 * i + 2] ?? 0);
+const lightness = (table: Uint8ClampedArray, i: number) =>
+  0.3 * (table[4 * i] ?? 0) + 0.59 * (table[4 * i + 1] ?? 0) + 0.11 * (table[4 * i + 2] ?? 0);
 
 it("scales grow lighter all the way, so that they read without hues", () => {
   for (const { name } of SCALES.filter((other) => other.name !== "diverging")) {
@@ -27,7 +28,14 @@ it("a piece of it turns where it has to, and is equally steep on both sides", ()
 });
 
 it("a port has its colour in every plot", () => {
-  expect(inOrder(["interaction", "output", "other", "activation"])).toEqual(["activation", "output", "interaction", "other"]);
-  expect(portColor("output", ["output"], "light")).toBe(portColor("output", ["activation", "output"], "light"));
+  expect(inOrder(["interaction", "output", "other", "activation"])).toEqual([
+    "activation",
+    "output",
+    "interaction",
+    "other",
+  ]);
+  expect(portColor("output", ["output"], "light")).toBe(
+    portColor("output", ["activation", "output"], "light"),
+  );
   expect(portColor("other", ["output", "other"], "dark")).toBe(curveColor(4, "dark"));
 });

@@ -1,4 +1,5 @@
-// Colours of plots. Every scale is monotone in lightness or has its turning point at 0, so that it reads without hues too.
+// Colours of plots. Every scale is monotone in lightness or has its turning point at 0, so that it reads
+// without hues too.
 
 export type ScaleName = "cividis" | "viridis" | "diverging" | "gray";
 
@@ -6,9 +7,43 @@ export type ScaleName = "cividis" | "viridis" | "diverging" | "gray";
 export type Scale = Uint8ClampedArray;
 
 const ANCHORS: Record<ScaleName, string[]> = {
-  cividis: ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"],
-  viridis: ["#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"],
-  diverging: ["#053061", "#2166ac", "#4393c3", "#92c5de", "#d1e5f0", "#f7f7f7", "#fddbc7", "#f4a582", "#d6604d", "#b2182b", "#67001f"],
+  cividis: [
+    "#00224e",
+    "#123570",
+    "#3b496c",
+    "#575d6d",
+    "#707173",
+    "#8a8678",
+    "#a59c74",
+    "#c3b369",
+    "#e1cc55",
+    "#fee838",
+  ],
+  viridis: [
+    "#440154",
+    "#482878",
+    "#3e4989",
+    "#31688e",
+    "#26828e",
+    "#1f9e89",
+    "#35b779",
+    "#6ece58",
+    "#b5de2b",
+    "#fde725",
+  ],
+  diverging: [
+    "#053061",
+    "#2166ac",
+    "#4393c3",
+    "#92c5de",
+    "#d1e5f0",
+    "#f7f7f7",
+    "#fddbc7",
+    "#f4a582",
+    "#d6604d",
+    "#b2182b",
+    "#67001f",
+  ],
   gray: ["#000000", "#ffffff"],
 };
 
@@ -67,14 +102,15 @@ export function shade(): Shade {
   return document.documentElement.dataset["mantineColorScheme"] === "dark" ? "dark" : "light";
 }
 
-// The piece of a two-sided scale that belongs to a range: its middle stands at `middle`, and equal steps are equal changes of colour on both
-// sides of it.
+// The piece of a two-sided scale that belongs to a range: its middle stands at `middle`, and equal steps are
+// equal changes of colour on both sides of it.
 export function centred(table: Scale, lower: number, upper: number, middle: number): Scale {
   const reach = Math.max(upper - middle, middle - lower);
   const piece = new Uint8ClampedArray(4 * 256);
   for (let i = 0; i < 256; i++) {
     const value = lower + (i / 255) * (upper - lower);
-    const from = 4 * Math.min(255, Math.max(0, Math.round(127.5 + (127.5 * (value - middle)) / (reach || 1))));
+    const from =
+      4 * Math.min(255, Math.max(0, Math.round(127.5 + (127.5 * (value - middle)) / (reach || 1))));
     piece.set(table.subarray(from, from + 4), 4 * i);
   }
   return piece;

@@ -50,7 +50,11 @@ export async function exportPng(shot: Shot): Promise<void> {
 // A picture has no axes: its samples become squares.
 export function exportPicture(title: string, image: HTMLCanvasElement): void {
   const square = Math.max(1, Math.floor(640 / Math.max(image.width, image.height)));
-  const canvas = sheet((image.width * square) / FACTOR + 16, (image.height * square) / FACTOR + HEAD + 8, title);
+  const canvas = sheet(
+    (image.width * square) / FACTOR + 16,
+    (image.height * square) / FACTOR + HEAD + 8,
+    title,
+  );
   const ctx = canvas.getContext("2d");
   if (ctx !== null) {
     ctx.imageSmoothingEnabled = false;

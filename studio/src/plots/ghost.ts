@@ -1,9 +1,16 @@
-// The outline of what is injected: the Gaussian above one axis, its one- and two-sigma lines over two, a frame where it is the same everywhere.
+// The outline of what is injected: the Gaussian above one axis, its one- and two-sigma lines over two, a
+// frame where it is the same everywhere.
 
 import type uPlot from "uplot";
 import type { Injection } from "./spot";
 
-export function paintGhost(canvas: HTMLCanvasElement, chart: uPlot, how: Injection, place: number[] | null, color: string): void {
+export function paintGhost(
+  canvas: HTMLCanvasElement,
+  chart: uPlot,
+  how: Injection,
+  place: number[] | null,
+  color: string,
+): void {
   const { clientWidth: width, clientHeight: height } = chart.over;
   canvas.width = width * devicePixelRatio;
   canvas.height = height * devicePixelRatio;
@@ -27,7 +34,14 @@ export function paintGhost(canvas: HTMLCanvasElement, chart: uPlot, how: Injecti
 }
 
 // The shape only, half as high as the plot: its amplitude seldom fits the scale. Downwards where it inhibits.
-function hill(ctx: CanvasRenderingContext2D, chart: uPlot, { shown, width: share, amplitude }: Injection, center: number, width: number, height: number): void {
+function hill(
+  ctx: CanvasRenderingContext2D,
+  chart: uPlot,
+  { shown, width: share, amplitude }: Injection,
+  center: number,
+  width: number,
+  height: number,
+): void {
   const range = (shown[0]?.upper ?? 1) - (shown[0]?.lower ?? 0);
   const periodic = shown[0]?.periodic ?? false;
   const foot = amplitude < 0 ? 1 : height - 1;
@@ -47,7 +61,12 @@ function hill(ctx: CanvasRenderingContext2D, chart: uPlot, { shown, width: share
   ctx.fill();
 }
 
-function rings(ctx: CanvasRenderingContext2D, chart: uPlot, { shown, width: share }: Injection, place: number[]): void {
+function rings(
+  ctx: CanvasRenderingContext2D,
+  chart: uPlot,
+  { shown, width: share }: Injection,
+  place: number[],
+): void {
   const [across, up] = shown;
   if (across === undefined || up === undefined) {
     return;
@@ -57,7 +76,10 @@ function rings(ctx: CanvasRenderingContext2D, chart: uPlot, { shown, width: shar
   const reachX = share * chart.over.clientWidth;
   const reachY = share * chart.over.clientHeight;
   // Both white and black are needed on a map of all colours.
-  for (const [line, color] of [[3.5, "#000000"], [1.5, "#ffffff"]] as const) {
+  for (const [line, color] of [
+    [3.5, "#000000"],
+    [1.5, "#ffffff"],
+  ] as const) {
     ctx.lineWidth = line;
     ctx.strokeStyle = color;
     ctx.setLineDash([]);

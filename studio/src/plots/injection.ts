@@ -1,4 +1,5 @@
-// Injecting by hand into a field that is drawn: with the right button, or with the key i. A drawing of the Gaussian goes with it.
+// Injecting by hand into a field that is drawn: with the right button, or with the key i. A drawing of the
+// Gaussian goes with it.
 
 import type uPlot from "uplot";
 import { socket } from "../socket";
@@ -6,8 +7,14 @@ import { paintGhost } from "./ghost";
 import { Pusher } from "./pusher";
 import { type Injection, spot } from "./spot";
 
-// Listen on a chart; `ask` gives what is injected at present, null where nothing can be. The function returned ends it.
-export function attachInjection(chart: uPlot, host: HTMLElement, ask: () => Injection | null, color: string): () => void {
+// Listen on a chart; `ask` gives what is injected at present, null where nothing can be. The function
+// returned ends it.
+export function attachInjection(
+  chart: uPlot,
+  host: HTMLElement,
+  ask: () => Injection | null,
+  color: string,
+): () => void {
   const pusher = new Pusher((message) => socket.post(message));
   const ghost = document.createElement("canvas");
   ghost.className = "plot-ghost";
@@ -65,7 +72,14 @@ export function attachInjection(chart: uPlot, host: HTMLElement, ask: () => Inje
   host.addEventListener(
     "keydown",
     (event) => {
-      if (event.code === "KeyI" && !event.repeat && !event.ctrlKey && !event.metaKey && !event.altKey && ask() !== null) {
+      if (
+        event.code === "KeyI" &&
+        !event.repeat &&
+        !event.ctrlKey &&
+        !event.metaKey &&
+        !event.altKey &&
+        ask() !== null
+      ) {
         boost = event.shiftKey;
         push(cursorOrCentre(chart));
       }
@@ -88,5 +102,7 @@ function placeAt(chart: uPlot, left: number, top: number): number[] {
 
 function cursorOrCentre(chart: uPlot): number[] {
   const { left = -1, top = -1 } = chart.cursor;
-  return left >= 0 ? placeAt(chart, left, top) : placeAt(chart, chart.over.clientWidth / 2, chart.over.clientHeight / 2);
+  return left >= 0
+    ? placeAt(chart, left, top)
+    : placeAt(chart, chart.over.clientWidth / 2, chart.over.clientHeight / 2);
 }

@@ -1,6 +1,17 @@
 import { describe, expect, it } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind } from "../protocol";
-import { axisLabel, firstToPlot, isPicture, mainPort, plotKinds, points, portAxes, portsAlike, runsDown, stepOf } from "./kinds";
+import {
+  axisLabel,
+  firstToPlot,
+  isPicture,
+  mainPort,
+  plotKinds,
+  points,
+  portAxes,
+  portsAlike,
+  runsDown,
+  stepOf,
+} from "./kinds";
 
 const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView => ({
   key,
@@ -13,9 +24,19 @@ const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView
   ...more,
 });
 
-const AXES = [axis("x"), axis("y"), axis("hue", 12, { periodic: true, upper: 360, unit: "deg" }), axis("channel", 3)];
+const AXES = [
+  axis("x"),
+  axis("y"),
+  axis("hue", 12, { periodic: true, upper: 360, unit: "deg" }),
+  axis("channel", 3),
+];
 
-const element = (id: string, kind: string, axes: Record<string, string[]>, inputs: string[] = []): ElementView => ({
+const element = (
+  id: string,
+  kind: string,
+  axes: Record<string, string[]>,
+  inputs: string[] = [],
+): ElementView => ({
   id,
   path: id,
   name: id,

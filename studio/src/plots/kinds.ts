@@ -41,20 +41,28 @@ export function portsOf(element: ElementView): string[] {
 // The ports that can be drawn into one plot with a port: those over the same axes.
 export function portsAlike(element: ElementView, port: string): string[] {
   const keys = JSON.stringify(element.axes[port]);
-  return portsOf(element).filter((other) => other === port || (keys !== undefined && JSON.stringify(element.axes[other]) === keys));
+  return portsOf(element).filter(
+    (other) => other === port || (keys !== undefined && JSON.stringify(element.axes[other]) === keys),
+  );
 }
 
 // The port that says most about an element: one with levels, or else its first.
 export function mainPort(element: ElementView, kind: Kind | undefined): string {
   const ports = portsOf(element);
-  return ports.find((port) => hasLevels(kind, port)) ?? ports.find((port) => port === "activation") ?? ports[0] ?? "";
+  return (
+    ports.find((port) => hasLevels(kind, port)) ??
+    ports.find((port) => port === "activation") ??
+    ports[0] ??
+    ""
+  );
 }
 
 export function hasLevels(kind: Kind | undefined, port: string): boolean {
   return Object.keys(kind?.levels[port] ?? {}).length > 0;
 }
 
-// The element to plot first: one whose main port has levels, with the most axes up to two; the first of its like. Null if there is none.
+// The element to plot first: one whose main port has levels, with the most axes up to two; the first of its
+// like. Null if there is none.
 export function firstToPlot(document: DocumentView, kinds: Map<string, Kind>): ElementView | null {
   let best: ElementView | null = null;
   let most = -1;
@@ -70,7 +78,8 @@ export function firstToPlot(document: DocumentView, kinds: Map<string, Kind>): E
   return best;
 }
 
-// Whether an axis runs downwards on the screen: it is the second one of a picture somewhere in the document, whose rows count from the top.
+// Whether an axis runs downwards on the screen: it is the second one of a picture somewhere in the document,
+// whose rows count from the top.
 export function runsDown(document: DocumentView, axis: AxisView): boolean {
   return document.elements.some((element) =>
     portsOf(element).some((port) => {
@@ -99,5 +108,10 @@ export function axisLabel(axis: AxisView): string {
 // Axes that were thinned end a little earlier.
 function sameDimension(one: AxisView, other: AxisView): boolean {
   const near = 0.1 * (one.upper - one.lower);
-  return one.name === other.name && one.unit === other.unit && Math.abs(one.lower - other.lower) < near && Math.abs(one.upper - other.upper) < near;
+  return (
+    one.name === other.name &&
+    one.unit === other.unit &&
+    Math.abs(one.lower - other.lower) < near &&
+    Math.abs(one.upper - other.upper) < near
+  );
 }

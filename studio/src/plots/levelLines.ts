@@ -1,4 +1,5 @@
-// Levels as dashed lines across a chart, each with its name and value above it, or below where there would be no room.
+// Levels as dashed lines across a chart, each with its name and value above it, or below where there would be
+// no room.
 
 import type uPlot from "uplot";
 import type { Level } from "./levels";
@@ -30,7 +31,9 @@ export function drawLevels(chart: uPlot, levels: Level[], look: Look): void {
     ctx.stroke();
     const above = y - (LABEL / 2) * scale;
     const below = y + (LABEL / 2) * scale;
-    const free = (place: number) => place > bbox.top + (LABEL / 2) * scale && taken.every((other) => Math.abs(other - place) >= LABEL * scale);
+    const free = (place: number) =>
+      place > bbox.top + (LABEL / 2) * scale &&
+      taken.every((other) => Math.abs(other - place) >= LABEL * scale);
     const place = free(above) ? above : below;
     taken.push(place);
     ctx.fillText(`${label} ${short(value)}`, bbox.left + 6 * scale, place);

@@ -1,14 +1,22 @@
-// Levels on the scale of a port (threshold, resting level), as the kind of an element names them, with the values they have now.
+// Levels on the scale of a port (threshold, resting level), as the kind of an element names them, with the
+// values they have now.
 
 import type { DocumentView, ElementView, Kind } from "../protocol";
 import { valueAt } from "../values";
 
 export type Level = { label: string; value: number };
 
-export function levelsOf(document: DocumentView, element: ElementView, kind: Kind | undefined, port: string): Level[] {
+export function levelsOf(
+  document: DocumentView,
+  element: ElementView,
+  kind: Kind | undefined,
+  port: string,
+): Level[] {
   const found: Level[] = [];
   for (const [label, parameter] of Object.entries(kind?.levels[port] ?? {})) {
-    const knob = document.knobs.find((k) => k.links.some((link) => link.element === element.id && link.parameter === parameter));
+    const knob = document.knobs.find((k) =>
+      k.links.some((link) => link.element === element.id && link.parameter === parameter),
+    );
     const value = knob?.value ?? valueAt(element.values, parameter);
     if (typeof value === "number" && Number.isFinite(value)) {
       found.push({ label, value });

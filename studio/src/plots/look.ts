@@ -1,4 +1,5 @@
-// How charts look on the page and on paper: colours and sizes for uPlot, which draws onto canvases and knows no style sheets.
+// How charts look on the page and on paper: colours and sizes for uPlot, which draws onto canvases and knows
+// no style sheets.
 
 import type uPlot from "uplot";
 import { type Shade, shade } from "./colors";

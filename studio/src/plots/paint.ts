@@ -20,8 +20,17 @@ type Target = { ctx: CanvasRenderingContext2D; image: ImageData; words: Uint32Ar
 const images = new WeakMap<HTMLCanvasElement, Target>();
 const words = new WeakMap<Scale, Uint32Array>();
 
-// A heat map: one pixel for each sample, the canvas is stretched by its style. C order: index = ix * ny + iy; x to the right, y up or down.
-export function paintHeat(canvas: HTMLCanvasElement, values: Float32Array, nx: number, ny: number, range: Range, scale: Scale, down = false): void {
+// A heat map: one pixel for each sample, the canvas is stretched by its style. C order: index = ix * ny + iy;
+// x to the right, y up or down.
+export function paintHeat(
+  canvas: HTMLCanvasElement,
+  values: Float32Array,
+  nx: number,
+  ny: number,
+  range: Range,
+  scale: Scale,
+  down = false,
+): void {
   const target = imageOf(canvas, nx, ny);
   if (target === null) {
     return;
@@ -38,8 +47,16 @@ export function paintHeat(canvas: HTMLCanvasElement, values: Float32Array, nx: n
   target.ctx.putImageData(target.image, 0, 0);
 }
 
-// A picture: red, green and blue of each sample in `range`; index = (ix * ny + iy) * 3 + channel; x to the right, y up or down.
-export function paintPicture(canvas: HTMLCanvasElement, values: Float32Array, nx: number, ny: number, range: Range = [0, 1], up = false): void {
+// A picture: red, green and blue of each sample in `range`; index = (ix * ny + iy) * 3 + channel; x to the
+// right, y up or down.
+export function paintPicture(
+  canvas: HTMLCanvasElement,
+  values: Float32Array,
+  nx: number,
+  ny: number,
+  range: Range = [0, 1],
+  up = false,
+): void {
   const target = imageOf(canvas, nx, ny);
   if (target === null) {
     return;

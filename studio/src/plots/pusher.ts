@@ -1,4 +1,5 @@
-// An input that a person adds to an element while a button is held: told to the server at most once for each picture of the browser.
+// An input that a person adds to an element while a button is held: told to the server at most once for each
+// picture of the browser.
 
 import type { Push, Release } from "../protocol";
 

@@ -18,7 +18,8 @@ export function union(one: Range, other: Range): Range {
   return [Math.min(one[0], other[0]), Math.max(one[1], other[1])];
 }
 
-// A range that follows values calmly: it grows at once, and shrinks only after all values of some seconds would fit into a much smaller one.
+// A range that follows values calmly: it grows at once, and shrinks only after all values of some seconds
+// would fit into a much smaller one.
 export class CalmRange {
   private shown: Range | null = null;
   private needed: Range | null = null;
@@ -27,7 +28,8 @@ export class CalmRange {
   // `room`: how much of the range stays free on both sides.
   constructor(private room = 0) {}
 
-  // The range for values in `extent` (null: none) and for levels that have to be seen, at a moment on the wall in ms.
+  // The range for values in `extent` (null: none) and for levels that have to be seen, at a moment on the
+  // wall in ms.
   next(extent: Range | null, include: number[], now: number): Range {
     let target = extent;
     for (const level of include) {

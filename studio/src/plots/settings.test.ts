@@ -2,7 +2,12 @@ import { expect, it } from "vitest";
 import { readParams, readSettings } from "./settings";
 
 it("what a document holds is read with care", () => {
-  expect(readParams({ element: 3, kind: "toString", port: null, settings: [1] })).toEqual({ element: "", kind: null, port: "", settings: {} });
+  expect(readParams({ element: 3, kind: "toString", port: null, settings: [1] })).toEqual({
+    element: "",
+    kind: null,
+    port: "",
+    settings: {},
+  });
   expect(readParams({ element: "a", kind: "heat", port: "output", settings: { range: [0, 1] } })).toEqual({
     element: "a",
     kind: "heat",
@@ -13,14 +18,38 @@ it("what a document holds is read with care", () => {
 
 it("settings that make no sense are the usual ones", () => {
   const usual = readSettings({});
-  expect(usual).toEqual({ shown: null, range: null, scale: "auto", traces: [], window: 2000, amplitude: null, width: 0.05 });
-  const strange = { shown: [1], range: [2, 1], scale: "rainbow", traces: [{ element: "a" }, 1], window: 3, amplitude: "5", width: "wide" };
+  expect(usual).toEqual({
+    shown: null,
+    range: null,
+    scale: "auto",
+    traces: [],
+    window: 2000,
+    amplitude: null,
+    width: 0.05,
+  });
+  const strange = {
+    shown: [1],
+    range: [2, 1],
+    scale: "rainbow",
+    traces: [{ element: "a" }, 1],
+    window: 3,
+    amplitude: "5",
+    width: "wide",
+  };
   expect(readSettings(strange)).toEqual(usual);
   expect(readSettings({ range: [0, null], traces: "all" })).toEqual(usual);
 });
 
 it("settings that make sense stay", () => {
   const trace = { element: "a", port: "output", reduce: "at", at: [1.5] };
-  const good = { shown: ["output"], range: [-1, 2], scale: "gray", traces: [trace], window: null, amplitude: -3, width: 0.1 };
+  const good = {
+    shown: ["output"],
+    range: [-1, 2],
+    scale: "gray",
+    traces: [trace],
+    window: null,
+    amplitude: -3,
+    width: 0.1,
+  };
   expect(readSettings(good)).toEqual(good);
 });

@@ -1,5 +1,5 @@
-// What a plot panel keeps with the document: which element, how it is shown, and settings of its kind. They are read with care, because
-// a document may hold anything.
+// What a plot panel keeps with the document: which element, how it is shown, and settings of its kind. They
+// are read with care, because a document may hold anything.
 
 import { SCALES, type ScaleName } from "./colors";
 import type { PlotKind } from "./kinds";
@@ -23,7 +23,12 @@ export type PlotSettings = {
   width: number;
 };
 
-export type PlotParams = { element: string; kind: PlotKind | null; port: string; settings: Partial<PlotSettings> };
+export type PlotParams = {
+  element: string;
+  kind: PlotKind | null;
+  port: string;
+  settings: Partial<PlotSettings>;
+};
 
 export const WINDOWS = [500, 2000, 10_000, null];
 

@@ -18,17 +18,27 @@ export type Injection = {
 const FLAT = 100;
 
 // The place on all axes of the element, in its order; axes that are not drawn get everything.
-export function spot({ element, document, shown, amplitude, width }: Injection, place: number[] | null): Spot {
+export function spot(
+  { element, document, shown, amplitude, width }: Injection,
+  place: number[] | null,
+): Spot {
   if (place === null) {
     return { center: null, sigma: null, amplitude };
   }
-  const axes = element.inputs.map((port) => portAxes(document, element, port)).find((found) => found !== null && found.length > 0) ?? shown;
+  const axes =
+    element.inputs
+      .map((port) => portAxes(document, element, port))
+      .find((found) => found !== null && found.length > 0) ?? shown;
   const center: number[] = [];
   const sigma: number[] = [];
   for (const axis of axes) {
     const at = shown.findIndex((other) => other.name === axis.name);
     const range = axis.upper - axis.lower;
-    center.push(at < 0 ? (axis.lower + axis.upper) / 2 : Math.min(axis.upper, Math.max(axis.lower, place[at] ?? axis.lower)));
+    center.push(
+      at < 0
+        ? (axis.lower + axis.upper) / 2
+        : Math.min(axis.upper, Math.max(axis.lower, place[at] ?? axis.lower)),
+    );
     sigma.push(range * (at < 0 ? FLAT : width));
   }
   return { center, sigma, amplitude };

@@ -11,11 +11,19 @@ function history(...pairs: [number, number][]): History {
 
 describe("time courses side by side", () => {
   it("share their times where they are the same", () => {
-    expect(sideBySide([history([0, 1], [1, 2], [2, 3]), history([0, 4], [1, 5], [2, 6])], 2)).toEqual([[1, 2], [2, 3], [5, 6]]);
+    expect(sideBySide([history([0, 1], [1, 2], [2, 3]), history([0, 4], [1, 5], [2, 6])], 2)).toEqual([
+      [1, 2],
+      [2, 3],
+      [5, 6],
+    ]);
   });
 
   it("have gaps where they are not", () => {
-    expect(sideBySide([history([0, 1], [2, 2]), history([1, 5], [2, 6])], 0)).toEqual([[0, 1, 2], [1, null, 2], [null, 5, 6]]);
+    expect(sideBySide([history([0, 1], [2, 2]), history([1, 5], [2, 6])], 0)).toEqual([
+      [0, 1, 2],
+      [1, null, 2],
+      [null, 5, 6],
+    ]);
     expect(sideBySide([history([0, 1]), history()], 0)).toEqual([[0], [1], [null]]);
     expect(sideBySide([], 0)).toEqual([[]]);
   });

@@ -20,7 +20,8 @@ export function sideBySide(histories: History[], from: number): Traces {
   return merged(parts);
 }
 
-// The number of the first sample at or after a time; one sample before it is kept, so that lines reach the edge.
+// The number of the first sample at or after a time; one sample before it is kept, so that lines reach the
+// edge.
 export function firstAt(times: number[], from: number): number {
   let low = 0;
   let high = times.length;
@@ -37,7 +38,9 @@ export function firstAt(times: number[], from: number): number {
 
 // Streams of one run are sampled at the same ticks, so that equal ends mean equal times.
 function sameTimes(one: number[], other: number[]): boolean {
-  return one.length === other.length && one[0] === other[0] && one[one.length - 1] === other[other.length - 1];
+  return (
+    one.length === other.length && one[0] === other[0] && one[one.length - 1] === other[other.length - 1]
+  );
 }
 
 function merged(parts: { times: number[]; values: number[] }[]): Traces {
@@ -60,7 +63,8 @@ function merged(parts: { times: number[]; values: number[] }[]): Traces {
   }
 }
 
-// The times that are shown: the newest `window` time units, or all. While less than that has passed, the axis stands still.
+// The times that are shown: the newest `window` time units, or all. While less than that has passed, the axis
+// stands still.
 export function timeRange(first: number, last: number, window: number | null): [number, number] {
   if (window === null) {
     return last > first ? [first, last] : [first, first + 1];

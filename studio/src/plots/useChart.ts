@@ -1,4 +1,5 @@
-// A uPlot that fills its place, follows the size and the colours of the page, and tells what lies under the cursor.
+// A uPlot that fills its place, follows the size and the colours of the page, and tells what lies under the
+// cursor.
 
 import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useRef } from "react";
@@ -7,7 +8,9 @@ import "uplot/dist/uPlot.min.css";
 import { type Look, pageLook } from "./look";
 import { useLatest } from "./useLatest";
 
-export type ChartOptions = Omit<uPlot.Options, "width" | "height"> & { hooks?: Pick<uPlot.Hooks.Arrays, "draw"> };
+export type ChartOptions = Omit<uPlot.Options, "width" | "height"> & {
+  hooks?: Pick<uPlot.Hooks.Arrays, "draw">;
+};
 
 export type Chart = {
   // Made anew when the key or the colours change.
@@ -84,8 +87,9 @@ function sizeOf(place: HTMLElement): { width: number; height: number } {
   return { width: Math.max(LEAST, place.clientWidth), height: Math.max(LEAST, place.clientHeight) };
 }
 
-// uPlot asks for its canvas while it is made and leaves no choice. Without a graphics card, canvases that the processor draws cost the browser
-// far less than others (ten plots: 51 instead of 87 ms of processor time for each picture); with one the difference is small.
+// uPlot asks for its canvas while it is made and leaves no choice. Without a graphics card, canvases that the
+// processor draws cost the browser far less than others (ten plots: 51 instead of 87 ms of processor time for
+// each picture); with one the difference is small.
 function onProcessor<T>(make: () => T): T {
   const asked = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string) {

@@ -27,5 +27,7 @@ export function useLevels(element: string, port: string, changed: () => void): R
 function currentLevels(element: string, port: string): Level[] {
   const { document, elements, kinds } = useStudio.getState();
   const found = elements.get(element);
-  return document === null || found === undefined ? [] : levelsOf(document, found, kinds.get(found.kind), port);
+  return document === null || found === undefined
+    ? []
+    : levelsOf(document, found, kinds.get(found.kind), port);
 }

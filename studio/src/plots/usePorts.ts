@@ -7,7 +7,9 @@ import { portAxes, portsOf } from "./kinds";
 export function usePorts(element: ElementView, port: string, fits: (axes: AxisView[]) => boolean): string[] {
   const joined = useStudio(({ document }) =>
     portsOf(element)
-      .filter((other) => other === port || (document !== null && fits(portAxes(document, element, other) ?? [])))
+      .filter(
+        (other) => other === port || (document !== null && fits(portAxes(document, element, other) ?? [])),
+      )
       .join("\n"),
   );
   return joined.split("\n");

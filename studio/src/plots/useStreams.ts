@@ -1,5 +1,5 @@
-// Live arrays for a component: drawing happens once for each picture of the browser and past React; the component renders again only when
-// what the streams hold changes.
+// Live arrays for a component: drawing happens once for each picture of the browser and past React; the
+// component renders again only when what the streams hold changes.
 
 import { useEffect, useState } from "react";
 import type { Announced, Problem } from "../protocol";
@@ -38,7 +38,11 @@ export function useStreams(wishes: Wish[], on: boolean, draw: (lives: Live[]) =>
         return;
       }
       const next = summary(lives);
-      if (next.seen !== known.seen || next.lost !== known.lost || next.forms.some((form, i) => form !== known.forms[i])) {
+      if (
+        next.seen !== known.seen ||
+        next.lost !== known.lost ||
+        next.forms.some((form, i) => form !== known.forms[i])
+      ) {
         known = next;
         setStreaming(next);
       }

@@ -17,8 +17,14 @@ export function Readout() {
   const time = clock === null ? "–" : timeText(clock.time, unit, clock.dt);
   const tick = clock === null ? "" : `step ${countText(clock.tick)}`;
   const factor = clock === null || !running ? "×–" : factorText(clock.factor);
-  const dt = clock === null ? "" : `Simulated time, in steps of ${Number(clock.dt.toPrecision(6))} ${unitText(unit)}`.trimEnd();
-  const pace = unit === "abstract" ? "Simulated time over real time, 1 unit taken as 1 ms" : "Simulated time over real time, measured";
+  const dt =
+    clock === null
+      ? ""
+      : `Simulated time, in steps of ${Number(clock.dt.toPrecision(6))} ${unitText(unit)}`.trimEnd();
+  const pace =
+    unit === "abstract"
+      ? "Simulated time over real time, 1 unit taken as 1 ms"
+      : "Simulated time over real time, measured";
   const late = clock === null ? "" : lateText(clock);
   return (
     <div className={`${classes.readout} numbers`}>
@@ -31,7 +37,9 @@ export function Readout() {
       <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>
         <div className={classes.factor} data-still={!running || undefined} aria-label="Speed measured">
           <div className={classes.number}>{factor}</div>
-          <div className={classes.under} data-late={late !== "" || undefined}>{late || "real time"}</div>
+          <div className={classes.under} data-late={late !== "" || undefined}>
+            {late || "real time"}
+          </div>
         </div>
       </Tooltip>
     </div>

@@ -14,7 +14,15 @@ const MOST_STEPS = 1_000_000;
 export function RunMenu() {
   const [opened, setOpened] = useState(false);
   return (
-    <Popover opened={opened} onChange={setOpened} position="bottom" withArrow shadow="md" trapFocus returnFocus>
+    <Popover
+      opened={opened}
+      onChange={setOpened}
+      position="bottom"
+      withArrow
+      shadow="md"
+      trapFocus
+      returnFocus
+    >
       <Popover.Target>
         <Tooltip label="Seed, time step, steps at a time" disabled={opened}>
           <ActionIcon aria-label="Run settings" size={28} onClick={() => setOpened(!opened)}>
@@ -45,8 +53,18 @@ function Seed() {
   return (
     <div>
       <Group gap={6} align="flex-end" wrap="nowrap">
-        <NumberInput label="Seed of the noise" size="xs" flex={1} value={next ?? used} onChange={set} min={0} max={MOST_SEED} allowDecimal={false}
-          allowNegative={false} data-autofocus />
+        <NumberInput
+          label="Seed of the noise"
+          size="xs"
+          flex={1}
+          value={next ?? used}
+          onChange={set}
+          min={0}
+          max={MOST_SEED}
+          allowDecimal={false}
+          allowNegative={false}
+          data-autofocus
+        />
         <Tooltip label="New seed">
           <ActionIcon variant="default" size={30} aria-label="New seed" onClick={rollSeed}>
             <IconDice5 size={17} />
@@ -86,8 +104,17 @@ function TimeStep() {
   };
   return (
     <div>
-      <NumberInput label="Time step dt" size="xs" value={value} onChange={setValue} onBlur={() => void send()} min={0} hideControls
-        onKeyDown={(event) => event.key === "Enter" && void send()} suffix={unit === "" ? "" : ` ${unit}`} />
+      <NumberInput
+        label="Time step dt"
+        size="xs"
+        value={value}
+        onChange={setValue}
+        onBlur={() => void send()}
+        min={0}
+        hideControls
+        onKeyDown={(event) => event.key === "Enter" && void send()}
+        suffix={unit === "" ? "" : ` ${unit}`}
+      />
       <Hint>Small beside every time constant. The state is kept.</Hint>
     </div>
   );
@@ -109,8 +136,18 @@ function LongestStep() {
   };
   return (
     <div>
-      <NumberInput label="Longest step, where time is short" size="xs" value={value} onChange={setValue} onBlur={() => void send()} min={0} hideControls
-        placeholder="dt stays" onKeyDown={(event) => event.key === "Enter" && void send()} suffix={unit === "" ? "" : ` ${unit}`} />
+      <NumberInput
+        label="Longest step, where time is short"
+        size="xs"
+        value={value}
+        onChange={setValue}
+        onBlur={() => void send()}
+        min={0}
+        hideControls
+        placeholder="dt stays"
+        onKeyDown={(event) => event.key === "Enter" && void send()}
+        suffix={unit === "" ? "" : ` ${unit}`}
+      />
       <Hint>Empty: steps stay as they are, and a slow computer falls behind.</Hint>
     </div>
   );
@@ -120,8 +157,16 @@ function Steps() {
   const steps = useNext((state) => state.steps);
   return (
     <div>
-      <NumberInput label="Steps at a time" size="xs" value={steps} min={1} max={MOST_STEPS} allowDecimal={false} clampBehavior="strict"
-        onChange={(value) => typeof value === "number" && value >= 1 && useNext.setState({ steps: value })} />
+      <NumberInput
+        label="Steps at a time"
+        size="xs"
+        value={steps}
+        min={1}
+        max={MOST_STEPS}
+        allowDecimal={false}
+        clampBehavior="strict"
+        onChange={(value) => typeof value === "number" && value >= 1 && useNext.setState({ steps: value })}
+      />
       <Hint>For the step button and the key “.”</Hint>
     </div>
   );

@@ -26,11 +26,28 @@ export function SpeedMenu() {
     void request({ type: "speed", factor: SPEEDS[next] ?? null });
   };
   return (
-    <Popover opened={opened} onChange={setOpened} position="bottom" withArrow shadow="md" trapFocus returnFocus>
+    <Popover
+      opened={opened}
+      onChange={setOpened}
+      position="bottom"
+      withArrow
+      shadow="md"
+      trapFocus
+      returnFocus
+    >
       <Popover.Target>
         <Tooltip label="Speed: simulated time in relation to real time" disabled={opened}>
-          <Button variant="default" size="compact-sm" w={76} px={6} fw={500} leftSection={<IconGauge size={15} />} className="numbers"
-            aria-label={`Speed: ${speedText(speed)}`} onClick={() => setOpened(!opened)}>
+          <Button
+            variant="default"
+            size="compact-sm"
+            w={76}
+            px={6}
+            fw={500}
+            leftSection={<IconGauge size={15} />}
+            className="numbers"
+            aria-label={`Speed: ${speedText(speed)}`}
+            onClick={() => setOpened(!opened)}
+          >
             {speedText(speed)}
           </Button>
         </Tooltip>
@@ -39,8 +56,20 @@ export function SpeedMenu() {
         <Text size="xs" fw={600} mb={6}>
           Speed
         </Text>
-        <Slider value={stop} onChange={choose} min={0} max={LAST} step={1} marks={MARKS} label={(value) => speedText(SPEEDS[value] ?? null)}
-          thumbLabel="Speed" thumbProps={AUTOFOCUS} size="sm" mx={12} mb="lg" />
+        <Slider
+          value={stop}
+          onChange={choose}
+          min={0}
+          max={LAST}
+          step={1}
+          marks={MARKS}
+          label={(value) => speedText(SPEEDS[value] ?? null)}
+          thumbLabel="Speed"
+          thumbProps={AUTOFOCUS}
+          size="sm"
+          mx={12}
+          mb="lg"
+        />
         <Text size="xs" c="dimmed" mt="xl">
           1× is real time, less is slow motion, max is as fast as this computer can.
         </Text>

@@ -1,7 +1,12 @@
 // The controls of the run: play, step, reset, speed, and where it is.
 
 import { ActionIcon, Tooltip } from "@mantine/core";
-import { IconPlayerPauseFilled, IconPlayerPlayFilled, IconPlayerSkipBackFilled, IconPlayerTrackNextFilled } from "@tabler/icons-react";
+import {
+  IconPlayerPauseFilled,
+  IconPlayerPlayFilled,
+  IconPlayerSkipBackFilled,
+  IconPlayerTrackNextFilled,
+} from "@tabler/icons-react";
 
 import { useStudio } from "../store";
 import { Busy } from "./Busy";
@@ -18,16 +23,24 @@ export function Transport() {
   const steps = useNext((state) => state.steps);
   const seed = useNext((state) => state.seed);
   const stepLabel = steps === 1 ? "Step" : `${countText(steps)} steps`;
+  const withSeed = seed === null ? "" : `, with seed ${seed}`;
+  const resetLabel = `Reset: state, time and noise back to the start${withSeed}. Parameters stay. (Shift+R)`;
   return (
     <div className={classes.transport} role="toolbar" aria-label="Run">
       <div className={classes.buttons}>
-        <Tooltip label={`Reset: state, time and noise back to the start${seed === null ? "" : `, with seed ${seed}`}. Parameters stay. (Shift+R)`}>
+        <Tooltip label={resetLabel}>
           <ActionIcon aria-label="Reset" size={28} onClick={() => void reset()}>
             <IconPlayerSkipBackFilled size={16} />
           </ActionIcon>
         </Tooltip>
         <Tooltip label={running ? "Pause (Space)" : "Play (Space)"}>
-          <ActionIcon aria-label={running ? "Pause" : "Play"} variant="filled" color="deodar" size={32} onClick={() => void play()}>
+          <ActionIcon
+            aria-label={running ? "Pause" : "Play"}
+            variant="filled"
+            color="deodar"
+            size={32}
+            onClick={() => void play()}
+          >
             {running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />}
           </ActionIcon>
         </Tooltip>

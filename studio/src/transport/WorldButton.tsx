@@ -13,12 +13,21 @@ export function WorldButton() {
     return null;
   }
   const blind = world === "";
-  const reads = blind ? "The sensors read nothing yet. Choose a picture, or drop one on the page." : `The sensors read ${world}. Choose another.`;
+  const reads = blind
+    ? "The sensors read nothing yet. Choose a picture, or drop one on the page."
+    : `The sensors read ${world}. Choose another.`;
   return (
     <Tooltip label={reads}>
-      <Button variant={blind ? "light" : "default"} size="compact-sm" maw={{ base: 110, lg: 170 }} px={6} fw={500}
-        leftSection={<IconPhoto size={15} />} aria-label={blind ? "Choose a picture" : `The sensors read ${world}; choose another picture`}
-        onClick={() => void choosePicture()}>
+      <Button
+        variant={blind ? "light" : "default"}
+        size="compact-sm"
+        maw={{ base: 110, lg: 170 }}
+        px={6}
+        fw={500}
+        leftSection={<IconPhoto size={15} />}
+        aria-label={blind ? "Choose a picture" : `The sensors read ${world}; choose another picture`}
+        onClick={() => void choosePicture()}
+      >
         <span className="one-line">{blind ? "Picture…" : world}</span>
       </Button>
     </Tooltip>

@@ -30,7 +30,14 @@ describe("simulated time", () => {
 
 it("the ratio to real time has three digits", () => {
   expect([0, 0.0213, 1, 9.999, 12.34, 340.2, 9999, 12_345].map(factorText)).toEqual([
-    "×0.00", "×0.02", "×1.00", "×10.0", "×12.3", "×340", "×9999", "×12k",
+    "×0.00",
+    "×0.02",
+    "×1.00",
+    "×10.0",
+    "×12.3",
+    "×340",
+    "×9999",
+    "×12k",
   ]);
   expect(factorText(Number.NaN)).toBe("×–");
 });

@@ -1,6 +1,8 @@
-// How times and speeds are written. All of one length as far as possible, so that read-outs keep still while they count.
+// How times and speeds are written. All of one length as far as possible, so that read-outs keep still while
+// they count.
 
-// What the unit of time is in seconds, for units with a name; a unit of its own ("abstract", "1 = 64 ms") is counted as it is.
+// What the unit of time is in seconds, for units with a name; a unit of its own ("abstract", "1 = 64 ms") is
+// counted as it is.
 const SECONDS: Record<string, number> = { us: 1e-6, ms: 1e-3, s: 1, min: 60 };
 
 const SYMBOLS: Record<string, string> = { us: "µs" };
@@ -29,7 +31,9 @@ export function factorText(factor: number): string {
   if (!Number.isFinite(factor)) {
     return "×–";
   }
-  return factor < 10_000 ? `×${grouped(factor, factor < 9.995 ? 2 : factor < 99.95 ? 1 : 0)}` : `×${Math.round(factor / 1000)}k`;
+  return factor < 10_000
+    ? `×${grouped(factor, factor < 9.995 ? 2 : factor < 99.95 ? 1 : 0)}`
+    : `×${Math.round(factor / 1000)}k`;
 }
 
 export function speedText(speed: number | null): string {

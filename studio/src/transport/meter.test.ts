@@ -2,7 +2,18 @@ import { expect, it } from "vitest";
 
 import { type Kept, lateText, meterLines, millisecondsText } from "./meter";
 
-const good: Kept = { running: true, speed: 1, dt: 1, steps: 1000, lag: 0.3, worst: 4, lost: 0, overruns: 0, longest: null, lengthened: 0 };
+const good: Kept = {
+  running: true,
+  speed: 1,
+  dt: 1,
+  steps: 1000,
+  lag: 0.3,
+  worst: 4,
+  lost: 0,
+  overruns: 0,
+  longest: null,
+  lengthened: 0,
+};
 
 it("a run that keeps up is not late, and never fell behind", () => {
   expect(lateText(good)).toBe("");
@@ -24,8 +35,12 @@ it("a run that is too slow says by how much, how often, and what was given up", 
 });
 
 it("steps that were lengthened are told", () => {
-  expect(meterLines("Pace", { ...good, lengthened: 12_000, dt: 3 }, "ms").at(-1)).toBe("12\u2009000 steps were lengthened; now they are 3 ms");
-  expect(meterLines("Pace", { ...good, lengthened: 5, dt: 3 }, "abstract").at(-1)).toBe("5 steps were lengthened; now they are 3");
+  expect(meterLines("Pace", { ...good, lengthened: 12_000, dt: 3 }, "ms").at(-1)).toBe(
+    "12\u2009000 steps were lengthened; now they are 3 ms",
+  );
+  expect(meterLines("Pace", { ...good, lengthened: 5, dt: 3 }, "abstract").at(-1)).toBe(
+    "5 steps were lengthened; now they are 3",
+  );
 });
 
 it("as fast as possible, and standing still, nothing is late", () => {
@@ -36,5 +51,13 @@ it("as fast as possible, and standing still, nothing is late", () => {
 });
 
 it("times on the wall are short", () => {
-  expect([0, 9.94, 9.96, 250.4, 9999, 10_000, 3_600_000].map(millisecondsText)).toEqual(["0.0 ms", "9.9 ms", "10 ms", "250 ms", "9999 ms", "10 s", "3600 s"]);
+  expect([0, 9.94, 9.96, 250.4, 9999, 10_000, 3_600_000].map(millisecondsText)).toEqual([
+    "0.0 ms",
+    "9.9 ms",
+    "10 ms",
+    "250 ms",
+    "9999 ms",
+    "10 s",
+    "3600 s",
+  ]);
 });

@@ -6,7 +6,8 @@ import type { Answer } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 
-// What the page keeps for the next press: how many steps, and a seed that waits for the next reset (null: the one in use stays).
+// What the page keeps for the next press: how many steps, and a seed that waits for the next reset (null: the
+// one in use stays).
 type Next = { steps: number; seed: number | null };
 
 export const useNext = create<Next>(() => ({ steps: 1, seed: null }));

@@ -8,5 +8,8 @@ export function stopOf(speed: number | null): number {
     return SPEEDS.length - 1;
   }
   const distance = (stop: number | null) => (stop === null ? Infinity : Math.abs(Math.log(stop / speed)));
-  return SPEEDS.reduce<number>((best, stop, i) => (distance(stop) < distance(SPEEDS[best] ?? null) ? i : best), 0);
+  return SPEEDS.reduce<number>(
+    (best, stop, i) => (distance(stop) < distance(SPEEDS[best] ?? null) ? i : best),
+    0,
+  );
 }

@@ -1,9 +1,17 @@
-// The panel of the world: what a robot drives in, from above and to scale. Things and goals are moved by hand while it runs.
+// The panel of the world: what a robot drives in, from above and to scale. Things and goals are moved by hand
+// while it runs.
 
 import "./world.css";
 
 import { NativeSelect, useComputedColorScheme } from "@mantine/core";
-import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState, useSyncExternalStore } from "react";
+import {
+  type KeyboardEvent,
+  type PointerEvent,
+  useEffect,
+  useRef,
+  useState,
+  useSyncExternalStore,
+} from "react";
 
 import { pageLook } from "../plots/look";
 import { request, socket } from "../socket";
@@ -11,13 +19,29 @@ import { useStudio } from "../store";
 import { Carrier } from "./carrier";
 import { draw } from "./draw";
 import { live } from "./live";
-import { type Frame, frameOf, freeName, inside, placeText, type Point, things, toWorld, under } from "./place";
+import {
+  type Frame,
+  frameOf,
+  freeName,
+  inside,
+  placeText,
+  type Point,
+  things,
+  toWorld,
+  under,
+} from "./place";
 
-const HELP = "Drag a thing. A double click places a box, Delete takes one away, arrow keys move what is chosen.";
+const HELP =
+  "Drag a thing. A double click places a box, Delete takes one away, arrow keys move what is chosen.";
 // A box that is placed, and a step of an arrow key, as shares of the shorter and of the longer side.
 const BOX = 0.06;
 const STEP = 0.01;
-const ARROWS: Record<string, Point> = { ArrowLeft: { x: -1, y: 0 }, ArrowRight: { x: 1, y: 0 }, ArrowUp: { x: 0, y: 1 }, ArrowDown: { x: 0, y: -1 } };
+const ARROWS: Record<string, Point> = {
+  ArrowLeft: { x: -1, y: 0 },
+  ArrowRight: { x: 1, y: 0 },
+  ArrowUp: { x: 0, y: 1 },
+  ArrowDown: { x: 0, y: -1 },
+};
 
 export function World() {
   const scene = useSyncExternalStore(live.listen, live.scene);
@@ -29,7 +53,10 @@ export function World() {
   const redraw = useRef(() => {});
   const [hovered, setHovered] = useState<string | null>(null);
   const [selected, setSelected] = useState<string | null>(null);
-  const [carrier, setCarrier] = useState<{ held: Carrier["held"]; refused: string }>({ held: null, refused: "" });
+  const [carrier, setCarrier] = useState<{ held: Carrier["held"]; refused: string }>({
+    held: null,
+    refused: "",
+  });
   const hand = useRef<Carrier | null>(null);
   hand.current ??= new Carrier(
     async (message) => (await socket.ask(message)).answer,
@@ -67,7 +94,13 @@ export function World() {
       ctx.clearRect(0, 0, width, height);
       frame.current = frameOf(border, width, height);
       const { held, refused } = carrier;
-      draw(ctx, frame.current, live.now, { hovered, selected, held: held === null ? null : { ...held, refused: refused !== "" } }, pageLook());
+      draw(
+        ctx,
+        frame.current,
+        live.now,
+        { hovered, selected, held: held === null ? null : { ...held, refused: refused !== "" } },
+        pageLook(),
+      );
     };
     redraw.current = () => {
       due ||= requestAnimationFrame(paint);
@@ -86,7 +119,8 @@ export function World() {
   if (scene === null) {
     return (
       <p className="world-none dim" role="status">
-        Nothing to see from above. Start the studio with a world that has a plan, for example: deodar studio FILE --world arena:blocks
+        Nothing to see from above. Start the studio with a world that has a plan, for example: deodar studio
+        FILE --world arena:blocks
       </p>
     );
   }
@@ -95,7 +129,8 @@ export function World() {
   const find = (name: string | null) => all.find((thing) => thing.name === name);
   const at = ({ nativeEvent: { offsetX: x, offsetY: y } }: { nativeEvent: MouseEvent }): Point => ({ x, y });
   const down = (event: PointerEvent<HTMLCanvasElement>) => {
-    const thing = frame.current === null || event.button !== 0 ? null : under(scene, frame.current, at(event));
+    const thing =
+      frame.current === null || event.button !== 0 ? null : under(scene, frame.current, at(event));
     setSelected(thing?.name ?? null);
     hand.current?.forgive();
     if (thing !== null && !thing.fixed && frame.current !== null) {
@@ -113,7 +148,10 @@ export function World() {
       return;
     }
     const place = toWorld(frame.current, at(event));
-    hand.current?.carry(selected, inside(frame.current, { x: place.x + grip.current.x, y: place.y + grip.current.y }));
+    hand.current?.carry(
+      selected,
+      inside(frame.current, { x: place.x + grip.current.x, y: place.y + grip.current.y }),
+    );
   };
   const up = () => {
     grip.current = null;
@@ -123,7 +161,13 @@ export function World() {
     if (frame.current !== null && under(scene, frame.current, at(event)) === null) {
       const [x0, y0, x1, y1] = frame.current.border;
       const size = BOX * Math.min(x1 - x0, y1 - y0);
-      void request({ type: "place_thing", name: freeName(scene), ...inside(frame.current, toWorld(frame.current, at(event))), width: size, height: size });
+      void request({
+        type: "place_thing",
+        name: freeName(scene),
+        ...inside(frame.current, toWorld(frame.current, at(event))),
+        width: size,
+        height: size,
+      });
     }
   };
   const key = (event: KeyboardEvent) => {
@@ -133,7 +177,10 @@ export function World() {
     }
     if (arrow !== undefined) {
       const step = STEP * Math.max(border[2] - border[0], border[3] - border[1]);
-      hand.current?.carry(thing.name, inside(frame.current, { x: thing.x + step * arrow.x, y: thing.y + step * arrow.y }));
+      hand.current?.carry(
+        thing.name,
+        inside(frame.current, { x: thing.x + step * arrow.x, y: thing.y + step * arrow.y }),
+      );
       hand.current?.drop();
     } else if (event.key === "Delete" || event.key === "Backspace") {
       void request({ type: "remove_thing", name: thing.name });
@@ -144,24 +191,50 @@ export function World() {
     event.stopPropagation(); // keys of the page do other things
   };
 
-  const looked = find(carrier.held?.name ?? hovered ?? selected) ?? live.now.bodies.find(({ name }) => name === hovered);
-  const told = looked === undefined ? HELP : `${looked.name}: ${placeText(carrier.held?.at ?? looked, scene.border, scene.unit)}`;
+  const looked =
+    find(carrier.held?.name ?? hovered ?? selected) ?? live.now.bodies.find(({ name }) => name === hovered);
+  const told =
+    looked === undefined
+      ? HELP
+      : `${looked.name}: ${placeText(carrier.held?.at ?? looked, scene.border, scene.unit)}`;
   return (
     <section className="world" aria-label="World from above">
       <header className="world-head">
-        <NativeSelect size="xs" variant="unstyled" aria-label="Thing to move" value={selected ?? ""}
-          data={[{ value: "", label: "nothing chosen" }, ...all.filter(({ fixed }) => !fixed).map(({ name }) => ({ value: name, label: name }))]}
+        <NativeSelect
+          size="xs"
+          variant="unstyled"
+          aria-label="Thing to move"
+          value={selected ?? ""}
+          data={[
+            { value: "", label: "nothing chosen" },
+            ...all.filter(({ fixed }) => !fixed).map(({ name }) => ({ value: name, label: name })),
+          ]}
           onChange={(event) => setSelected(event.currentTarget.value || null)}
         />
-        <span className={`world-told one-line numbers${carrier.refused === "" ? "" : " world-refused"}`} role="status" title={carrier.refused === "" ? told : carrier.refused}>
+        <span
+          className={`world-told one-line numbers${carrier.refused === "" ? "" : " world-refused"}`}
+          role="status"
+          title={carrier.refused === "" ? told : carrier.refused}
+        >
           {carrier.refused === "" ? told : carrier.refused}
         </span>
       </header>
       <div className="world-body">
-        <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The world from above: ${all.map(({ name }) => name).join(", ")}`}
-          style={{ cursor: grip.current !== null ? "grabbing" : find(hovered)?.fixed === false ? "grab" : "default" }}
-          onPointerDown={down} onPointerMove={move} onPointerUp={up} onPointerCancel={up} onPointerLeave={() => setHovered(null)}
-          onDoubleClick={put} onKeyDown={key}
+        <canvas
+          ref={canvas}
+          tabIndex={0}
+          role="img"
+          aria-label={`The world from above: ${all.map(({ name }) => name).join(", ")}`}
+          style={{
+            cursor: grip.current !== null ? "grabbing" : find(hovered)?.fixed === false ? "grab" : "default",
+          }}
+          onPointerDown={down}
+          onPointerMove={move}
+          onPointerUp={up}
+          onPointerCancel={up}
+          onPointerLeave={() => setHovered(null)}
+          onDoubleClick={put}
+          onKeyDown={key}
         />
       </div>
     </section>

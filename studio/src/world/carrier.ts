@@ -1,4 +1,5 @@
-// Carries a thing to where the pointer is: one request at a time, the newest place next, so that a slow run is asked no more than it can do.
+// Carries a thing to where the pointer is: one request at a time, the newest place next, so that a slow run
+// is asked no more than it can do.
 
 import type { Answer, ToServer } from "../protocol";
 import type { Point } from "./place";
@@ -50,7 +51,10 @@ export class Carrier {
       const { name, at } = this.held;
       const { problems } = await this.ask({ type: "move_thing", name, x: at.x, y: at.y });
       const [problem] = problems ?? [];
-      this.refused = problem === undefined ? "" : [problem.where, problem.what].filter((part) => part !== undefined && part !== "").join(": ");
+      this.refused =
+        problem === undefined
+          ? ""
+          : [problem.where, problem.what].filter((part) => part !== undefined && part !== "").join(": ");
       this.told();
     }
     this.asking = false;

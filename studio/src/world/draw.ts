@@ -17,7 +17,13 @@ const SHORT = 4;
 export type Held = { name: string; at: Point; refused: boolean };
 export type Picked = { hovered: string | null; selected: string | null; held: Held | null };
 
-export function draw(ctx: CanvasRenderingContext2D, frame: Frame, { scene, bodies, way }: Seen, picked: Picked, look: Look): void {
+export function draw(
+  ctx: CanvasRenderingContext2D,
+  frame: Frame,
+  { scene, bodies, way }: Seen,
+  picked: Picked,
+  look: Look,
+): void {
   if (scene === null) {
     return;
   }
@@ -105,12 +111,21 @@ function drawGhost(ctx: CanvasRenderingContext2D, frame: Frame, at: Point, box: 
   ctx.setLineDash([]);
 }
 
-function drawWay(ctx: CanvasRenderingContext2D, frame: Frame, way: number[][], n: number, body: BodyView): void {
+function drawWay(
+  ctx: CanvasRenderingContext2D,
+  frame: Frame,
+  way: number[][],
+  n: number,
+  body: BodyView,
+): void {
   ctx.strokeStyle = BODIES[n % BODIES.length] as string;
   ctx.lineWidth = 1.5;
   ctx.lineJoin = "round";
   ctx.beginPath();
-  for (const places of [...way.map((row) => ({ x: row[2 * n] as number, y: row[2 * n + 1] as number })), body]) {
+  for (const places of [
+    ...way.map((row) => ({ x: row[2 * n] as number, y: row[2 * n + 1] as number })),
+    body,
+  ]) {
     const at = toPixels(frame, places);
     ctx.lineTo(at.x, at.y);
   }

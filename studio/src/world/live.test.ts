@@ -9,8 +9,20 @@ it("the way grows, begins anew where the server says so, and React hears only of
   live.take({ type: "scene", scene: { unit: "m", border: [0, 0, 1, 1], boxes: [], marks: [] } });
   const before = live.scene();
   live.take({ type: "bodies", bodies: [], fresh: true, way: [[0, 0]] });
-  live.take({ type: "bodies", bodies: [], fresh: false, way: [[1, 0], [2, 0]] });
-  expect(live.now.way).toEqual([[0, 0], [1, 0], [2, 0]]);
+  live.take({
+    type: "bodies",
+    bodies: [],
+    fresh: false,
+    way: [
+      [1, 0],
+      [2, 0],
+    ],
+  });
+  expect(live.now.way).toEqual([
+    [0, 0],
+    [1, 0],
+    [2, 0],
+  ]);
   expect(live.scene()).toBe(before);
   live.take({ type: "bodies", bodies: [], fresh: true, way: [[5, 5]] });
   expect(live.now.way).toEqual([[5, 5]]);

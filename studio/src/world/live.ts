@@ -1,5 +1,5 @@
-// The world as the server showed it last: what stands in it, where its bodies are, and the way they came. Many pictures a second pass through
-// here, so that React is told only of what stands still.
+// The world as the server showed it last: what stands in it, where its bodies are, and the way they came.
+// Many pictures a second pass through here, so that React is told only of what stands still.
 
 import type { Bodies, BodyView, Scene, SceneView } from "../protocol";
 

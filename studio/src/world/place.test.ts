@@ -3,7 +3,15 @@ import { expect, it } from "vitest";
 import type { SceneView } from "../protocol";
 import { frameOf, freeName, inside, placeText, ticks, toPixels, toWorld, under } from "./place";
 
-const box = (name: string, x: number, y: number, fixed = false) => ({ name, x, y, width: 0.2, height: 0.1, color: [0, 0, 0], fixed });
+const box = (name: string, x: number, y: number, fixed = false) => ({
+  name,
+  x,
+  y,
+  width: 0.2,
+  height: 0.1,
+  color: [0, 0, 0],
+  fixed,
+});
 const scene: SceneView = {
   unit: "m",
   border: [0, -1, 2, 1],
@@ -40,7 +48,13 @@ it("what lies above is taken hold of first, a mark also near by", () => {
 
 it("axes are marked in steps of 1, 2 or 5, each with the digits that it needs", () => {
   expect(ticks(0, 2, 100, 50)).toEqual({ values: [0, 0.5, 1, 1.5, 2], digits: 1 });
-  expect(ticks(-0.1, 0.1, 1000, 50).values.map((v) => v.toFixed(2))).toEqual(["-0.10", "-0.05", "0.00", "0.05", "0.10"]);
+  expect(ticks(-0.1, 0.1, 1000, 50).values.map((v) => v.toFixed(2))).toEqual([
+    "-0.10",
+    "-0.05",
+    "0.00",
+    "0.05",
+    "0.10",
+  ]);
   expect(ticks(0, 120, 4, 50)).toEqual({ values: [0, 20, 40, 60, 80, 100, 120], digits: 0 });
 });
 

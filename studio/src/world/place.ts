@@ -20,7 +20,10 @@ const NEAR = 9;
 
 export function frameOf(border: number[], width: number, height: number): Frame {
   const [x0, y0, x1, y1] = border as [number, number, number, number];
-  const room = { x: Math.max(1, width - MARGIN.left - MARGIN.right), y: Math.max(1, height - MARGIN.top - MARGIN.bottom) };
+  const room = {
+    x: Math.max(1, width - MARGIN.left - MARGIN.right),
+    y: Math.max(1, height - MARGIN.top - MARGIN.bottom),
+  };
   const scale = Math.min(room.x / (x1 - x0), room.y / (y1 - y0));
   const left = MARGIN.left + (room.x - scale * (x1 - x0)) / 2;
   const bottom = MARGIN.top + (room.y + scale * (y1 - y0)) / 2;
@@ -59,7 +62,12 @@ export function under(scene: SceneView, frame: Frame, pixel: Point): Thing | nul
 }
 
 // Steps of an axis: 1, 2 or 5 times a power of ten, none nearer than `least` pixels.
-export function ticks(lower: number, upper: number, scale: number, least: number): { values: number[]; digits: number } {
+export function ticks(
+  lower: number,
+  upper: number,
+  scale: number,
+  least: number,
+): { values: number[]; digits: number } {
   const wanted = least / scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
   const step = power * ([1, 2, 5, 10].find((n) => n * power >= wanted * (1 - 1e-9)) ?? 10);
@@ -72,7 +80,10 @@ export function ticks(lower: number, upper: number, scale: number, least: number
 
 // A place as text, to a thousandth of the longer side.
 export function placeText({ x, y }: Point, border: number[], unit: string): string {
-  const longest = Math.max((border[2] as number) - (border[0] as number), (border[3] as number) - (border[1] as number));
+  const longest = Math.max(
+    (border[2] as number) - (border[0] as number),
+    (border[3] as number) - (border[1] as number),
+  );
   const digits = Math.max(0, 3 - Math.ceil(Math.log10(longest)));
   return `${x.toFixed(digits)}, ${y.toFixed(digits)} ${unit}`.trim();
 }

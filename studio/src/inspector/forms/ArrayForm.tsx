@@ -21,7 +21,8 @@ export function arrayText(value: unknown): string {
   }
   const { shape, min, max, array, digest } = value as Record<string, unknown>;
   const size = Array.isArray(shape) ? `${shape.join(" × ")} numbers` : "";
-  const range = typeof min === "number" && typeof max === "number" ? `${numberText(min)} to ${numberText(max)}` : "";
+  const range =
+    typeof min === "number" && typeof max === "number" ? `${numberText(min)} to ${numberText(max)}` : "";
   const known = [size, range].filter((text) => text !== "").join(", ");
   return known || String(array ?? digest ?? "numbers");
 }

@@ -22,9 +22,14 @@ export function AxesForm({ form, path, value }: FormProps) {
         className="grow"
         size="xs"
         aria-label={path}
-        data={options.map(({ value: key, label }) => ({ value: key, label: keys.includes(key) ? key : label }))}
+        data={options.map(({ value: key, label }) => ({
+          value: key,
+          label: keys.includes(key) ? key : label,
+        }))}
         value={keys}
-        placeholder={keys.length > 0 ? undefined : options.length > 0 ? "none: a node" : "the document has no axes"}
+        placeholder={
+          keys.length > 0 ? undefined : options.length > 0 ? "none: a node" : "the document has no axes"
+        }
         hidePickedOptions
         disabled={options.length === 0}
         comboboxProps={{ shadow: "md" }}

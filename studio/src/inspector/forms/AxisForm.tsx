@@ -16,7 +16,13 @@ export function AxisForm({ form, path, value }: FormProps) {
   const key = typeof value === "string" ? value : null;
   return (
     <Row form={form} path={path} value={value} onReset={(standard) => void setting.commit(standard)}>
-      <ChoiceBox label={path} value={key} choices={axes.map(axisOption)} optional={form.optional} onCommit={(chosen) => void setting.commit(chosen)} />
+      <ChoiceBox
+        label={path}
+        value={key}
+        choices={axes.map(axisOption)}
+        optional={form.optional}
+        onCommit={(chosen) => void setting.commit(chosen)}
+      />
       <AxisLines axes={axes.filter((axis) => axis.key === key)} />
       <ProblemLine problem={setting.problem} />
     </Row>

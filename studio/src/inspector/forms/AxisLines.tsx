@@ -26,5 +26,8 @@ export function AxisLines({ axes }: { axes: AxisView[] }) {
 // An axis in a list to choose from.
 export function axisOption(axis: AxisView): { value: string; label: string } {
   const name = axis.key === axis.name ? axis.key : `${axis.key} (${axis.name})`;
-  return { value: axis.key, label: `${name}: ${numberText(axis.lower)} to ${numberText(axis.upper)} ${axis.unit}`.trim() };
+  return {
+    value: axis.key,
+    label: `${name}: ${numberText(axis.lower)} to ${numberText(axis.upper)} ${axis.unit}`.trim(),
+  };
 }

@@ -13,7 +13,12 @@ export function FlagForm({ form, path, value }: FormProps) {
   const setting = useSetting(element, path, value, form.cost);
   return (
     <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
-      <Switch size="xs" aria-label={path} checked={value === true} onChange={(event) => void setting.commit(event.currentTarget.checked)} />
+      <Switch
+        size="xs"
+        aria-label={path}
+        checked={value === true}
+        onChange={(event) => void setting.commit(event.currentTarget.checked)}
+      />
       <ProblemLine problem={setting.problem} />
     </Row>
   );

@@ -18,7 +18,12 @@ type NumberRowProps = Omit<FormProps, "value"> & { value: number | null; label?:
 export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
   const { element, axes, own, timeUnit } = usePlace();
   const knob = useDriver(path);
-  const setting = useSetting<number | null>(knob === undefined ? element : "", knob?.name ?? path, knob?.value ?? value, form.cost);
+  const setting = useSetting<number | null>(
+    knob === undefined ? element : "",
+    knob?.name ?? path,
+    knob?.value ?? value,
+    form.cost,
+  );
   const range = sliderRange(form, setting.value, { path, axes, own });
   const unit = unitText(form.unit, timeUnit, axesAt(axes, form, path));
   return (

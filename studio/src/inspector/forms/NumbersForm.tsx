@@ -20,7 +20,8 @@ export function NumbersForm({ form, path, value }: FormProps) {
   const [naming, setNaming] = useState(false);
   const numbers = (value ?? {}) as Record<string, number>;
   const names = Object.keys(numbers);
-  const remove = (name: string) => void setting.commit(Object.fromEntries(Object.entries(numbers).filter(([k]) => k !== name)));
+  const remove = (name: string) =>
+    void setting.commit(Object.fromEntries(Object.entries(numbers).filter(([k]) => k !== name)));
   const add = async (name: string) => {
     const taken = name in numbers || (await setting.commit({ ...numbers, [name]: 0 }));
     setNaming(!taken);

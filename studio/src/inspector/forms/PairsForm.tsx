@@ -23,13 +23,33 @@ export function PairsForm({ form, path, value }: FormProps) {
     void commit([...pairs, [name, name]]);
   };
   return (
-    <Row form={form} path={path} value={value} inline={pairs.length === 0} onReset={(standard) => void setting.commit(standard)}>
+    <Row
+      form={form}
+      path={path}
+      value={value}
+      inline={pairs.length === 0}
+      onReset={(standard) => void setting.commit(standard)}
+    >
       {pairs.map(([from, to], i) => (
         <div className="list-line" key={from}>
-          <TextBox label={`${path} name ${i + 1}`} value={from} onCommit={(typed) => put(i, [typed, to])} onForget={setting.forget} />
+          <TextBox
+            label={`${path} name ${i + 1}`}
+            value={from}
+            onCommit={(typed) => put(i, [typed, to])}
+            onForget={setting.forget}
+          />
           <IconArrowRight className="dim" size={12} />
-          <TextBox label={`${path} ${from}`} value={to} onCommit={(typed) => put(i, [from, typed])} onForget={setting.forget} />
-          <ActionIcon size={20} aria-label={`Remove ${from} from ${path}`} onClick={() => void commit(pairs.filter((_, k) => k !== i))}>
+          <TextBox
+            label={`${path} ${from}`}
+            value={to}
+            onCommit={(typed) => put(i, [from, typed])}
+            onForget={setting.forget}
+          />
+          <ActionIcon
+            size={20}
+            aria-label={`Remove ${from} from ${path}`}
+            onClick={() => void commit(pairs.filter((_, k) => k !== i))}
+          >
             <IconX size={13} />
           </ActionIcon>
         </div>

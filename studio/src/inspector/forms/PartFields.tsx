@@ -12,7 +12,12 @@ type PartFieldsProps = { kind: string; values: unknown; prefix?: string };
 export function PartFields({ kind, values, prefix = "" }: PartFieldsProps) {
   const forms = useStudio((state) => state.kinds.get(kind))?.parameters ?? [];
   return forms.map((form) => (
-    <Parameter key={form.name} form={form} path={`${prefix}${form.name}`} value={((values ?? {}) as Values)[form.name] ?? null} />
+    <Parameter
+      key={form.name}
+      form={form}
+      path={`${prefix}${form.name}`}
+      value={((values ?? {}) as Values)[form.name] ?? null}
+    />
   ));
 }
 

@@ -16,11 +16,18 @@ export function PartForm({ form, path, value }: FormProps) {
   const kinds = useStudio((state) => state.kinds);
   const kind = kindOf(kinds, value);
   const choices = form.of.map((name) => ({ value: name, label: kinds.get(name)?.title ?? name }));
-  const choose = (name: string | null) => void setting.commit(name === null ? null : recast(kinds, name, value));
+  const choose = (name: string | null) =>
+    void setting.commit(name === null ? null : recast(kinds, name, value));
   return (
     <>
       <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
-        <ChoiceBox label={path} value={kind?.name ?? null} choices={choices} optional={form.optional} onCommit={choose} />
+        <ChoiceBox
+          label={path}
+          value={kind?.name ?? null}
+          choices={choices}
+          optional={form.optional}
+          onCommit={choose}
+        />
         <ProblemLine problem={setting.problem} />
       </Row>
       {kind !== undefined && (

@@ -1,7 +1,13 @@
 // One part of a list: a line that says what it is, and its parameters, which fold.
 
 import { Menu, UnstyledButton } from "@mantine/core";
-import { IconArrowDown, IconArrowUp, IconChevronDown, IconChevronRight, IconTrash } from "@tabler/icons-react";
+import {
+  IconArrowDown,
+  IconArrowUp,
+  IconChevronDown,
+  IconChevronRight,
+  IconTrash,
+} from "@tabler/icons-react";
 
 import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
@@ -22,7 +28,17 @@ type PartItemProps = {
   onMove: (to: number) => void;
 };
 
-export function PartItem({ form, path, part, place, folded, onFold, onReplace, onRemove, onMove }: PartItemProps) {
+export function PartItem({
+  form,
+  path,
+  part,
+  place,
+  folded,
+  onFold,
+  onReplace,
+  onRemove,
+  onMove,
+}: PartItemProps) {
   const kinds = useStudio((state) => state.kinds);
   const kind = kindOf(kinds, part);
   const title = kind?.title ?? String(part["kind"]);
@@ -31,27 +47,40 @@ export function PartItem({ form, path, part, place, folded, onFold, onReplace, o
   return (
     <section className="part-item" aria-label={path}>
       <div className="part-line">
-        <UnstyledButton className="part-fold" aria-expanded={!folded} aria-label={`${title}, ${path}`} onClick={onFold}>
+        <UnstyledButton
+          className="part-fold"
+          aria-expanded={!folded}
+          aria-label={`${title}, ${path}`}
+          onClick={onFold}
+        >
           {folded ? <IconChevronRight size={13} /> : <IconChevronDown size={13} />}
           <span className="part-title">{title}</span>
           {folded && <span className="dim one-line">{summary(kinds, part)}</span>}
         </UnstyledButton>
         <DotsMenu label={`More for ${path}`}>
-            <Menu.Item leftSection={<IconArrowUp size={14} />} disabled={index === 0} onClick={() => onMove(index - 1)}>
-              Move up
+          <Menu.Item
+            leftSection={<IconArrowUp size={14} />}
+            disabled={index === 0}
+            onClick={() => onMove(index - 1)}
+          >
+            Move up
+          </Menu.Item>
+          <Menu.Item
+            leftSection={<IconArrowDown size={14} />}
+            disabled={index === count - 1}
+            onClick={() => onMove(index + 1)}
+          >
+            Move down
+          </Menu.Item>
+          <Menu.Item leftSection={<IconTrash size={14} />} onClick={onRemove}>
+            Remove
+          </Menu.Item>
+          {others.length > 0 && <Menu.Label>Replace by</Menu.Label>}
+          {others.map((name) => (
+            <Menu.Item key={name} onClick={() => onReplace(recast(kinds, name, part))}>
+              {kinds.get(name)?.title ?? name}
             </Menu.Item>
-            <Menu.Item leftSection={<IconArrowDown size={14} />} disabled={index === count - 1} onClick={() => onMove(index + 1)}>
-              Move down
-            </Menu.Item>
-            <Menu.Item leftSection={<IconTrash size={14} />} onClick={onRemove}>
-              Remove
-            </Menu.Item>
-            {others.length > 0 && <Menu.Label>Replace by</Menu.Label>}
-            {others.map((name) => (
-              <Menu.Item key={name} onClick={() => onReplace(recast(kinds, name, part))}>
-                {kinds.get(name)?.title ?? name}
-              </Menu.Item>
-            ))}
+          ))}
         </DotsMenu>
       </div>
       {!folded && (

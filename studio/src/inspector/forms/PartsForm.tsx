@@ -21,7 +21,8 @@ export function PartsForm({ form, path, value }: FormProps) {
   const [folded, setFolded] = useState<number[]>([]);
   const parts = Array.isArray(value) ? (value as Values[]) : [];
   const commit = (next: unknown[]) => void setting.commit(next);
-  const fold = (i: number) => setFolded((old) => (old.includes(i) ? old.filter((k) => k !== i) : [...old, i]));
+  const fold = (i: number) =>
+    setFolded((old) => (old.includes(i) ? old.filter((k) => k !== i) : [...old, i]));
   return (
     <>
       <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
@@ -32,7 +33,10 @@ export function PartsForm({ form, path, value }: FormProps) {
           </Menu.Target>
           <Menu.Dropdown>
             {form.of.map((name) => (
-              <Menu.Item key={name} onClick={() => commit([...parts, kinds.get(name)?.example ?? { kind: name }])}>
+              <Menu.Item
+                key={name}
+                onClick={() => commit([...parts, kinds.get(name)?.example ?? { kind: name }])}
+              >
                 {kinds.get(name)?.title ?? name}
               </Menu.Item>
             ))}

@@ -15,7 +15,12 @@ export function PerAxisForm({ form, path, value }: FormProps) {
   const each = Array.isArray(value);
   const toggle = () => void setting.commit(each ? (value as unknown[])[0] : axes.map(() => value));
   const choice = (axes.length > 1 || each) && value !== null && (
-    <UnstyledButton className="each-axis" aria-label={`${path} for each axis`} aria-pressed={each} onClick={toggle}>
+    <UnstyledButton
+      className="each-axis"
+      aria-label={`${path} for each axis`}
+      aria-pressed={each}
+      onClick={toggle}
+    >
       each axis
     </UnstyledButton>
   );
@@ -30,10 +35,22 @@ export function PerAxisForm({ form, path, value }: FormProps) {
   }
   return (
     <>
-      <Row form={form} path={path} value={value} extra={choice} onReset={(standard) => void setting.commit(standard)} />
+      <Row
+        form={form}
+        path={path}
+        value={value}
+        extra={choice}
+        onReset={(standard) => void setting.commit(standard)}
+      />
       <div className="nested">
         {(value as number[]).map((one, i) => (
-          <NumberRow key={i} form={form} path={`${path}.${i}`} value={one} label={axes[i]?.name ?? String(i)} />
+          <NumberRow
+            key={i}
+            form={form}
+            path={`${path}.${i}`}
+            value={one}
+            label={axes[i]?.name ?? String(i)}
+          />
         ))}
       </div>
       <ProblemLine problem={setting.problem} />

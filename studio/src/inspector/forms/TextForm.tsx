@@ -14,9 +14,21 @@ export function TextForm({ form, path, value }: FormProps) {
   const text = typeof value === "string" ? value : null;
   const few = form.choices.length > 0;
   return (
-    <Row form={form} path={path} value={value} inline={few} onReset={(standard) => void setting.commit(standard)}>
+    <Row
+      form={form}
+      path={path}
+      value={value}
+      inline={few}
+      onReset={(standard) => void setting.commit(standard)}
+    >
       {few ? (
-        <ChoiceBox label={path} value={text} choices={form.choices} optional={form.optional} onCommit={(chosen) => void setting.commit(chosen)} />
+        <ChoiceBox
+          label={path}
+          value={text}
+          choices={form.choices}
+          optional={form.optional}
+          onCommit={(chosen) => void setting.commit(chosen)}
+        />
       ) : (
         <TextBox
           label={path}

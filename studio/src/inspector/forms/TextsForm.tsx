@@ -22,15 +22,35 @@ export function TextsForm({ form, path, value }: FormProps) {
   const put = (i: number, text: string) => commit(texts.map((old, k) => (k === i ? text : old)));
   const add = () => void commit([...texts, form.choices[0] ?? fresh(texts)]);
   return (
-    <Row form={form} path={path} value={value} inline={texts.length === 0} onReset={(standard) => void setting.commit(standard)}>
+    <Row
+      form={form}
+      path={path}
+      value={value}
+      inline={texts.length === 0}
+      onReset={(standard) => void setting.commit(standard)}
+    >
       {texts.map((text, i) => (
         <div className="list-line" key={i}>
           {few ? (
-            <ChoiceBox label={`${path} ${i + 1}`} value={text} choices={form.choices} onCommit={(chosen) => void put(i, chosen ?? text)} />
+            <ChoiceBox
+              label={`${path} ${i + 1}`}
+              value={text}
+              choices={form.choices}
+              onCommit={(chosen) => void put(i, chosen ?? text)}
+            />
           ) : (
-            <TextBox label={`${path} ${i + 1}`} value={text} onCommit={(typed) => put(i, typed)} onForget={setting.forget} />
+            <TextBox
+              label={`${path} ${i + 1}`}
+              value={text}
+              onCommit={(typed) => put(i, typed)}
+              onForget={setting.forget}
+            />
           )}
-          <ActionIcon size={20} aria-label={`Remove ${text} from ${path}`} onClick={() => void commit(without(texts, i))}>
+          <ActionIcon
+            size={20}
+            aria-label={`Remove ${text} from ${path}`}
+            onClick={() => void commit(without(texts, i))}
+          >
             <IconX size={13} />
           </ActionIcon>
         </div>

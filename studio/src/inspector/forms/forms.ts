@@ -1,4 +1,5 @@
-// Which form shows which value. A form that is new in the protocol is missing here until it has a component: the compiler says so.
+// Which form shows which value. A form that is new in the protocol is missing here until it has a component:
+// the compiler says so.
 
 import type { ComponentType } from "react";
 
