@@ -51,6 +51,7 @@ class Grid:
         """A number for each cell, the same for all that can be reached from each other; 0 where it is not
         free.
         """
+        # start-up time: scipy.ndimage is only needed here
         from scipy.ndimage import label
 
         found: Any = label(self.free, np.ones((3, 3)))

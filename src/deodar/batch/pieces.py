@@ -132,6 +132,7 @@ def joined(pieces: Pieces, parts: Sequence[Part | None], settings: Mapping[str, 
         parts: for each piece its record; None where it was not begun. If all are None the record is empty.
         settings: what the record says of the whole run.
     """
+    # start-up time: these bring xarray
     import xarray
 
     from deodar.recording import diverged

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+import time
 from collections.abc import Callable, Generator
 
 SHOW_AFTER = 1.0
@@ -47,12 +48,12 @@ def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
     if progress is False or (progress is None and not sys.stderr.isatty()):
         yield lambda done: None
         return
-    import time
 
     if not sys.stderr.isatty():
         yield lines(steps, time.monotonic)
         return
 
+    # start-up time: only a terminal needs rich
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 

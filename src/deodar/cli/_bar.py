@@ -13,6 +13,7 @@ class Bar:
     """A progress bar on stderr; `what` are the rows that are counted."""
 
     def __init__(self, hidden: bool, what: str) -> None:
+        # start-up time: only a terminal needs rich
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn
 

@@ -68,6 +68,7 @@ def run(args: argparse.Namespace) -> int:
     answer: dict[str, object] = {}
     stopped = ""
     if args.live:
+        # start-up time: these bring JAX
         from deodar.session.pace import Pace
         from deodar.session.run_live import run_live
 
@@ -95,6 +96,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _session(args: argparse.Namespace) -> Session:
+    # start-up time: these bring JAX
     from deodar.model.model import load
     from deodar.session.session import Session
 

@@ -37,6 +37,7 @@ def confirm(
     Raises:
         TimeError: the answer is no, or nobody can be asked.
     """
+    # start-up time: these bring JAX
     from deodar.batch.simulate import LONG_STEPS
 
     if steps < LONG_STEPS:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from deodar.errors import UnknownName
+from deodar.importers import examples
 
 if TYPE_CHECKING:
     from deodar.worlds._base import World
@@ -48,6 +52,7 @@ def use_cores(cores: int | None, wanted: int = 1) -> None:
     """As many as `--cores` says; without it as many as wanted, unless the environment (NPROC) says otherwise
     or JAX has started.
     """
+    # start-up time: these bring JAX
     from deodar.batch import cores as setting
 
     if cores is not None:
@@ -87,9 +92,6 @@ def wrong(parser: argparse.ArgumentParser) -> None:
 
 def document(text: str) -> Path:
     """Return the path of a document, or that of the example which `example:NAME` names."""
-    from deodar.errors import UnknownName
-    from deodar.importers import examples
-
     try:
         return examples.named(text)
     except UnknownName as error:
@@ -142,6 +144,7 @@ def values(text: str) -> tuple[str, list[float]]:
 
 def world(text: str | None) -> World | None:
     """The world that `--world KIND:ARGUMENT` names, opened."""
+    # start-up time: these bring JAX
     from deodar.recording.opened import named
 
     return None if text is None else named(text, f"--world {text}")
@@ -151,8 +154,6 @@ def shown(path: Path) -> str:
     """A path as one types it: relative where it lies below the working folder, quoted where a shell would
     take it apart.
     """
-    import shlex
-
     try:
         text = str(path.resolve().relative_to(Path.cwd()))
     except (OSError, ValueError):

@@ -4,13 +4,17 @@ it.
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from deodar.errors import DeodarError, OutputError, Problem
+import platformdirs
+
+from deodar.errors import DeodarError, OutputError, OutputExists, Problem
+from deodar.recording import places
 
 Done = TypeVar("Done")
 
@@ -30,8 +34,6 @@ def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Pa
     Raises:
         OutputError: no folder takes it; every folder that was tried is named.
     """
-    from deodar.recording import places
-
     tried = [error]
     for folder in _folders(tried, first, ask and sys.stdin.isatty() and sys.stderr.isatty()):
         try:
@@ -56,8 +58,6 @@ def elsewhere(error: DeodarError, out: Path, fill: Callable[[Path], None], ask: 
     Raises:
         OutputError: no folder takes it.
     """
-    from deodar.errors import OutputExists
-    from deodar.recording import places
 
     def write(parent: Path) -> Path:
         second = places.free(parent, out.name)
@@ -88,10 +88,6 @@ def _own() -> Iterator[Path]:
     """The folders of the user and of the system; one that cannot be made is passed over by whoever writes
     into it.
     """
-    import contextlib
-
-    import platformdirs
-
     data = platformdirs.user_data_path("deodar", appauthor=False) / "results"
     with contextlib.suppress(OSError):
         data.mkdir(parents=True, exist_ok=True)

@@ -54,6 +54,7 @@ def _python(root: str) -> tuple[dict[str, Component], dict[str, set[str]]]:
     """The closure of what a distribution requires, as far as it is installed, by name, and who requires whom
     by reference.
     """
+    # start-up time
     from packaging.requirements import Requirement
     from packaging.utils import canonicalize_name
 

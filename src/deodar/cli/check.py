@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
+from deodar.errors import DocumentError
 
 if TYPE_CHECKING:
     from deodar.errors import Problem
@@ -27,7 +28,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if there is any problem; if `--strict`, for warnings too."""
-    from deodar.errors import DocumentError
+    # start-up time: these bring JAX
     from deodar.importers.opening import load
 
     try:

@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 from deodar.cli import _options
+from deodar.recording import places
 
 HELP = "draw the architecture in a file as SVG, PDF or PNG"
 
@@ -37,9 +38,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Draw, write and say where."""
+    # start-up time: these bring JAX
     from deodar.importers.opening import load
     from deodar.model.draw import draw
-    from deodar.recording import places
 
     made = draw(load(args.file), legend=not args.no_legend, depth=args.depth)
     out: Path = args.out or places.free(Path(), f"{args.file.stem}-architecture", ".svg")

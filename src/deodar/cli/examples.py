@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 
 from deodar.cli import _options
+from deodar.importers import examples
+from deodar.model import output
 
 HELP = "list the examples that come with deodar, copy one, or open one in the studio"
 EPILOG = """\
@@ -51,7 +53,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _list(args: argparse.Namespace) -> int:
-    from deodar.importers import examples
 
     if args.json:
         listed = [
@@ -67,6 +68,7 @@ def _list(args: argparse.Namespace) -> int:
         ]
         print(json.dumps({"examples": listed}, indent=2, ensure_ascii=False))
         return 0
+    # start-up time: only a terminal needs rich
     from rich import box
     from rich.console import Console
     from rich.markup import escape
@@ -88,8 +90,6 @@ def _list(args: argparse.Namespace) -> int:
 
 
 def _copy(args: argparse.Namespace) -> int:
-    from deodar.importers import examples
-    from deodar.model import output
 
     sources = examples.parts(args.name)
     folder: Path = args.folder or Path()
@@ -112,8 +112,8 @@ def _copy(args: argparse.Namespace) -> int:
 
 
 def _open(args: argparse.Namespace) -> int:
+    # start-up time: these bring JAX
     from deodar.cli import main
-    from deodar.importers import examples
 
     examples.named(f"{examples.PREFIX}{args.name}")
     return main(["studio", f"{examples.PREFIX}{args.name}"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses as dc
 import json
 import sys
 from collections.abc import Iterator
@@ -11,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from deodar.cli import _long, _options
 from deodar.cli._bar import Bar
+from deodar.errors import OutputError
+from deodar.recording import places
 
 if TYPE_CHECKING:
     import xarray
@@ -66,13 +69,10 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if the trials were stopped, or if all diverged."""
-    import dataclasses as dc
-
-    from deodar.errors import OutputError
+    # start-up time: these bring JAX
     from deodar.experiments.experiment import Experiment
     from deodar.experiments.results import ROWS, carry
     from deodar.importers.opening import load
-    from deodar.recording import places
 
     _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
     found = Experiment.load(args.file, load)
@@ -112,6 +112,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _confirm(args: argparse.Namespace, bench: Any, out: Path) -> None:
     """Ask before very many steps; trials whose rows are in the folder are not counted."""
+    # start-up time: these bring JAX
     from deodar.batch.simulate import LONG_STEPS
     from deodar.experiments.results import ROWS, load_results
 
@@ -173,6 +174,7 @@ def _diverged(data: xarray.Dataset) -> int:
 
 def _cells(data: xarray.Dataset) -> Iterator[str]:
     """For each combination of levels its outcomes, and the median of how long a trial took."""
+    # start-up time
     import numpy as np
 
     factors = [str(name) for name in data.coords if name != "trial"]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
+from deodar.model import output
 
 if TYPE_CHECKING:
     from deodar.importers.report import Report
@@ -44,8 +45,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if `--strict` and something was lost, or if the file cannot be read."""
+    # start-up time: these bring JAX
     from deodar.importers.opening import read
-    from deodar.model import output
     from deodar.model.model import save
 
     if args.out is not None:
@@ -79,6 +80,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _show(report: Report) -> None:
+    # start-up time: only a terminal needs rich
     from rich import box
     from rich.console import Console
     from rich.markup import escape

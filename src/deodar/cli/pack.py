@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 
 from deodar.cli import _options
+from deodar.errors import DocumentError
+from deodar.model.output import claim
 
 HELP = "make one file of a document and its arrays, or take such a file apart"
 EPILOG = """\
@@ -37,10 +39,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the package, or the files in it."""
-    from deodar.errors import DocumentError
+    # start-up time: these bring JAX
     from deodar.importers.opening import load
     from deodar.model import model, package
-    from deodar.model.output import claim
 
     loaded = load(args.file)
     if args.unpack:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
+from deodar.model import output
 
 if TYPE_CHECKING:
     from deodar.analysis.peaks import Peak
@@ -59,16 +60,17 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """The table, and the figure."""
+    # start-up time: these bring JAX
     from deodar.importers.opening import load
 
     _options.use_cores(args.cores)
     model = load(args.file)
     target = _target(args)
+    # start-up time: these bring JAX
     from rich.console import Console
 
     from deodar.analysis import figures
     from deodar.analysis.regimes import regimes
-    from deodar.model import output
 
     figures.require_format(target)
     output.claim(target, args.force)

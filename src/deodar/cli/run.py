@@ -6,11 +6,14 @@ import argparse
 import contextlib
 import json
 import sys
+import warnings
 from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar.cli import _live, _long, _options, _rescue
+from deodar.errors import Interrupted, OutputError, OutputExists, RecordError, RunWarning
+from deodar.importers import examples
 
 if TYPE_CHECKING:
     import xarray
@@ -108,7 +111,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if the run was stopped, or if a repetition differs without a reason."""
-    from deodar.importers import examples
+    # start-up time: these bring JAX
     from deodar.importers.opening import require
 
     if args.file.suffix.lower() not in (".zarr", ".nc"):
@@ -124,6 +127,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _is_record(path: Path) -> bool:
+    # start-up time: these bring JAX
     from deodar.recording import files
 
     if path.suffix.lower() == ".json" and not path.is_dir():
@@ -137,8 +141,8 @@ def _is_record(path: Path) -> bool:
 
 
 def _simulate(args: argparse.Namespace) -> int:
+    # start-up time: these bring JAX
     from deodar.batch.simulate import simulate
-    from deodar.errors import Interrupted
     from deodar.importers.opening import load
 
     if args.duration is None and args.file.is_file():
@@ -184,6 +188,7 @@ def _confirm(
     args: argparse.Namespace, duration: float | None, dt: float, run: Callable[[float], object]
 ) -> None:
     """Ask before a very long run; `run` runs a document time of it."""
+    # start-up time: these bring JAX
     from deodar.batch.simulate import expected_steps
 
     steps = expected_steps(duration or 0.0, dt)
@@ -209,8 +214,8 @@ def _show_warnings(model: Model, file: Path) -> None:
 
 
 def _repeat(args: argparse.Namespace) -> int:
+    # start-up time: these bring JAX
     from deodar.batch.simulate import simulate
-    from deodar.errors import Interrupted
     from deodar.recording import files, provenance
     from deodar.recording.record import about
     from deodar.recording.repeat import compare, repeat
@@ -249,10 +254,6 @@ def _repeat(args: argparse.Namespace) -> int:
 @contextlib.contextmanager
 def _said_here() -> Generator[None]:
     """The command line says by itself what `simulate` warns about."""
-    import warnings
-
-    from deodar.errors import RunWarning
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)
         yield
@@ -262,6 +263,7 @@ class _Place:
     """Where the run is written: claimed before it begins, named when it is done."""
 
     def __init__(self, args: argparse.Namespace, name: str) -> None:
+        # start-up time: these bring JAX
         from deodar.recording import folder, places
 
         self.given: Path | None = args.out
@@ -274,7 +276,7 @@ class _Place:
         """Write it, to a second place where this one fails; the folder, the record in it, and why it is not
         where it was asked for.
         """
-        from deodar.errors import OutputError, OutputExists, RecordError
+        # start-up time: these bring JAX
         from deodar.recording import folder, places
 
         out = self.given or places.free(Path(), self.name)
@@ -290,6 +292,7 @@ class _Place:
             return *second, str(error)
 
     def _elsewhere(self, data: xarray.Dataset, doc: Document, parent: Path, format: str) -> tuple[Path, Path]:
+        # start-up time: these bring JAX
         from deodar.recording import folder, places
 
         out = places.free(parent, self.given.name if self.given is not None else self.name)
@@ -304,6 +307,7 @@ def _finish(
     stopped: str,
     done: Repetition | None,
 ) -> int:
+    # start-up time: these bring JAX
     from deodar.recording.files import SUFFIXES
 
     if stopped and not data.sizes.get("time", 0):

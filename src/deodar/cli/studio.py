@@ -46,6 +46,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Until Ctrl-C."""
+    # start-up time: these bring JAX
     from deodar.importers import examples, opening
 
     if args.port is not None and args.port > 65535:
@@ -57,6 +58,7 @@ def run(args: argparse.Namespace) -> int:
         args.wrong(f"there is no folder {root}")
     if file is not None:
         opening.require(file)
+    # start-up time: these bring JAX
     from deodar.server.serve import serve
 
     _options.use_cores(args.cores)

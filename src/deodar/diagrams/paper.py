@@ -20,6 +20,7 @@ INCH = 72.0
 
 def figure(scene: Scene, width: float | None = None) -> Figure:
     """A figure of the scene; `width` in inches, none: its own size."""
+    # start-up time: matplotlib is needed for figures only
     from matplotlib.figure import Figure
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
@@ -68,6 +69,7 @@ def figure(scene: Scene, width: float | None = None) -> Figure:
 
 def content(scene: Scene, format: str, width: float | None = None) -> bytes:
     """The picture as pdf or png; the same picture gives the same bytes."""
+    # start-up time: matplotlib is needed for figures only
     import matplotlib
 
     about: Any = {"CreationDate": None} if format == "pdf" else {}

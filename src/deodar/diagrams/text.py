@@ -18,6 +18,7 @@ CUT = "…"
 
 @functools.cache
 def _font(bold: bool):
+    # start-up time: matplotlib is needed for figures only
     from matplotlib import font_manager, ft2font
 
     found = font_manager.findfont(

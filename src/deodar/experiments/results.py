@@ -162,6 +162,7 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
     have a dimension of their own. Where trials diverged, the variable `diverged` gives the reason of each
     (empty: it did not), and the attribute of this name counts them.
     """
+    # start-up time
     import xarray
 
     rows = sorted(rows, key=lambda row: row["trial"])

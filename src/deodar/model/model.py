@@ -299,6 +299,7 @@ class Model:
         return f"<Model {d.name!r}: {len(d.entries)} elements, {len(d.connections)} connections>"
 
     def _repr_html_(self) -> str:
+        # start-up time: these bring JAX
         from deodar.model.diagram import Diagram
 
         by = self.document.by_id()

@@ -13,6 +13,7 @@ import secrets
 from pathlib import Path
 from typing import Any, cast
 
+import platformdirs
 import psutil
 
 from deodar.errors import DeodarError, UnknownName
@@ -29,7 +30,6 @@ def state_folder() -> Path:
     given = os.environ.get("DEODAR_STATE")
     if given:
         return Path(given)
-    import platformdirs
 
     return Path(platformdirs.user_state_dir("deodar")) / "studio"
 

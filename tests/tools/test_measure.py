@@ -1,0 +1,99 @@
+"""The numbers that the code base is held to are counted: each count sees what it is there for."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tests.house.source import ROOT
+
+
+@pytest.fixture(scope="module")
+def measure() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("measure", ROOT / "tools" / "measure.py")
+    assert spec is not None and spec.loader is not None
+    module = sys.modules["measure"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def package(folder: Path, **files: str) -> Path:
+    root = folder / "toy"
+    root.mkdir()
+    for name, text in files.items():
+        (root / f"{name}.py").write_text(text)
+    return root
+
+
+def test_a_name_of_two_classes_or_aliases_is_seen_with_its_places(
+    measure: ModuleType, tmp_path: Path
+) -> None:
+    root = package(
+        tmp_path,
+        a="class Box: ...\nTree = dict[str, int]\nLIMIT = 3",
+        b="class Box: ...\nTree = list[int]\nLIMIT = 4",
+        c="class Other: ...",
+    )
+    assert measure.doubled(measure.trees(root)) == ["Box: a.py, b.py", "Tree: a.py, b.py"]
+
+
+def test_any_is_counted_through_aliases_and_not_in_metadata(measure: ModuleType, tmp_path: Path) -> None:
+    root = package(
+        tmp_path,
+        a="Tree = dict[str, Any]\nForest = list[Tree]",
+        b="def f(a: Forest, b: 'object', c: Annotated[int, Any], d: str) -> int: ...\nx: Tree = {}",
+    )
+    held, total, by = measure.loose(measure.trees(root))
+    assert (held, total, by["b.py"]) == (3, 6, 3)
+
+
+def test_parameters_of_every_kind_count_and_self_does_not(measure: ModuleType, tmp_path: Path) -> None:
+    root = package(
+        tmp_path,
+        a="class A:\n"
+        "    def f(self, a, b, c, /, d, e, *f, g): ...\n"
+        "    def g(self, a, b, c, d, e, f, *g, h, **i): ...\n",
+    )
+    assert measure.crowded(measure.trees(root)) == ["a.py:3 g (9)"]
+
+
+def test_a_cycle_through_a_function_is_seen(measure: ModuleType, tmp_path: Path) -> None:
+    root = package(tmp_path, a="def f():\n    from toy import b", b="from toy.c import x", c="import toy.a")
+    assert set(measure.cycle(root, measure.trees(root))) == {"toy.a", "toy.b", "toy.c"}
+    (root / "c.py").write_text("x = 1")
+    assert measure.cycle(root, measure.trees(root)) == []
+
+
+def test_an_import_in_a_function_needs_a_reason(measure: ModuleType, tmp_path: Path) -> None:
+    root = package(
+        tmp_path,
+        a="def f():\n    # an extra\n    import cv2\n    import zmq\n"
+        "def g():\n    import json\n    import re  # why\n",
+    )
+    assert measure.inner_imports(root, measure.trees(root)) == ["a.py:6"]
+
+
+def test_the_words_of_the_optimiser_are_found_in_physics(measure: ModuleType, tmp_path: Path) -> None:
+    root = package(tmp_path, a="rest = 1\nREST = 2\nx = 'waves'\n# sharing\n")
+    assert measure.worded(tmp_path, ["toy"]) == ["toy/a.py:2", "toy/a.py:3", "toy/a.py:4"]
+    assert root.is_dir()
+
+
+def test_the_command_prints_every_limit_and_says_which_is_broken(
+    measure: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    figures = [
+        measure.Figure("good", 1, 2),
+        measure.Figure("bad", 3.5, 2, ["here"], "s"),
+        measure.Figure("free", 9),
+    ]
+    monkeypatch.setattr(measure, "counted", lambda: iter(figures))
+    assert measure.main([]) == 1
+    good, bad, place, free = capsys.readouterr().out.splitlines()
+    assert good.split() == ["good", "1", "at", "most", "2"] and free.split() == ["free", "9"]
+    assert bad.split() == ["bad", "3.5", "s", "at", "most", "2", "s", "BROKEN"] and place.strip() == "here"
+    assert measure.Figure("even", 2, 2).holds

@@ -1,0 +1,360 @@
+"""Print the numbers that the code base is held to, each with its limit.
+
+    python tools/measure.py             what can be counted, in seconds; status 1 if a limit is broken
+    python tools/measure.py --stored    also compare trajectories with the stored ones (minutes)
+    python tools/measure.py --tests     also time `pytest -m fast` and the whole suite (many minutes)
+
+What is counted is the package in `src`, unless the line says otherwise.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import dataclasses as dc
+import json
+import re
+import subprocess
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+SRC = ROOT / "src" / "deodar"
+
+WIDTH = 110
+PARAMETERS = 8
+LOOSE = {"Any", "object"}
+OPTIMISER = re.compile(r"\b(waves?|sharing|REST|WAVES)\b")
+DEEP = re.compile(
+    r"^\s*(?:>>> |\.\.\. )?((?:from deodar\b[\w.]* import|import deodar\.)[^\n#]*)", re.MULTILINE
+)
+
+
+@dc.dataclass(frozen=True)
+class Figure:
+    """One number: what it counts, its value, the most it may be (None: no limit), and where it comes from."""
+
+    what: str
+    value: float
+    most: float | None = None
+    where: Sequence[str] = ()
+    unit: str = ""
+
+    @property
+    def holds(self) -> bool:
+        return self.most is None or self.value <= self.most
+
+
+Trees = Mapping[str, ast.Module]
+"""Syntax trees by the path of their file, below the package."""
+
+
+def trees(root: Path) -> Trees:
+    """The modules below a folder."""
+    return {
+        str(p.relative_to(root)): ast.parse(p.read_text(encoding="utf-8")) for p in sorted(root.rglob("*.py"))
+    }
+
+
+# ------------------------------------------------------------------------------------------------------ names
+
+
+def doubled(modules: Trees) -> list[str]:
+    """Names of classes and aliases that more than one module defines at its top level."""
+    where: dict[str, list[str]] = defaultdict(list)
+    for path, module in modules.items():
+        for name in {*_classes(module), *_aliases(module)}:
+            where[name].append(path)
+    return [f"{name}: {', '.join(paths)}" for name, paths in sorted(where.items()) if len(paths) > 1]
+
+
+def _classes(module: ast.Module) -> list[str]:
+    return [node.name for node in module.body if isinstance(node, ast.ClassDef)]
+
+
+def _aliases(module: ast.Module) -> dict[str, ast.expr]:
+    """Names in capitals and small letters that a module assigns at its top level: aliases of types."""
+    found: dict[str, ast.expr] = {}
+    for node in module.body:
+        if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+            found[node.targets[0].id] = node.value
+    return {
+        name: value for name, value in found.items() if re.match(r"_?[A-Z]\w*[a-z]", name) and _is_type(value)
+    }
+
+
+def _is_type(value: ast.expr) -> bool:
+    return isinstance(value, ast.Name | ast.Attribute | ast.Subscript | ast.BinOp)
+
+
+# ------------------------------------------------------------------------------------------------ annotations
+
+
+def loose(modules: Trees) -> tuple[int, int, dict[str, int]]:
+    """How many annotations hold Any, object or an alias of them; how many there are; how many by module."""
+    aliases = {name: value for module in modules.values() for name, value in _aliases(module).items()}
+    words = set(LOOSE)
+    while more := {name for name, value in aliases.items() if name not in words and _words(value) & words}:
+        words |= more
+    total, by = 0, defaultdict[str, int](int)
+    for path, module in modules.items():
+        for annotation in _annotations(module):
+            total += 1
+            by[path] += bool(_words(annotation) & words)
+    return sum(by.values()), total, dict(by)
+
+
+def _annotations(module: ast.Module) -> Iterator[ast.expr]:
+    for node in ast.walk(module):
+        if isinstance(node, ast.AnnAssign | ast.arg) and node.annotation is not None:
+            yield node.annotation
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.returns is not None:
+            yield node.returns
+
+
+def _words(node: ast.expr) -> set[str]:
+    """Names in an annotation; `Annotated` counts by its first argument."""
+    if isinstance(node, ast.Subscript) and ast.unparse(node.value).endswith("Annotated"):
+        first = node.slice.elts[0] if isinstance(node.slice, ast.Tuple) else node.slice
+        return _words(first)
+    found: set[str] = set()
+    for part in ast.walk(node):
+        if isinstance(part, ast.Name):
+            found.add(part.id)
+        elif isinstance(part, ast.Attribute):
+            found.add(part.attr)
+        elif isinstance(part, ast.Constant) and isinstance(part.value, str):
+            found |= set(re.findall(r"\w+", part.value))
+    return found
+
+
+# -------------------------------------------------------------------------------------------------- functions
+
+
+def crowded(modules: Trees) -> list[str]:
+    """Functions with many parameters of any kind; `self` and `cls` do not count."""
+    found: list[str] = []
+    for path, module in modules.items():
+        for node in ast.walk(module):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                a = node.args
+                names = [x.arg for x in (*a.posonlyargs, *a.args, *a.kwonlyargs, a.vararg, a.kwarg) if x]
+                n = len([name for name in names if name not in ("self", "cls")])
+                if n >= PARAMETERS:
+                    found.append(f"{path}:{node.lineno} {node.name} ({n})")
+    return found
+
+
+def inner_imports(root: Path, modules: Trees) -> list[str]:
+    """Imports in functions without a comment that says why: on the line, or above it or its neighbours."""
+    found: list[str] = []
+    for path, module in modules.items():
+        lines = (root / path).read_text(encoding="utf-8").splitlines()
+        for function in ast.walk(module):
+            if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+                continue
+            for node in ast.walk(function):
+                if isinstance(node, ast.Import | ast.ImportFrom) and not _explained(lines, node.lineno - 1):
+                    found.append(f"{path}:{node.lineno}")
+    return sorted(set(found))
+
+
+def _explained(lines: Sequence[str], at: int) -> bool:
+    if "#" in lines[at]:
+        return True
+    while at > 0 and re.match(r"\s*(from|import) ", lines[at]):
+        at -= 1
+        if "#" in lines[at]:
+            return True
+    return False
+
+
+# ---------------------------------------------------------------------------------------------------- imports
+
+
+def cycle(root: Path, modules: Trees) -> list[str]:
+    """The first cycle of imports, at the top, in functions or for types; empty without one."""
+    package = root.name
+    names = {_module(path, package) for path in modules}
+    graph: dict[str, set[str]] = {}
+    for path, module in modules.items():
+        here = _module(path, package)
+        graph[here] = {name for name in _imported(module, names) if name != here}
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        return [str(name) for name in error.args[1]]
+    return []
+
+
+def _module(path: str, package: str) -> str:
+    parts = [package, *Path(path).with_suffix("").parts]
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def _imported(module: ast.Module, names: set[str]) -> Iterator[str]:
+    for node in ast.walk(module):
+        if isinstance(node, ast.Import):
+            wanted = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            wanted = [f"{node.module}.{alias.name}" for alias in node.names]
+        else:
+            continue
+        for name in wanted:
+            while name and name not in names:  # what is imported from a module is no module
+                name = name.rpartition(".")[0]
+            if name:
+                yield name
+
+
+def deep(paths: Iterable[Path]) -> list[str]:
+    """Distinct lines that import from deodar otherwise than by `import deodar as dd`."""
+    return sorted({line.strip() for path in paths for line in DEEP.findall(path.read_text(encoding="utf-8"))})
+
+
+# ------------------------------------------------------------------------------------------------------ lines
+
+
+def long_lines(paths: Iterable[Path]) -> list[str]:
+    """Lines above the width, except those with a comment for the type checker."""
+    return [
+        f"{path}:{n}"
+        for path in paths
+        for n, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if len(line) > WIDTH and not re.search(r"# (type|pyright): ", line)
+    ]
+
+
+def worded(root: Path, folders: Sequence[str]) -> list[str]:
+    """Lines of the physics that speak of how a program is made faster."""
+    return [
+        f"{path.relative_to(root)}:{n}"
+        for folder in folders
+        for path in sorted((root / folder).glob("*.py"))
+        for n, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if OPTIMISER.search(line)
+    ]
+
+
+def _tracked(*patterns: str) -> list[Path]:
+    told = subprocess.run(
+        ["git", "ls-files", "-z", *patterns], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    return [ROOT / name for name in told.stdout.split("\0") if name and (ROOT / name).exists()]
+
+
+# -------------------------------------------------------------------------------------------------- processes
+
+
+def _import_time() -> tuple[float, bool]:
+    """The shortest of five imports, in seconds of CPU time, and whether it brought JAX."""
+    code = (
+        "import time; a = time.process_time(); import deodar; b = time.process_time(); import sys; "
+        "print(b - a, 'jax' in sys.modules)"
+    )
+    told = [
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+        for _ in range(5)
+    ]
+    return min(float(t.stdout.split()[0]) for t in told), "True" in told[0].stdout
+
+
+def _complex() -> list[str]:
+    told = subprocess.run(
+        [sys.executable, "-m", "ruff", "check", "--select", "C901", "--output-format", "json", str(SRC)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return [f"{Path(x['filename']).relative_to(SRC)}:{x['location']['row']}" for x in json.loads(told.stdout)]
+
+
+def _timed(*command: str) -> tuple[float, int]:
+    """Wall seconds of a command, and its status."""
+    began = time.perf_counter()
+    status = subprocess.run([sys.executable, *command], cwd=ROOT, check=False).returncode
+    return time.perf_counter() - began, status
+
+
+# ---------------------------------------------------------------------------------------------------- figures
+
+
+def counted() -> Iterator[Figure]:
+    """What is read off the files."""
+    modules = trees(SRC)
+    scripts = [
+        ROOT / "README.md",
+        *_tracked("docs/*.md", "docs/*.ipynb", "docs/*.py", "examples/*.py", "examples/*.md"),
+    ]
+    names = re.findall(r" as (\w+)$", (SRC / "__init__.pyi").read_text(encoding="utf-8"), re.MULTILINE)
+    yield Figure("public names", len(names))
+    seconds, brings = _import_time()
+    yield Figure("import deodar, CPU time", seconds, 0.05, unit="s")
+    yield Figure("import deodar brings JAX", int(brings), 0)
+    lines = deep(scripts)
+    yield Figure("deep import lines in README, docs, examples", len(lines), 5, lines)
+    found = doubled(modules)
+    yield Figure("class or alias names that occur twice", len(found), 0, found)
+    ring = cycle(SRC, modules)
+    yield Figure("modules in the first cycle of imports", len(ring), 0, ring)
+    found = _complex()
+    yield Figure("functions of a complexity above 15", len(found), 0, found)
+    found = [str(Path(x).relative_to(ROOT)) for x in long_lines(_tracked("*.py", "*.pyi"))]
+    yield Figure(f"lines of Python above {WIDTH} columns, all folders", len(found), 0, found)
+    found = crowded(modules)
+    yield Figure(f"functions of {PARAMETERS} and more parameters", len(found), 5, found)
+    held, total, by = loose(modules)
+    worst = [f"{path}: {n}" for path, n in sorted(by.items(), key=lambda item: -item[1])[:25] if n]
+    yield Figure(f"annotations with Any, object or an alias, of {total}", 100 * held / total, 8, worst, "%")
+    found = inner_imports(SRC, modules)
+    yield Figure("imports in functions without a reason", len(found), 0, found)
+    found = worded(SRC, ("elements", "couplings"))
+    yield Figure("lines of elements and couplings on the optimiser", len(found), 0, found)
+
+
+def stored() -> Iterator[Figure]:
+    """Trajectories against those stored before the renovation."""
+    _, status = _timed("benchmarks/trajectories.py", "compare")
+    yield Figure("status of the comparison with stored trajectories", status, 0)
+
+
+def tests() -> Iterator[Figure]:
+    """Wall time of the tests; the limits are for two idle cores."""
+    for what, most, more in (("pytest -m fast", 60, ("-m", "fast")), ("the whole suite", 720, ())):
+        seconds, status = _timed("-m", "pytest", "-q", "-n", "2", "--dist", "loadfile", *more)
+        yield Figure(f"{what}, wall time", seconds, most, unit="s")
+        yield Figure(f"{what}, status", status, 0)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--stored", action="store_true", help="compare trajectories with the stored ones")
+    parser.add_argument("--tests", action="store_true", help="time the tests")
+    parser.add_argument("--where", action="store_true", help="list the places behind each number")
+    args = parser.parse_args(argv)
+    broken = 0
+    parts = [counted, *([stored] if args.stored else []), *([tests] if args.tests else [])]
+    for part in parts:
+        for figure in part():
+            number = f"{figure.value:.3g}" if figure.value != int(figure.value) else f"{int(figure.value)}"
+            limit = (
+                ""
+                if figure.most is None
+                else f"at most {figure.most:g}{' ' * bool(figure.unit)}{figure.unit}"
+            )
+            verdict = "" if figure.holds else "BROKEN"
+            print(f"{figure.what:58}{number:>8} {figure.unit:3}{limit:18}{verdict}".rstrip())
+            for line in figure.where if args.where or (not figure.holds and len(figure.where) <= 5) else ():
+                print(f"    {line}")
+            broken += not figure.holds
+    return int(broken > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
