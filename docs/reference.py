@@ -20,13 +20,13 @@ from pathlib import Path
 from typing import Any
 
 import deodar as dd
-from deodar import cli, part_type, registry
-from deodar.parameters import Needed, Parameter, Part, parameters
-from deodar.server.docstring import docstring
+from deodar import cli, docstring, kinds, registry
+from deodar.parameters import Needed
 
 DOCS = Path(__file__).parent
 MADE = "<!-- Made by docs/reference.py from the code: change the docstrings, not this page. -->\n"
-HEAD = re.compile(r"^([A-Z][A-Za-z ]*):\s*$")
+WORDS = ("required", "none", "never")
+"""Defaults that are words, not code."""
 
 ROOMS = {
     "elements": (
@@ -206,36 +206,6 @@ def write() -> None:
 # ------------------------------------------------------------------------------------------------- docstrings
 
 
-def sections(text: str) -> tuple[str, dict[str, str]]:
-    """A docstring's opening, and its sections by name."""
-    opening: list[str] = []
-    found: dict[str, list[str]] = {}
-    into = opening
-    for line in text.splitlines():
-        head = HEAD.match(line)
-        if head:
-            into = found.setdefault(head[1], [])
-        else:
-            into.append(line)
-    return "\n".join(opening).strip(), {
-        name: inspect.cleandoc("\n".join(lines)) for name, lines in found.items()
-    }
-
-
-def entries(text: str) -> dict[str, str]:
-    """`name: what it is`, with the lines that go on below it."""
-    out: dict[str, str] = {}
-    name = ""
-    for line in text.splitlines():
-        found = re.match(r"^([\w.*]+(?:, [\w.*]+)*): (.*)$", line)
-        if found:
-            name = found[1]
-            out[name] = found[2]
-        elif name:
-            out[name] += " " + line.strip()
-    return out
-
-
 def cell(text: Any) -> str:
     """Text that may stand in a table."""
     return str(text).replace("|", "\\|").replace("\n", " ").strip()
@@ -258,89 +228,43 @@ def prose(text: str) -> str:
 def room_page(room: str) -> str:
     """All kinds of one room."""
     title, about = ROOMS[room]
-    kinds = list(registry.kinds(room).values())
+    listed = list(registry.kinds(room).values())
     if room == "elements":
-        kinds.append(registry.kind("Window"))
+        listed.append(registry.kind("Window"))
     parts = [MADE, f"# {title}\n", f"{about}\n"]
-    return "\n".join([*parts, *(kind_section(cls) for cls in kinds)])
+    return "\n".join([*parts, *(kind_section(kinds.describe(cls)) for cls in listed)])
 
 
-def kind_section(cls: type) -> str:
+def kind_section(kind: kinds.Description) -> str:
     """Heading, equation, parameters, ports, source."""
-    opening, found = sections(part_type.source_doc(cls))
-    out = [f"## {cls.__name__}\n", f"`dd.{cls.__name__}`\n", prose(opening) + "\n"]
-    if "Equation" in found:
-        out += [f"```math\n{line}\n```\n" for line in docstring(cls).equation]
-    described = entries(found.get("Parameters", ""))
-    if issubclass(cls, Part):
+    out = [f"## {kind.name}\n", f"`{kind.public_name}`\n", prose(kind.text) + "\n"]
+    out += [f"```math\n{line}\n```\n" for line in kind.equation]
+    if kind.parameters:
+        head = ("parameter", "meaning", "unit", "default", "range", "a change costs")
         rows = [
-            (f"`{p.name}`", described.get(p.name, p.meaning), p.unit, default(p), limits(p), p.cost)
-            for p in parameters(cls)
-            if p.name != "name"
+            (f"`{p.name}`", p.description or p.meaning, p.unit, default(p.typed), limits(p), p.cost)
+            for p in kind.parameters
         ]
-        if rows:
-            out.append(table(("parameter", "meaning", "unit", "default", "range", "a change costs"), rows))
-    elif described:
-        out.append(table(("argument", "meaning"), [(f"`{name}`", text) for name, text in described.items()]))
-    if "Ports" in found:
-        out.append(
-            table(
-                ("port", "what it carries"),
-                [(f"`{name}`", text) for name, text in entries(found["Ports"]).items()],
-            )
-        )
-    if "Shapes" in found:
-        out.append(f"**Shapes.** {' '.join(found['Shapes'].split())}\n")
-    out.append(f"**Reference.** {' '.join(found.get('Reference', 'no reference').split())}\n")
+        out.append(table(head, rows))
+    if kind.arguments:
+        out.append(table(("argument", "meaning"), [(f"`{k}`", v) for k, v in kind.arguments.items()]))
+    ports = [(f"`{name}`", text) for name, text in kind.ports.items() if text]
+    if ports:
+        out.append(table(("sensor or motor" if kind.room == "worlds" else "port", "what it carries"), ports))
+    if kind.shapes:
+        out.append(f"**Shapes.** {kind.shapes}\n")
+    out.append(f"**Reference.** {kind.reference or 'no reference'}\n")
     return "\n".join(out)
 
 
-def default(p: Parameter) -> str:
-    """A default as one would type it."""
-    value = p.default
-    if (
-        isinstance(value, Needed)
-        or value is dataclasses.MISSING
-        or value is ...
-        or value is inspect.Parameter.empty
-    ):
-        return "required"
-    if isinstance(value, float):
-        return f"`{value:g}`" if abs(value) < 1e20 else "never"
-    if value is None:
-        return "none"
-    if value in ((), ""):
-        return "none" if value == () else "`''`"
-    return f"`{short(value)}`"
+def default(text: str) -> str:
+    """A default as it is typed, as code."""
+    return text if text in WORDS else f"`{text}`"
 
 
-def short(value: Any) -> str:
-    """A part as the call that makes it."""
-    if isinstance(value, dd.Axis):
-        return f"Axis({value.name!r}, {value.lower:g}, {value.upper:g}, {value.samples})"
-    if isinstance(value, (tuple, list)):
-        return "[" + ", ".join(short(v) for v in value) + "]"
-    if isinstance(value, Part):
-        shown = [
-            f"{p.name}={short(getattr(value, p.name))}"
-            for p in parameters(type(value))
-            if getattr(value, p.name) not in (None, "", ())
-        ]
-        return f"{type(value).__name__}({', '.join(shown)})"
-    if isinstance(value, float):
-        return f"{value:g}"
-    return repr(value)
-
-
-def limits(p: Parameter) -> str:
-    """The range of a parameter, in words."""
-    if p.choices:
-        return ", ".join(f"`{c}`" for c in p.choices)
-    low = None if p.lower is None else f"{p.lower:g}"
-    high = None if p.upper is None else f"{p.upper:g}"
-    if low is not None and high is not None:
-        return f"{low} to {high}"
-    return f"at least {low}" if low is not None else f"at most {high}" if high is not None else ""
+def limits(p: kinds.ParameterDescription) -> str:
+    """The range of a parameter, in words; allowed texts as code."""
+    return ", ".join(f"`{c}`" for c in p.choices) or p.range
 
 
 # -------------------------------------------------------------------------------------- functions and classes
@@ -394,8 +318,8 @@ def contract_page() -> str:
     ]
     for name in DECLARATIONS:
         parts.append(section(getattr(dd, name), f"dd.{name}"))
-    text, found = sections(inspect.getdoc(dd.Live.__base__) or "")
-    parts += ["## The arguments of a declaration\n", prose(text) + "\n", attributes(found)]
+    read = docstring.parse(inspect.getdoc(dd.Live.__base__) or "")
+    parts += ["## The arguments of a declaration\n", prose(read.opening) + "\n", attributes(read)]
     parts += [
         "## Types\n",
         table(("type", "what it is"), [(f"`dd.{name}`", about) for name, about in ALIASES.items()]),
@@ -433,13 +357,13 @@ def named(path: str) -> Any:
 
 
 def _described(obj: Any) -> dict[str, str]:
-    found = sections(inspect.getdoc(obj) or "")[1]
-    return entries(found.get("Args") or found.get("Attributes") or "")
+    read = docstring.parse(inspect.getdoc(obj) or "")
+    return read.entries("Args") or read.entries("Attributes")
 
 
 def opening(obj: Any) -> str:
-    """The first line of a docstring."""
-    return (inspect.getdoc(obj) or "").split("\n\n")[0].replace("\n", " ")
+    """The first paragraph of a docstring, in one line."""
+    return docstring.parse(inspect.getdoc(obj) or "").summary
 
 
 def section(obj: Any, title: str, constructed: bool = True) -> str:
@@ -447,16 +371,16 @@ def section(obj: Any, title: str, constructed: bool = True) -> str:
 
     Without the signature where scripts do not construct it.
     """
-    text, found = sections(inspect.getdoc(obj) or "")
+    read = docstring.parse(inspect.getdoc(obj) or "")
     out = [f"## {title}\n"]
     if (title.startswith("dd.") and constructed) or (
         not dataclasses.is_dataclass(obj) and not inspect.isclass(obj)
     ):
         out.append(f"```text\n{signature(obj, title)}\n```\n")
-    out += [prose(text) + "\n", attributes(found)]
+    out += [prose(read.opening) + "\n", attributes(read)]
     for name in ("Returns", "Raises", "Reference"):
-        if name in found:
-            out.append(f"**{name}.** {' '.join(found[name].split())}\n")
+        if name in read.sections:
+            out.append(f"**{name}.** {read.line(name)}\n")
     if inspect.isclass(obj):
         rows = [
             (f"`{signature(f, name)}`" if callable(f) else f"`{name}`", opening(f))
@@ -467,7 +391,7 @@ def section(obj: Any, title: str, constructed: bool = True) -> str:
     return "\n".join(part for part in out if part)
 
 
-def attributes(found: dict[str, str]) -> str:
+def attributes(read: docstring.Docstring) -> str:
     """The tables of arguments and attributes of a docstring."""
     heads = {
         "Args": "argument",
@@ -476,9 +400,9 @@ def attributes(found: dict[str, str]) -> str:
         "What the functions see": "argument",
     }
     tables = [
-        table((head, "meaning"), [(f"`{k}`", v) for k, v in entries(found[name]).items()])
+        table((head, "meaning"), [(f"`{k}`", v) for k, v in read.entries(name).items()])
         for name, head in heads.items()
-        if name in found
+        if name in read.sections
     ]
     return "\n".join(tables)
 
@@ -506,7 +430,7 @@ def signature(obj: Any, title: str) -> str:
             starred = True
         mark = {p.VAR_POSITIONAL: "*", p.VAR_KEYWORD: "**"}.get(p.kind, "")
         starred = starred or p.kind is p.VAR_POSITIONAL
-        parts.append(f"{mark}{p.name}" + ("" if p.default is p.empty else f"={short(p.default)}"))
+        parts.append(f"{mark}{p.name}" + ("" if p.default is p.empty else f"={kinds.typed(p.default)}"))
     return f"{title}({', '.join(parts)})"
 
 

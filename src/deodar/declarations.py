@@ -110,3 +110,11 @@ def needed(like: str) -> Any:
     For example `axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")`.
     """
     return Needed(like)
+
+
+def range_text(lower: float | None, upper: float | None) -> str:
+    """Return a range in words: "0 to 1", "at least 0", "at most 1"; "" for any value."""
+    low, high = ("" if bound is None else f"{bound:.12g}" for bound in (lower, upper))
+    if low and high:
+        return f"{low} to {high}"
+    return f"at least {low}" if low else f"at most {high}" if high else ""

@@ -8,21 +8,22 @@ import collections.abc
 import dataclasses as dc
 import functools
 import inspect
-import re
 import types
 import typing
 from typing import Any
 
-_ENTRY = re.compile(r"    (\w+): .*")
-_HEADS = ("Parameters:", "Attributes:")
+from deodar import docstring
+from deodar.declarations import range_text
+
+_TITLES = ("Parameters", "Attributes")
 _NAMES: dict[Any, str] = {type(None): "None", Any: "Any", ...: "..."}
 
 
 class PartType(type):
     """The class of a part: its signature and documentation are those of the declared parameters.
 
-    `cls.__doc__` is the docstring of the source (`source_doc`), with units, ranges and the parameters that it
-    does not describe added to it.
+    `cls.__doc__` is the docstring of the source (`docstring.source`) with units, ranges and the parameters
+    that it does not describe.
     """
 
     @property
@@ -58,11 +59,6 @@ def _finished(cls: type[Any]) -> bool:
     what is not defined yet.
     """
     return "__match_args__" in vars(cls)
-
-
-def source_doc(cls: type[Any]) -> str:
-    """The docstring of the source, without its indentation; "" where there is none."""
-    return inspect.cleandoc(vars(cls).get("__doc__") or "")
 
 
 class _Annotation:
@@ -113,43 +109,23 @@ def _documentation(cls: Any) -> str:
     """The docstring of the source, with unit and range after each parameter, and the parameters that it does
     not describe.
     """
-    text = source_doc(cls)
-    lines = (
-        [] if text.startswith(f"{cls.__name__}(") else text.splitlines()
-    )  # `dataclass` writes the call where there is no docstring
-    lines = lines or [f"{cls.__name__}."]
+    text = docstring.source(cls)
+    if text.startswith(f"{cls.__name__}("):  # `dataclass` writes the call where the source has no docstring
+        text = ""
+    read = docstring.parse(text or f"{cls.__name__}.")
+    title = next((title for title in read.sections if title in _TITLES), _TITLES[0])
     declared = {p.name: p for p in cls.__declared__()}
-    start = next((k + 1 for k, line in enumerate(lines) if line in _HEADS), 0)
-    end = (
-        next((k for k in range(start, len(lines)) if lines[k] and not lines[k].startswith(" ")), len(lines))
-        if start
-        else 0
-    )
-    entries: dict[str, list[str]] = {}
-    for line in lines[start:end]:
-        if found := _ENTRY.fullmatch(line):
-            entries[found[1]] = [line]
-        elif line and entries:
-            entries[next(reversed(entries))].append(line)
+    entries = read.blocks(title)
     for p in declared.values():
         if p.name not in entries and p.name != "name":
-            entries[p.name] = [f"    {p.name}: {p.meaning}."]
+            entries[p.name] = [f"{p.name}: {p.meaning}."]
     for name in entries.keys() & declared.keys():
         entries[name][-1] += _range(declared[name])
-    body = [line for entry in entries.values() for line in entry]
-    if start:
-        lines[start:end] = [*body, *([""] if end < len(lines) else [])]
-    elif body:
-        lines += ["", "Parameters:", *body]
-    return "\n".join(lines)
+    body = "\n".join(line for entry in entries.values() for line in entry)
+    return str(docstring.Docstring(read.opening, {**read.sections, **({title: body} if body else {})}))
 
 
 def _range(p: Any) -> str:
-    said = [f"unit {p.unit}"] if p.unit else []
-    if p.lower is not None and p.upper is not None:
-        said.append(f"{p.lower:.12g} to {p.upper:.12g}")
-    elif p.lower is not None or p.upper is not None:
-        said.append(f"at least {p.lower:.12g}" if p.lower is not None else f"at most {p.upper:.12g}")
-    if p.choices:
-        said.append(f"one of {', '.join(p.choices)}")
-    return f" [{'; '.join(said)}]" if said else ""
+    choices = f"one of {', '.join(p.choices)}" if p.choices else ""
+    said = [f"unit {p.unit}" if p.unit else "", range_text(p.lower, p.upper), choices]
+    return f" [{'; '.join(filter(None, said))}]" if any(said) else ""

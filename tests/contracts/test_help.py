@@ -13,11 +13,11 @@ from typing import Annotated, Any
 import pytest
 
 import deodar as dd
-from deodar import registry
+from deodar import docstring, registry
 from deodar.element import Element
 from deodar.experiments import actions, events, experiment, factor, measures
 from deodar.parameters import Live, Part, parameters, positional
-from deodar.part_type import PartType, source_doc
+from deodar.part_type import PartType
 from tests.contracts.build import KINDS, PARTS
 
 TRIALS: dict[str, type[Any]] = {
@@ -120,7 +120,7 @@ def test_a_kind_of_ones_own_without_a_docstring_has_help_too() -> None:
 def test_the_docstring_of_the_source_is_kept() -> None:
     assert (
         "tau: time constant, in the document's time unit; > 0, and no shorter than the step.\n"
-        in source_doc(dd.Field)
+        in docstring.source(dd.Field)
     )
     assert dd.Field.__doc__ is not None and dd.Field.__doc__.startswith("A dynamic neural field")
     assert "no shorter than the step. [unit time; at least 1e-06]" in dd.Field.__doc__

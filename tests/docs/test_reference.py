@@ -24,7 +24,7 @@ def test_the_reference_holds_no_page_too_many() -> None:
 
 
 def test_a_kind_is_described_whole() -> None:
-    text = reference.kind_section(reference.registry.kind("Field"))
+    text = reference.kind_section(reference.kinds.describe(reference.registry.kind("Field")))
     for part in (
         r"\tau \frac{du}{dt}",
         "| `tau` |",

@@ -9,14 +9,13 @@ from typing import Any
 
 import pytest
 
-from deodar import registry
+from deodar import docstring, registry
+from deodar.docstring import Docstring
 from deodar.element import Coupling, Element
 from deodar.parameters import Part, parameters
-from deodar.part_type import source_doc
 
 KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
 ELEMENTS = {name: cls for name, cls in KINDS.items() if issubclass(cls, Element)}
-SECTION = re.compile(r"^([A-Z][a-z]+):[ ]*(.*)$")
 
 # What the description of a parameter has to say for the unit it declares. Activation has no unit of its own
 # and needs no word.
@@ -36,32 +35,9 @@ UNIT_WORDS = {
 }
 
 
-def sections(cls: type[Any]) -> dict[str, str]:
-    """The sections of a docstring by title; what stands before the first is under ""."""
-    out: dict[str, list[str]] = {"": []}
-    title = ""
-    for line in source_doc(cls).splitlines():
-        found = SECTION.match(line)
-        if found:
-            title = found[1]
-            out[title] = [found[2]] if found[2] else []
-        else:
-            out[title].append(line)
-    return {title: inspect.cleandoc("\n" + "\n".join(lines)).strip() for title, lines in out.items()}
-
-
-def entries(text: str) -> dict[str, str]:
-    """`name: description` lines of a section, in order; indented lines belong to the entry before."""
-    out: dict[str, str] = {}
-    last = ""
-    for line in text.splitlines():
-        found = re.match(r"^(\w+): (.*)$", line)
-        if found:
-            last = found[1]
-            out[last] = found[2]
-        elif last:
-            out[last] += " " + line.strip()
-    return out
+def read(cls: type[Any]) -> Docstring:
+    """The docstring of the source, parsed."""
+    return docstring.parse(docstring.source(cls))
 
 
 def fields(cls: type[Any]) -> list[str]:
@@ -77,20 +53,20 @@ def fields(cls: type[Any]) -> list[str]:
 
 @pytest.mark.parametrize("name", KINDS)
 def test_one_sentence_then_an_equation(name: str) -> None:
-    text = sections(KINDS[name])
-    first = " ".join(text[""].partition("\n\n")[0].split())
+    found = read(KINDS[name])
+    first = found.summary
     assert first.endswith(".") and len(first) < 150, "begin with one sentence in a paragraph of its own"
-    assert text.get("Equation"), "write a section Equation:"
+    assert found.sections.get("Equation"), "write a section Equation:"
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_parameters_are_named_in_field_order(name: str) -> None:
-    text = sections(KINDS[name]).get("Parameters", "")
+    found = read(KINDS[name])
     if fields(KINDS[name]):
-        assert list(entries(text)) == fields(KINDS[name])
-        assert all(entries(text).values())
+        assert list(found.entries("Parameters")) == fields(KINDS[name])
+        assert all(found.entries("Parameters").values())
     else:
-        assert text == "none."
+        assert found.sections.get("Parameters") == "none."
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
@@ -99,7 +75,7 @@ def test_every_port_is_named_with_its_axes(name: str) -> None:
     element = cls.example()
     axes = {port: element.wants(port, ()) or () for port in element.ports()}
     outputs = list(element.outputs(axes))
-    listed = entries(sections(cls).get("Ports", ""))
+    listed = read(cls).entries("Ports")
     # the inputs of a user's function are named by its own parameter
     wanted = {*outputs, *(() if "ports_in" in fields(cls) else element.ports())}
     assert set(listed) == wanted
@@ -109,7 +85,7 @@ def test_every_port_is_named_with_its_axes(name: str) -> None:
 
 @pytest.mark.parametrize("name", [n for n in KINDS if n not in ELEMENTS])
 def test_shapes_are_stated(name: str) -> None:
-    assert sections(KINDS[name]).get("Shapes")
+    assert read(KINDS[name]).sections.get("Shapes")
 
 
 @pytest.mark.parametrize(
@@ -121,14 +97,14 @@ def test_shapes_are_stated(name: str) -> None:
     ],
 )
 def test_arrays_state_their_shape(name: str) -> None:
-    shapes = entries(sections(KINDS[name]).get("Shapes", ""))
+    shapes = read(KINDS[name]).entries("Shapes")
     assert {p.name for p in parameters(KINDS[name]) if p.form == "array"} <= set(shapes)
 
 
 @pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
 def test_units_are_said_where_they_are_declared(name: str) -> None:
     cls = KINDS[name]
-    listed = entries(sections(cls).get("Parameters", ""))
+    listed = read(cls).entries("Parameters")
     for p in parameters(cls):
         if p.unit:
             assert p.unit in UNIT_WORDS, (
@@ -149,7 +125,7 @@ def test_every_parameter_says_what_it_means(name: str) -> None:
 
 @pytest.mark.parametrize("name", KINDS)
 def test_a_source_or_the_words_no_reference(name: str) -> None:
-    says = sections(KINDS[name]).get("Reference", "")
+    says = read(KINDS[name]).sections.get("Reference", "")
     assert says == "no reference" or re.search(r"\((19|20)\d\d\)", says), (
         f"give authors, year and place, or: no reference ({says!r})"
     )
@@ -158,21 +134,3 @@ def test_a_source_or_the_words_no_reference(name: str) -> None:
 @pytest.mark.parametrize("name", [n for n, cls in ELEMENTS.items() if issubclass(cls, Coupling)])
 def test_couplings_pass_their_input_on(name: str) -> None:
     assert any(ELEMENTS[name].direct.values())
-
-
-def test_the_reader_of_docstrings_sees_what_is_missing() -> None:
-    class Silent:
-        """Does nothing."""
-
-    class Mixed:
-        """Does nothing.
-
-        Parameters:
-            b: second
-                and more.
-            a: first.
-        """
-
-    assert sections(Silent).get("Equation") is None
-    assert list(entries(sections(Mixed)["Parameters"])) == ["b", "a"]
-    assert entries(sections(Mixed)["Parameters"])["b"] == "second and more."

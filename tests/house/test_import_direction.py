@@ -15,8 +15,8 @@ from tests.house.source import MODULES, SRC, imported, module, tree
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
-        "errors plugins",
-        "registry declarations renamed part_type",
+        "errors plugins docstring declarations",
+        "registry renamed part_type",
         "parameters",
         "leaves",
         "numerics",
@@ -24,6 +24,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "elements couplings worlds",
         "diagrams",
         "model",
+        "kinds",
         "compiler",
         "recording",
         "session",

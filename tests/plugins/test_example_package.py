@@ -14,7 +14,7 @@ import pytest
 import deodar as dd
 from deodar import registry
 from deodar.cli import main
-from deodar.server.kinds import kinds
+from deodar.server.view import kinds
 
 pytestmark = pytest.mark.usefixtures("example")
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
 import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.errors import Problem
+from deodar.kinds.description import descriptions
 from deodar.model import edit
 from deodar.numerics.kernels.custom import Custom
 from deodar.server import view
+from deodar.server.to_page import Kind
 
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
 Y = dd.Axis("y", 0, 1, samples=11)
@@ -138,3 +141,15 @@ def test_wrong_values_say_what_is_wrong(parameter: str, value: Any, says: str) -
     doc, entry = made.document, made.document.by_id()[made["g.u"].id]
     with pytest.raises(dd.errors.DeodarError, match=says):
         edit.put(doc, entry.id, parameter, view.read_value(doc, entry, parameter, value))
+
+
+def test_every_description_of_a_kind_can_be_sent() -> None:
+    kinds = view.kinds()
+    assert [kind.name for kind in kinds] == [kind.name for kind in descriptions()]
+    assert msgspec.json.decode(msgspec.json.encode(kinds), type=list[Kind]) == kinds
+    field = next(kind for kind in kinds if kind.name == "Field")
+    described = next(kind for kind in descriptions() if kind.name == "Field")
+    assert field.equation == list(described.equation) and field.ports == described.ports
+    assert [(p.name, p.symbol, p.default) for p in field.parameters] == [
+        (p.name, p.symbol, p.default) for p in described.parameters
+    ]

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from deodar.part_type import source_doc
+from deodar.declarations import range_text
+
+if TYPE_CHECKING:  # NumPy is imported with it
+    from deodar.kinds.parameter import ParameterDescription
 
 HELP = (
     "list elements, couplings, kernels, sigmoids and worlds, or show one of them with its equation and"
@@ -22,26 +26,27 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """The list, or one page."""
-    from deodar import registry
+    from deodar import docstring, registry
+    from deodar.kinds.description import describe
     from deodar.model.parts import schema
     from deodar.model.schema import reference
     from deodar.parameters import Part
 
     if args.kind:
         cls = registry.kind(args.kind)
+        source = docstring.source(cls)
         if args.json:
             found = (
                 schema(cls, reference)
                 if issubclass(cls, Part)
-                else {"title": cls.__name__, "description": source_doc(cls)}
+                else {"title": cls.__name__, "description": source}
             )
             print(json.dumps(found, indent=2, ensure_ascii=False))
         else:
-            where = f"dd.{cls.__name__}" if cls.__module__.startswith("deodar.") else cls.__module__
-            print(f"{cls.__name__}  ({where})\n\n{source_doc(cls)}")
-            values = list(_values(cls)) if issubclass(cls, Part) else []
-            if values:
-                print("\n".join(["", "Values:", *values]))
+            kind = describe(cls)
+            print(f"{kind.name}  ({kind.public_name})\n\n{source}")
+            if kind.parameters:
+                print("\n".join(["", "Values:", *_values(kind.parameters)]))
         return 0
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
     known = {name for found in listed.values() for name in found}
@@ -51,42 +56,27 @@ def run(args: argparse.Namespace) -> int:
         if name not in known and not cls.__module__.startswith("deodar.")
     }
     listed |= {"own": outside} if outside else {}
+    lines = {
+        room: {
+            name: docstring.parse(docstring.source(cls)).summary or cls.__name__
+            for name, cls in found.items()
+        }
+        for room, found in listed.items()
+    }
     if args.json:
-        print(
-            json.dumps(
-                {room: {name: _line(cls) for name, cls in found.items()} for room, found in listed.items()},
-                indent=2,
-            )
-        )
+        print(json.dumps(lines, indent=2))
         return 0
-    width = max(len(name) for found in listed.values() for name in found)
-    for room, found in listed.items():
+    width = max(len(name) for found in lines.values() for name in found)
+    for room, found in lines.items():
         print(room.split(".")[-1])
-        for name, cls in found.items():
-            print(f"  {name:{width}}  {_line(cls)}")
+        for name, line in found.items():
+            print(f"  {name:{width}}  {line}")
     return 0
 
 
-def _values(cls: type) -> Iterator[str]:
-    """For each parameter its default, unit, range and what a change costs, from the declaration."""
-    from deodar.parameters import parameters, show
-
-    rows = [p for p in parameters(cls) if p.name != "name"]
-    width = max((len(p.name) for p in rows), default=0)
-    for p in rows:
-        lower, upper = ("" if bound is None else f"{bound:g}" for bound in (p.lower, p.upper))
-        bounds = (
-            f"{lower} to {upper}".strip()
-            if lower and upper
-            else f"from {lower}"
-            if lower
-            else f"to {upper}"
-            if upper
-            else ""
-        )
-        about = [show(p.default), p.unit, bounds, " | ".join(p.choices), p.cost]
+def _values(parameters: Sequence[ParameterDescription]) -> Iterator[str]:
+    """For each parameter its default, unit, range and what a change costs."""
+    width = max(len(p.name) for p in parameters)
+    for p in parameters:
+        about = [p.typed, p.unit, range_text(p.lower, p.upper), " | ".join(p.choices), p.cost]
         yield f"    {p.name:{width}}  {'; '.join(a for a in about if a)}"
-
-
-def _line(cls: type) -> str:
-    return " ".join((source_doc(cls) or cls.__name__).partition("\n\n")[0].split())

@@ -9,7 +9,7 @@ from pathlib import Path
 from deodar import __version__
 from deodar.live.bill import Bill
 from deodar.live.engine import Engine
-from deodar.server import gallery, kinds, view
+from deodar.server import gallery, view
 from deodar.server.aside import attempt
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
@@ -42,7 +42,7 @@ class Hub:
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),
-            kinds=kinds.kinds(),
+            kinds=view.kinds(),
             examples=gallery.examples(),
         )
         self._keeping = asyncio.create_task(self._keep())

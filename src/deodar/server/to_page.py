@@ -57,12 +57,11 @@ class ParameterForm(Data, frozen=True):
 
 
 class Kind(Data, frozen=True):
-    """A registered kind, as the page knows it: what is said of it, its equation (lines of TeX), its
-    parameters and ports.
+    """A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 
-    `room` is where it stands: elements, couplings, kernels, sigmoids, windows, worlds, or own. `levels` names
-    for a port the parameters that are levels on its scale (threshold, resting level). `example` is a value to
-    start from, where it stands inside a part.
+    `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` names for a port the
+    parameters that are levels on its scale (threshold, resting level). `example` is a value to start from,
+    where it stands inside a part.
     """
 
     name: str

@@ -6,8 +6,11 @@ import dataclasses as dc
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import msgspec
+
 from deodar.element import Element
 from deodar.errors import Problem as Wrong
+from deodar.kinds.description import descriptions
 from deodar.model import files, find
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
@@ -20,6 +23,7 @@ from deodar.server.to_page import (
     ConnectionView,
     DocumentView,
     ElementView,
+    Kind,
     KnobView,
     LinkView,
     Problem,
@@ -31,6 +35,11 @@ BESIDE = ("kind", "id", "every")
 
 LOOKS = ("panels", "folded")
 """What of the layout is no edit worth asking about: how panels stand, which groups are folded."""
+
+
+def kinds() -> list[Kind]:
+    """The description of every registered kind as a message."""
+    return [msgspec.convert(kind, Kind, from_attributes=True) for kind in descriptions()]
 
 
 def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:

@@ -1,6 +1,4 @@
-"""What the page is told of every kind: enough for a form, an equation and a plot, also of kinds from
-outside.
-"""
+"""Descriptions of kinds hold all that a form, an equation and a plot need, also of kinds of packages."""
 
 from __future__ import annotations
 
@@ -9,19 +7,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-import msgspec
 import pytest
 
 from deodar import registry
 from deodar.element import Element
+from deodar.kinds.description import Description, describe, descriptions, title
+from deodar.kinds.parameter import ParameterDescription
 from deodar.model.parts import value_from_json
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.kernels._base import Kernel
 from deodar.parameters import Live, Part, Recompile
-from deodar.server.kinds import kinds, title
-from deodar.server.to_page import Kind, ParameterForm
 
-KINDS = {kind.name: kind for kind in kinds() if registry.kind(kind.name).__module__.startswith("deodar.")}
+KINDS = {kind.name: kind for kind in descriptions() if kind.module.startswith("deodar.")}
 INSIDE = [
     name
     for name in KINDS
@@ -38,7 +35,7 @@ def outside() -> Iterator[None]:
     registry._kinds.update(before)
 
 
-def form(kind: Kind, name: str) -> ParameterForm:
+def form(kind: Description, name: str) -> ParameterDescription:
     return next(p for p in kind.parameters if p.name == name)
 
 
@@ -49,6 +46,7 @@ def test_a_kind_says_what_it_is(name: str) -> None:
     assert kind.room in {"elements", "couplings", "kernels", "sigmoids", "windows", "worlds"}
     assert kind.equation and all(kind.equation)
     assert kind.reference != "no reference"
+    assert kind.summary.endswith(".") and kind.text.replace("\n", " ").startswith(kind.summary)
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -79,11 +77,6 @@ def test_what_stands_inside_parts_has_a_value_to_start_from(name: str) -> None:
 
 def test_elements_and_worlds_have_no_value_to_start_from() -> None:
     assert all(kind.example is None for name, kind in KINDS.items() if name not in INSIDE)
-
-
-def test_all_of_it_can_be_sent() -> None:
-    sent = msgspec.json.decode(msgspec.json.encode(list(KINDS.values())), type=list[Kind])
-    assert sent == list(KINDS.values())
 
 
 def test_the_field() -> None:
@@ -145,7 +138,7 @@ def test_symbols_are_those_of_the_equation() -> None:
 def test_choices_optional_values_and_arrays() -> None:
     boundary = form(KINDS["Gaussian"], "boundary")
     assert (
-        boundary.optional and boundary.default is None and boundary.choices == ["periodic", "zero", "reflect"]
+        boundary.optional and boundary.default is None and boundary.choices == ("periodic", "zero", "reflect")
     )
     assert form(KINDS["Project"], "rename").default == {}
     assert form(KINDS["Custom"], "weights").default is None and "weights" not in KINDS["Custom"].example
@@ -185,11 +178,31 @@ def test_kinds_from_outside_need_not_say_anything(outside: None) -> None:
     class Hollow(Kernel):
         depth: float
 
-    found = {kind.name: kind for kind in kinds()}
+    found = {kind.name: kind for kind in descriptions()}
     silent, hollow = found["Silent"], found["Hollow"]
     assert (silent.room, hollow.room) == ("own", "own")
-    assert silent.equation == [] and silent.reference == "" and silent.levels == {}
+    assert silent.equation == () and silent.reference == "" and silent.levels == {}
     assert silent.ports == {"input": ""}
     assert [p.name for p in silent.parameters] == ["need", "where"]
     assert hollow.example is None
     assert "Hollow" in form(found["Field"], "kernel").of
+
+
+def test_a_parameter_has_its_range_and_its_default_as_one_types_it() -> None:
+    field = {p.name: p for p in KINDS["Field"].parameters}
+    assert (field["tau"].range, field["tau"].typed) == ("at least 1e-06", "20")
+    assert field["sigmoid"].typed == "Logistic(beta=4, threshold=0)"
+    assert (field["quadrature"].range, field["quadrature"].typed) == ("cell, point", "'point'")
+    assert (field["axes"].range, field["axes"].typed) == ("", "none")
+    assert form(KINDS["Pattern"], "axes").typed == "required"
+    assert form(KINDS["Logistic"], "beta").range == "1e-06 to 1000000"
+
+
+def test_a_world_has_arguments_in_place_of_parameters() -> None:
+    assert not KINDS["Picture"].parameters and list(KINDS["Picture"].arguments) == ["file"]
+    assert not KINDS["Field"].arguments
+
+
+def test_one_kind_is_described_as_among_all() -> None:
+    assert describe(registry.kind("Field")) == KINDS["Field"]
+    assert (KINDS["Field"].public_name, KINDS["Field"].module) == ("dd.Field", "deodar.elements.field")

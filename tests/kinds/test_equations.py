@@ -7,7 +7,7 @@ import re
 import pytest
 
 from deodar import registry
-from deodar.server.docstring import docstring
+from deodar.kinds.description import describe
 
 KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
 
@@ -45,7 +45,7 @@ def faults(line: str) -> list[str]:
 
 @pytest.mark.parametrize("name", KINDS)
 def test_every_equation_is_sound_tex(name: str) -> None:
-    lines = docstring(KINDS[name]).equation
+    lines = describe(KINDS[name], KINDS).equation
     assert lines and not [fault for line in lines for fault in faults(line)], lines
     assert not [
         line
@@ -60,19 +60,3 @@ def test_every_equation_is_sound_tex(name: str) -> None:
 )
 def test_what_cannot_be_typeset_is_found(line: str, found: list[str]) -> None:
     assert faults(line) == found
-
-
-def test_an_indented_line_continues_the_one_before_it() -> None:
-    class Long:
-        r"""A long equation.
-
-        Equation:
-            y = a
-                + b
-            z = c
-
-        Reference:
-            no reference
-        """
-
-    assert docstring(Long).equation == ("y = a + b", "z = c")

@@ -1,0 +1,156 @@
+"""The description of a parameter: form, unit, range, meaning, symbol and default."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import re
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+from deodar.declarations import Cost, Needed, range_text
+from deodar.kinds.symbols import NAME, is_letter, symbol
+from deodar.kinds.typed import typed
+from deodar.model.parts import to_json
+from deodar.numerics.axes import Axis
+from deodar.parameters import Form, FrozenArray, Parameter, Part
+
+Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
+"""A value as documents write it."""
+
+QUANTITIES = ("number", "integer", "per_axis", "part", "array", "numbers")
+"""Forms of parameters whose names may stand in an equation."""
+
+ENDLESS = 1e20
+"""A time of this size as a default means: never."""
+
+
+@dc.dataclass(frozen=True)
+class ParameterDescription:
+    """What a parameter is.
+
+    Attributes:
+        name: its name.
+        form: the shape of its value.
+        cost: what a change costs.
+        meaning: one phrase, from the declaration.
+        description: what the docstring says of it.
+        symbol: its symbol in the equation, as TeX; "" without one.
+        unit: unit of its value.
+        lower: lowest value; None: any.
+        upper: highest value; None: any.
+        default: the default as documents write it; axes and arrays have none.
+        typed: the default as one types it in a call; "required" without one.
+        optional: whether it may be None.
+        choices: the allowed texts; empty: any.
+        of: names of the kinds that its value may have, where it is a part or a list of parts.
+    """
+
+    name: str
+    form: Form
+    cost: Cost
+    meaning: str
+    description: str
+    symbol: str
+    unit: str
+    lower: float | None
+    upper: float | None
+    default: Json
+    typed: str
+    optional: bool
+    choices: tuple[str, ...]
+    of: tuple[str, ...]
+
+    @property
+    def range(self) -> str:
+        """The allowed values in words."""
+        return ", ".join(self.choices) or range_text(self.lower, self.upper)
+
+
+def describe_parameter(
+    p: Parameter, description: str, equation: Sequence[str], known: Mapping[str, type]
+) -> ParameterDescription:
+    """Describe one parameter.
+
+    Args:
+        p: its declaration.
+        description: what the docstring of its kind says of it.
+        equation: the equation of its kind.
+        known: every registered kind by name.
+    """
+    return ParameterDescription(
+        name=p.name,
+        form=p.form,
+        cost=p.cost,
+        meaning=p.meaning,
+        description=description,
+        symbol=_symbol(p, description, equation),
+        unit=p.unit,
+        lower=p.lower,
+        upper=p.upper,
+        default=_default(p),
+        typed=_typed(p),
+        optional=p.optional,
+        choices=p.choices,
+        of=tuple(name for name, cls in known.items() if p.of is not None and _holds(p, p.of, cls)),
+    )
+
+
+def plain(part: Part) -> Json:
+    """Return a part as documents write it, without arrays: documents keep those in files."""
+    return _without_arrays(to_json(part, _no_axis, _no_file))
+
+
+def _holds(p: Parameter, of: type, cls: type) -> bool:
+    return p.form in ("part", "parts") and issubclass(cls, of)
+
+
+def _symbol(p: Parameter, description: str, equation: Sequence[str]) -> str:
+    """The symbol with which its description begins (`h, the attractor`), else its own name if the equation
+    has it.
+    """
+    first = NAME.match(description)
+    if first and is_letter(first[0]) and description[first.end() : first.end() + 1] in (",", ".", ":", ";"):
+        return symbol(first[0])
+    own = symbol(p.name)
+    written = rf"(?<![A-Za-z\\]){re.escape(own)}(?![A-Za-z])"
+    return own if p.form in QUANTITIES and any(re.search(written, line) for line in equation) else ""
+
+
+def _default(p: Parameter) -> Json:
+    value = p.default
+    if value is dc.MISSING or isinstance(value, Needed) or value is None or p.form in ("axis", "array"):
+        return [] if p.form == "axes" else None
+    match p.form:
+        case "axes":
+            return []
+        case "part":
+            return plain(value)
+        case "parts":
+            return [plain(v) for v in value]
+        case "numbers" | "pairs":
+            return dict(value)
+        case _:
+            return list(value) if isinstance(value, tuple) else value
+
+
+def _typed(p: Parameter) -> str:
+    value = p.default
+    if isinstance(value, Needed) or value is dc.MISSING or value is ...:
+        return "required"
+    if isinstance(value, float) and abs(value) >= ENDLESS:
+        return "never"
+    return "none" if value is None or value == () else typed(value)
+
+
+def _no_axis(axis: Axis) -> str:
+    return ""
+
+
+def _no_file(array: FrozenArray) -> str:
+    return ""
+
+
+def _without_arrays(data: Json) -> Json:
+    if isinstance(data, dict):
+        return {k: _without_arrays(v) for k, v in data.items() if v != {"array": ""}}
+    return [_without_arrays(v) for v in data] if isinstance(data, list) else data
