@@ -92,6 +92,14 @@ ALIASES = {
     "Interval": "lowest and highest value, two numbers",
 }
 
+
+def _derived(base: type[Any]) -> list[str]:
+    """The public classes that derive from one, in the order of their declaration."""
+    found = [getattr(dd, name) for name in dd.__all__]
+    own = [cls for cls in found if isinstance(cls, type) and issubclass(cls, base) and cls is not base]
+    return [f"dd.{cls.__name__}" for cls in sorted(own, key=lambda cls: inspect.getsourcelines(cls)[1])]
+
+
 MEASURES = [
     *("dd.peaks", "dd.analysis.Peaks", "dd.analysis.Peak", "dd.regimes", "dd.analysis.Regimes"),
     *("dd.thresholds", "dd.analysis.Thresholds", "dd.analysis.Transition", "dd.descend"),
@@ -130,28 +138,8 @@ MEASURES = [
         "dd.run_batch",
         "deodar.experiments.course.Course",
     ),
-    *(
-        "dd.Crosses",
-        "dd.Appears",
-        "dd.Vanishes",
-        "dd.Reached",
-        "dd.Within",
-        "dd.Leaves",
-        "dd.All",
-        "dd.AnyOf",
-    ),
-    *(
-        "dd.Set",
-        "dd.Ramp",
-        "dd.Push",
-        "dd.Place",
-        "dd.Move",
-        "dd.Remove",
-        "dd.Record",
-        "dd.Snapshot",
-        "dd.Reset",
-        "dd.End",
-    ),
+    *_derived(dd.Event),
+    *_derived(dd.Action),
     *("dd.carry_out", "dd.Job", "dd.Rows"),
     *(
         "deodar.session.run_live.run_live",

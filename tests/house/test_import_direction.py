@@ -16,7 +16,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "errors plugins docstring declarations",
-        "registry renamed part_type",
+        "registry renamed part_type family",
         "parameters",
         "leaves",
         "numerics",

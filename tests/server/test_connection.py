@@ -9,14 +9,14 @@ from typing import Any, cast
 import pytest
 
 from deodar.server.connection import Connection
+from deodar.server.message import Message
 from deodar.server.page import Page
-from deodar.server.to_page import ToPage
 
 
 class Silent(Connection):
     """Sends nothing."""
 
-    async def _text(self, message: ToPage) -> None: ...
+    async def _text(self, message: Message) -> None: ...
 
     async def _say(self) -> None: ...
 

@@ -8,9 +8,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from deodar.server import frames, protocol
-from deodar.server.to_page import ToPage
-from deodar.server.to_server import ToServer
+from deodar.server import frames, protocol, to_page, to_server
 
 SAY = "write them anew: python -m deodar.server.protocol"
 
@@ -39,7 +37,8 @@ def test_the_schema_is_a_schema_and_refuses_strangers() -> None:
 
 def test_tags_are_unique_and_typescript_names_them_all() -> None:
     text = protocol.typescript()
-    tags = [cls.__struct_config__.tag for union in (ToServer, ToPage) for cls in union.__args__]
+    families = (to_server.MESSAGES, to_page.MESSAGES)
+    tags = [cls.__struct_config__.tag for family in families for cls in family.values()]
     assert len(set(tags)) == len(tags)
     for tag in tags:
         assert f"  type: {json.dumps(tag)};" in text

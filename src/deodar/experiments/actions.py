@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 from deodar.errors import WorldError
 from deodar.experiments.stage import Stage
+from deodar.family import Family
 from deodar.model import find
 from deodar.parameters import Part, PerAxis, Recompile
 from deodar.session.run import whole
@@ -49,12 +50,17 @@ class Action(Part):
         raise NotImplementedError
 
 
+ACTIONS = Family(Action)
+"""The kinds of actions, each registered where it is declared."""
+
+
 def _plane(action: Any, *names: str) -> Iterator[tuple[str, str]]:
     for name in names:
         if not isinstance(getattr(action, name), tuple) or len(getattr(action, name)) != 2:
             yield name, "needs two numbers, along x and along y"
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Place(Action):
     """Put a thing into the world, or replace the one of that name.
@@ -89,6 +95,7 @@ class Place(Action):
         changed(self, stage.session.world).place(self.thing, found.center, found.size, found.color)
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Move(Action):
     """Move a thing of the world.
@@ -115,6 +122,7 @@ class Move(Action):
         changed(self, stage.session.world).move(self.thing, found.center)
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Remove(Action):
     """Remove a thing from the world.
@@ -135,6 +143,7 @@ class Remove(Action):
         changed(self, stage.session.world).remove(self.thing)
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Set(Action):
     """Give a parameter of the model another value.
@@ -158,6 +167,7 @@ class Set(Action):
         stage.session.set(self.path, self.value)
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Ramp(Action):
     """Take a parameter of the model evenly from one value to another, with a new one at each step.
@@ -192,6 +202,7 @@ class Ramp(Action):
             stage.later(k, lambda value=start + share * (end - start): session.set(self.path, value))
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Push(Action):
     """A homogeneous input to a field or node for a while: the boost that brings a field over its detection
@@ -220,6 +231,7 @@ class Push(Action):
             )
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Record(Action):
     """Start or stop recording, from the next look on.
@@ -240,6 +252,7 @@ class Record(Action):
         stage.recording = self.on
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Snapshot(Action):
     """Keep what ports hold at one moment.
@@ -270,6 +283,7 @@ class Snapshot(Action):
         )
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class Reset(Action):
     """Put the states of all elements back to what they were at the start; time, noise, parameters and the
@@ -287,6 +301,7 @@ class Reset(Action):
         stage.restart()
 
 
+@ACTIONS.register
 @dataclass(frozen=True)
 class End(Action):
     """End the trial.

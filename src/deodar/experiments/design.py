@@ -12,10 +12,8 @@ from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
 from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
-from deodar.experiments import actions as done
-from deodar.experiments import events as happens
-from deodar.experiments.actions import Action
-from deodar.experiments.events import Event
+from deodar.experiments.actions import ACTIONS, Action
+from deodar.experiments.events import EVENTS, Event
 from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.migrations import migrate
@@ -26,31 +24,9 @@ from deodar.parameters import Part, Recompile, show
 from deodar.worlds._base import World
 
 VERSION = 2
-EVENTS = (
-    happens.Crosses,
-    happens.Reached,
-    happens.Appears,
-    happens.Vanishes,
-    happens.Within,
-    happens.Leaves,
-    happens.All,
-    happens.AnyOf,
-)
-ACTIONS = (
-    done.Place,
-    done.Move,
-    done.Remove,
-    done.Set,
-    done.Ramp,
-    done.Push,
-    done.Record,
-    done.Snapshot,
-    done.Reset,
-    done.End,
-)
 KINDS: Mapping[str, Mapping[str, type[Part]]] = {
-    "conditions": {cls.__name__: cls for cls in EVENTS},
-    "actions": {cls.__name__: cls for cls in ACTIONS},
+    "conditions": EVENTS,
+    "actions": ACTIONS,
     "factors": {"Factor": Factor},
     "measures": {"Measure": Measure},
 }

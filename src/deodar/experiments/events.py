@@ -14,6 +14,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from deodar.experiments.view import REDUCES, View
+from deodar.family import Family
 from deodar.parameters import Part, PerAxis, Recompile
 
 COMPARES = {"above": operator.gt, "below": operator.lt}
@@ -67,6 +68,11 @@ class Event(Part):
         raise NotImplementedError
 
 
+EVENTS = Family(Event)
+"""The kinds of events, each registered where it is declared."""
+
+
+@EVENTS.register
 @dataclass(frozen=True)
 class Crosses(Event):
     """A port or a sensor lies beyond a value.
@@ -98,6 +104,7 @@ class Crosses(Event):
         return COMPARES[self.side](looks.seen[self.views[0]], self.level)
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class Reached(Event):
     """A time is reached.
@@ -116,6 +123,7 @@ class Reached(Event):
         return (looks.times >= self.at - 1e-9 * max(1.0, abs(self.at)))[None]
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class Appears(Event):
     """A peak appears in a field: its activation is above a threshold somewhere, or near a place.
@@ -159,6 +167,7 @@ class Appears(Event):
         return looks.seen[self.views[0]] > self.threshold
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class Vanishes(Appears):
     """A peak that stood in a field is gone: nowhere, or nowhere near a place, is its activation above the
@@ -180,6 +189,7 @@ class Vanishes(Appears):
         return ~super().holds(looks)
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class Within(Event):
     """One place lies within a radius of another: a goal is reached.
@@ -209,6 +219,7 @@ class Within(Event):
         return np.linalg.norm(of - goal, axis=-1) <= self.radius
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class Leaves(Event):
     """A place lies farther than a radius from where it was at the first look: something has moved.
@@ -236,6 +247,7 @@ class Leaves(Event):
         return np.linalg.norm(looks.seen[view][..., :2] - looks.first[view][..., :2], axis=-1) > self.radius
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class All(Event):
     """All of some events hold at the same look.
@@ -264,6 +276,7 @@ class All(Event):
         return np.logical_and.reduce([looks.holds[name] for name in self.of])
 
 
+@EVENTS.register
 @dataclass(frozen=True)
 class AnyOf(All):
     """At least one of some events holds.

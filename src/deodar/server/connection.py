@@ -21,6 +21,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from deodar.errors import DeodarError
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
+from deodar.server.message import Message, union
 from deodar.server.project import Asks
 from deodar.server.to_page import (
     Answer,
@@ -32,10 +33,9 @@ from deodar.server.to_page import (
     Opened,
     Problem,
     Scene,
-    ToPage,
     Trouble,
 )
-from deodar.server.to_server import Drawn, ToServer
+from deodar.server.to_server import MESSAGES, Drawn
 
 MOST_ANSWERS = 64
 """Answers that may wait for a page; one that asks for more without reading is not listened to meanwhile."""
@@ -60,7 +60,7 @@ class Connection:
         self._known: dict[str, Any] = {}
         self._session, self._version = -1, -1
         self._malformed = 0
-        self._decoder = msgspec.json.Decoder(ToServer)
+        self._decoder = msgspec.json.Decoder(union(MESSAGES))
 
     async def run(self) -> None:
         """Until the page goes."""
@@ -187,9 +187,9 @@ class Connection:
             # the last shot held nothing for this page, and it is still waiting for one that does
             engine.want()
 
-    async def _news_of_state(self) -> list[ToPage]:
+    async def _news_of_state(self) -> list[Message]:
         project = self._hub.project
-        out: list[ToPage] = []
+        out: list[Message] = []
         now = project.session, project.version
         if (self._session, self._version) != now:
             changes = project.changes_since(self._session, self._version)
@@ -210,13 +210,13 @@ class Connection:
         return out if moved is None else [*out, moved]
 
     def _new(
-        self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[ToPage]
+        self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[Message]
     ) -> None:
         if self._known.get(what) != message:
             self._known[what] = message
             out.append(message)
 
-    async def _text(self, message: ToPage) -> None:
+    async def _text(self, message: Message) -> None:
         await self._socket.send_text(msgspec.json.encode(message).decode())
 
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import msgspec
 
-from deodar.server.to_page import ToPage
-from deodar.server.to_server import ToServer
+from deodar.server import to_page, to_server
+from deodar.server.message import union
 
 SCHEMA = Path(__file__).with_name("protocol.schema.json")
 TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
@@ -27,7 +27,8 @@ HEAD = (
 
 def schema() -> dict[str, Any]:
     """Both unions and everything in them."""
-    (server, page), defs = msgspec.json.schema_components([ToServer, ToPage], ref_template="#/$defs/{name}")
+    unions = [union(to_server.MESSAGES), union(to_page.MESSAGES)]
+    (server, page), defs = msgspec.json.schema_components(unions, ref_template="#/$defs/{name}")
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "deodar studio",

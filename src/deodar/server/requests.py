@@ -1,4 +1,4 @@
-"""What is done for each request of a page: one function for each message of `to_server`."""
+"""Handlers of requests: one function for each message of `to_server`, registered by `handles`."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import asyncio
 import math
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 import numpy as np
 
-from deodar.errors import DocumentError, ParameterError
+from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
 from deodar.live.engine import Hand
@@ -32,9 +32,29 @@ MOST_STREAMS = 2000
 """Streams that one page may watch."""
 
 Answers = list[Answer | Folder]
+R = TypeVar("R", bound=to_server.Request)
+Handler = Callable[[Hub, Page, R], Awaitable[Answer | Folder | None]]
+HANDLERS: dict[type[to_server.Request], Handler[Any]] = {}
+"""The handler of each message, registered where it is declared."""
 
 
-async def do(hub: Hub, page: Page, message: Any) -> Answers:
+def handles(kind: type[R]) -> Callable[[Handler[R]], Handler[R]]:
+    """Decorator of the function that does what a message asks for.
+
+    Raises:
+        ModelError: the message has a handler already.
+    """
+
+    def register(handler: Handler[R]) -> Handler[R]:
+        if kind in HANDLERS:
+            raise ModelError(f"the message {kind.__name__} has a handler already")
+        HANDLERS[kind] = handler
+        return handler
+
+    return register
+
+
+async def do(hub: Hub, page: Page, message: to_server.Request) -> Answers:
     """Do what is asked; the last of the answers ends the request.
 
     Requests that change the document are done one after the other.
@@ -44,8 +64,8 @@ async def do(hub: Hub, page: Page, message: Any) -> Answers:
     return await _done(hub, page, message)
 
 
-async def _done(hub: Hub, page: Page, message: Any) -> Answers:
-    done = await _DO[type(message)](hub, page, message)
+async def _done(hub: Hub, page: Page, message: to_server.Request) -> Answers:
+    done = await HANDLERS[type(message)](hub, page, message)
     if isinstance(done, Folder):
         return [done, Answer(request=message.request)]
     return [done or Answer(request=message.request)]
@@ -60,43 +80,52 @@ async def _change(hub: Hub, page: Page, message: to_server.DocumentRequest) -> A
 # ------------------------------------------------------------------------------------------------------ files
 
 
+@handles(to_server.OpenFile)
 async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
     imported = await hub.project.open_file(hub.workspace.inside(m.path), m.discard)
     return Answer(request=m.request, imported=imported)
 
 
+@handles(to_server.OpenExample)
 async def _open_example(hub: Hub, page: Page, m: to_server.OpenExample) -> None:
     path = gallery.example_file(m.name)
     await hub.project.open_copy(lambda: files.load(path), m.name, m.discard)
 
 
+@handles(to_server.OpenPackage)
 async def _open_package(hub: Hub, page: Page, m: to_server.OpenPackage) -> None:
     await hub.project.open_copy(lambda: content.read_package(m.content, m.name), m.name, m.discard)
 
 
+@handles(to_server.OpenText)
 async def _open_text(hub: Hub, page: Page, m: to_server.OpenText) -> Answer:
     imported = await hub.project.open_text(m.text, m.name, m.discard)
     return Answer(request=m.request, imported=imported)
 
 
+@handles(to_server.Recover)
 async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
     await hub.project.recover(m.name, m.discard)
 
 
+@handles(to_server.Forget)
 async def _forget(hub: Hub, page: Page, m: to_server.Forget) -> None:
     await aside(lambda: hub.keeper.forget(m.name), m.name)
     hub.project.touch()
 
 
+@handles(to_server.Close)
 async def _close(hub: Hub, page: Page, m: to_server.Close) -> None:
     await hub.project.close(m.discard)
 
 
+@handles(to_server.Save)
 async def _save(hub: Hub, page: Page, m: to_server.Save) -> Answer:
     path: Path = await hub.project.save(m.path, m.replace)
     return Answer(request=m.request, file=hub.workspace.shown(path))
 
 
+@handles(to_server.ListFolder)
 async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
     return await aside(lambda: hub.workspace.listed(m.request, m.path), m.path)
 
@@ -104,17 +133,20 @@ async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
 # ------------------------------------------------------------------------------------------------------ edits
 
 
+@handles(to_server.Set)
 async def _set(hub: Hub, page: Page, m: to_server.Set) -> Answer:
     gesture = (page.number, m.gesture) if m.gesture else None
     cost = await hub.project.set(m.element, m.parameter, m.value, gesture)
     return Answer(request=m.request, cost=cost)
 
 
+@handles(to_server.Describe)
 async def _describe(hub: Hub, page: Page, m: to_server.Describe) -> None:
     given = {key: value for key in ("name", "notes", "dt") if (value := getattr(m, key)) is not None}
     await hub.project.describe(given)
 
 
+@handles(to_server.AddKnob)
 async def _add_knob(hub: Hub, page: Page, m: to_server.AddKnob) -> None:
     def change(doc: edit.Document) -> edit.Document:
         if m.name in [k.name for k in doc.knobs]:
@@ -126,28 +158,34 @@ async def _add_knob(hub: Hub, page: Page, m: to_server.AddKnob) -> None:
     await hub.project.change(change)
 
 
+@handles(to_server.Link)
 async def _link(hub: Hub, page: Page, m: to_server.Link) -> None:
     await hub.project.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
 
 
+@handles(to_server.Unlink)
 async def _unlink(hub: Hub, page: Page, m: to_server.Unlink) -> None:
     await hub.project.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
 
 
+@handles(to_server.RemoveKnob)
 async def _remove_knob(hub: Hub, page: Page, m: to_server.RemoveKnob) -> None:
     await hub.project.change(lambda doc: edit.remove_knob(doc, m.name))
 
 
+@handles(to_server.Arrange)
 async def _arrange(hub: Hub, page: Page, m: to_server.Arrange) -> None:
     await hub.project.arrange(m.layout, m.undoable)
 
 
+@handles(to_server.ApplyPreset)
 async def _apply_preset(hub: Hub, page: Page, m: to_server.ApplyPreset) -> Answer:
     place = hub.workspace.inside(m.path)
     preset = await aside(lambda: content.load(hub.workspace, place), m.path)
     return await _take_over(hub, page, m.request, preset)
 
 
+@handles(to_server.ApplyPresetText)
 async def _apply_preset_text(hub: Hub, page: Page, m: to_server.ApplyPresetText) -> Answer:
     return await _take_over(hub, page, m.request, await asyncio.to_thread(content.read, m.text, m.name))
 
@@ -166,10 +204,12 @@ async def _take_over(hub: Hub, page: Page, request: int, preset: edit.Document) 
     return Answer(request=request, cost=cost, carried=len(lines) - len(unmatched), unmatched=unmatched)
 
 
+@handles(to_server.Undo)
 async def _undo(hub: Hub, page: Page, m: to_server.Undo) -> None:
     await hub.project.undo()
 
 
+@handles(to_server.Redo)
 async def _redo(hub: Hub, page: Page, m: to_server.Redo) -> None:
     await hub.project.redo()
 
@@ -181,38 +221,46 @@ async def _engine(hub: Hub, page: Page, function: Callable[[], Any]) -> None:
     await asyncio.wrap_future(hub.engine.call(function))
 
 
+@handles(to_server.Play)
 async def _play(hub: Hub, page: Page, m: to_server.Play) -> None:
     hub.project.require_run()
     await _engine(hub, page, lambda: hub.engine.play(True))
 
 
+@handles(to_server.Pause)
 async def _pause(hub: Hub, page: Page, m: to_server.Pause) -> None:
     await _engine(hub, page, lambda: hub.engine.play(False))
 
 
+@handles(to_server.Step)
 async def _step(hub: Hub, page: Page, m: to_server.Step) -> None:
     hub.project.require_run()
     await _engine(hub, page, lambda: hub.engine.step(m.n))
 
 
+@handles(to_server.Reset)
 async def _reset(hub: Hub, page: Page, m: to_server.Reset) -> None:
     await _engine(hub, page, lambda: hub.engine.reset(m.seed))
 
 
+@handles(to_server.Speed)
 async def _speed(hub: Hub, page: Page, m: to_server.Speed) -> None:
     await _engine(hub, page, lambda: hub.engine.pace.go(m.factor))
 
 
+@handles(to_server.Lengthen)
 async def _lengthen(hub: Hub, page: Page, m: to_server.Lengthen) -> None:
     hub.project.require_run()
     await _engine(hub, page, lambda: hub.engine.lengthen(m.longest))
 
 
+@handles(to_server.MeasureCosts)
 async def _measure_costs(hub: Hub, page: Page, m: to_server.MeasureCosts) -> None:
     hub.project.require_run()
     await _engine(hub, page, hub.engine.measure)
 
 
+@handles(to_server.Push)
 async def _push(hub: Hub, page: Page, m: to_server.Push) -> None:
     engine = hub.engine
     session = engine.session
@@ -227,6 +275,7 @@ async def _push(hub: Hub, page: Page, m: to_server.Push) -> None:
     await _engine(hub, page, lambda: engine.push(hand))
 
 
+@handles(to_server.Release)
 async def _release(hub: Hub, page: Page, m: to_server.Release) -> None:
     page.pushes = False
     await _engine(hub, page, lambda: hub.engine.push(None))
@@ -248,6 +297,7 @@ def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:
     return out
 
 
+@handles(to_server.UseWorld)
 async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
     place = hub.workspace.inside(m.path)
 
@@ -259,23 +309,28 @@ async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
     await hub.project.embody(world)
 
 
+@handles(to_server.UseWorldContent)
 async def _use_world_content(hub: Hub, page: Page, m: to_server.UseWorldContent) -> None:
     world = await asyncio.to_thread(hub.embodiment.open_content, m.kind, m.name, m.content)
     await hub.project.embody(world)
 
 
+@handles(to_server.WatchWorld)
 async def _watch_world(hub: Hub, page: Page, m: to_server.WatchWorld) -> None:
     page.follower = Follower() if m.on else None
 
 
+@handles(to_server.MoveThing)
 async def _move_thing(hub: Hub, page: Page, m: to_server.MoveThing) -> None:
     await _rearrange(hub, page, lambda session: session.move(m.name, (m.x, m.y)))
 
 
+@handles(to_server.PlaceThing)
 async def _place_thing(hub: Hub, page: Page, m: to_server.PlaceThing) -> None:
     await _rearrange(hub, page, lambda session: session.place(m.name, (m.x, m.y), (m.width, m.height)))
 
 
+@handles(to_server.RemoveThing)
 async def _remove_thing(hub: Hub, page: Page, m: to_server.RemoveThing) -> None:
     await _rearrange(hub, page, lambda session: session.remove(m.name))
 
@@ -288,12 +343,14 @@ async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> No
 # --------------------------------------------------------------------------------------------------- watching
 
 
+@handles(to_server.Watch)
 async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
     _require_room(hub, page, m.stream)
     page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most)
     hub.watch()
 
 
+@handles(to_server.Trace)
 async def _trace(hub: Hub, page: Page, m: to_server.Trace) -> None:
     _require_room(hub, page, m.stream)
     place = (m.element, m.port)
@@ -301,6 +358,7 @@ async def _trace(hub: Hub, page: Page, m: to_server.Trace) -> None:
     hub.watch()
 
 
+@handles(to_server.Unwatch)
 async def _unwatch(hub: Hub, page: Page, m: to_server.Unwatch) -> None:
     if page.streams.pop(m.stream, None) is not None:
         hub.watch()
@@ -309,45 +367,3 @@ async def _unwatch(hub: Hub, page: Page, m: to_server.Unwatch) -> None:
 def _require_room(hub: Hub, page: Page, stream: int) -> None:
     if stream not in page.streams and len(page.streams) >= MOST_STREAMS:
         raise ParameterError(f"a page watches at most {MOST_STREAMS} streams")
-
-
-_DO: dict[type[Any], Callable[[Hub, Page, Any], Awaitable[Any]]] = {
-    to_server.OpenFile: _open_file,
-    to_server.OpenExample: _open_example,
-    to_server.OpenText: _open_text,
-    to_server.OpenPackage: _open_package,
-    to_server.Recover: _recover,
-    to_server.Forget: _forget,
-    to_server.Close: _close,
-    to_server.Save: _save,
-    to_server.ListFolder: _list_folder,
-    to_server.Set: _set,
-    to_server.Describe: _describe,
-    to_server.AddKnob: _add_knob,
-    to_server.Link: _link,
-    to_server.Unlink: _unlink,
-    to_server.RemoveKnob: _remove_knob,
-    to_server.Arrange: _arrange,
-    to_server.ApplyPreset: _apply_preset,
-    to_server.ApplyPresetText: _apply_preset_text,
-    to_server.Undo: _undo,
-    to_server.Redo: _redo,
-    to_server.Play: _play,
-    to_server.Pause: _pause,
-    to_server.Step: _step,
-    to_server.Reset: _reset,
-    to_server.Speed: _speed,
-    to_server.Lengthen: _lengthen,
-    to_server.MeasureCosts: _measure_costs,
-    to_server.Push: _push,
-    to_server.Release: _release,
-    to_server.UseWorld: _use_world,
-    to_server.UseWorldContent: _use_world_content,
-    to_server.WatchWorld: _watch_world,
-    to_server.MoveThing: _move_thing,
-    to_server.PlaceThing: _place_thing,
-    to_server.RemoveThing: _remove_thing,
-    to_server.Watch: _watch,
-    to_server.Trace: _trace,
-    to_server.Unwatch: _unwatch,
-}

@@ -1,10 +1,14 @@
-"""What the server says to the page: one union, declared once."""
+"""The messages of the server to the page, each declared once."""
 
 from __future__ import annotations
 
 from typing import Any, Literal
 
+from deodar.family import Family
 from deodar.server.message import Data, Id, Message
+
+MESSAGES = Family(Message)
+"""Every message to the page, registered where it is declared."""
 
 
 class Problem(Data, frozen=True):
@@ -172,6 +176,7 @@ class Recovery(Data, frozen=True):
     when: str
 
 
+@MESSAGES.register
 class Welcome(Message, frozen=True, tag="welcome"):
     """First message on a connection: what there is, whatever is open."""
 
@@ -181,6 +186,7 @@ class Welcome(Message, frozen=True, tag="welcome"):
     examples: list[ExampleView]
 
 
+@MESSAGES.register
 class Gallery(Message, frozen=True, tag="gallery"):
     """What can be gone on with: documents opened before (below the root), unsaved edits."""
 
@@ -188,6 +194,7 @@ class Gallery(Message, frozen=True, tag="gallery"):
     recoveries: list[Recovery]
 
 
+@MESSAGES.register
 class Opened(Message, frozen=True, tag="opened"):
     """The whole document; None: none is open. `session` changes with each document that is opened."""
 
@@ -196,6 +203,7 @@ class Opened(Message, frozen=True, tag="opened"):
     document: DocumentView | None
 
 
+@MESSAGES.register
 class Trouble(Message, frozen=True, tag="trouble"):
     """The file that could not be opened, with every problem in it; an empty list: no trouble any more."""
 
@@ -203,6 +211,7 @@ class Trouble(Message, frozen=True, tag="trouble"):
     problems: list[Problem]
 
 
+@MESSAGES.register
 class Changed(Message, frozen=True, tag="changed"):
     """One parameter has another value; nothing else differs from the document of the version before."""
 
@@ -216,6 +225,7 @@ class Changed(Message, frozen=True, tag="changed"):
     redo: int
 
 
+@MESSAGES.register
 class Checked(Message, frozen=True, tag="checked"):
     """The problems and warnings of that version of the document, where single changes led to it; of a whole
     document it holds them itself.
@@ -225,6 +235,7 @@ class Checked(Message, frozen=True, tag="checked"):
     problems: list[Problem]
 
 
+@MESSAGES.register
 class Clock(Message, frozen=True, tag="clock"):
     """Where the run is. Sent after the frames of the same number, and whenever something changes.
 
@@ -273,6 +284,7 @@ class CostView(Data, frozen=True):
     once: bool
 
 
+@MESSAGES.register
 class Costs(Message, frozen=True, tag="costs"):
     """What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in
     microseconds, 0 before it was measured.
@@ -326,12 +338,14 @@ class SceneView(Data, frozen=True):
     marks: list[MarkView]
 
 
+@MESSAGES.register
 class Scene(Message, frozen=True, tag="scene"):
     """The world from above, whenever something in it was moved; None: there is nothing to see from above."""
 
     scene: SceneView | None
 
 
+@MESSAGES.register
 class Bodies(Message, frozen=True, tag="bodies"):
     """Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was
     known of it before is over.
@@ -342,6 +356,7 @@ class Bodies(Message, frozen=True, tag="bodies"):
     way: list[list[float]]
 
 
+@MESSAGES.register
 class Announced(Message, frozen=True, tag="announced"):
     """What a stream holds from now on: its shape, and the axes as they are thinned.
 
@@ -356,6 +371,7 @@ class Announced(Message, frozen=True, tag="announced"):
     channels: bool
 
 
+@MESSAGES.register
 class Lost(Message, frozen=True, tag="lost"):
     """A stream that gives nothing, and why: the element is gone, or the port cannot be read."""
 
@@ -363,6 +379,7 @@ class Lost(Message, frozen=True, tag="lost"):
     problem: Problem
 
 
+@MESSAGES.register
 class Folder(Message, frozen=True, tag="folder"):
     """What lies in a folder below the root."""
 
@@ -373,6 +390,7 @@ class Folder(Message, frozen=True, tag="folder"):
     pictures: list[str]
 
 
+@MESSAGES.register
 class Answer(Message, frozen=True, tag="answer"):
     """The end of a request; with problems, nothing was done.
 
@@ -392,21 +410,3 @@ class Answer(Message, frozen=True, tag="answer"):
     unmatched: list[str] = []
     imported: str = ""
     version: int = 0
-
-
-ToPage = (
-    Welcome
-    | Gallery
-    | Opened
-    | Trouble
-    | Changed
-    | Checked
-    | Clock
-    | Costs
-    | Scene
-    | Bodies
-    | Announced
-    | Lost
-    | Folder
-    | Answer
-)

@@ -1,4 +1,4 @@
-"""What the page may say to the server: one union, declared once."""
+"""The messages of the page to the server, each declared once."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
+from deodar.family import Family
 from deodar.server.message import Id, Message
 
 Text = Annotated[str, msgspec.Meta(max_length=4096)]
@@ -19,6 +20,10 @@ class Request(Message, frozen=True):
     request: Count = 0
 
 
+MESSAGES = Family(Request)
+"""Every message to the server, registered where it is declared."""
+
+
 class DocumentRequest(Request, frozen=True):
     """A request that changes which document is open or what it holds.
 
@@ -30,6 +35,7 @@ class DocumentRequest(Request, frozen=True):
     session: Count = 0
 
 
+@MESSAGES.register
 class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
     """Open a document below the root. `discard` allows to throw unsaved edits away."""
 
@@ -37,6 +43,7 @@ class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
     discard: bool = False
 
 
+@MESSAGES.register
 class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"):
     """Open one of the examples, as a document without a file."""
 
@@ -44,6 +51,7 @@ class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"
     discard: bool = False
 
 
+@MESSAGES.register
 class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
     """Open the content of a file that was dropped on the page, as a document without a file."""
 
@@ -52,6 +60,7 @@ class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
     discard: bool = False
 
 
+@MESSAGES.register
 class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"):
     """Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document
     without a file.
@@ -62,6 +71,7 @@ class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"
     discard: bool = False
 
 
+@MESSAGES.register
 class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
     """Open unsaved edits that were kept."""
 
@@ -69,18 +79,21 @@ class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
     discard: bool = False
 
 
+@MESSAGES.register
 class Forget(Request, frozen=True, kw_only=True, tag="forget"):
     """Throw unsaved edits away that were kept."""
 
     name: Text
 
 
+@MESSAGES.register
 class Close(DocumentRequest, frozen=True, kw_only=True, tag="close"):
     """Close the document and go to the gallery."""
 
     discard: bool = False
 
 
+@MESSAGES.register
 class Save(DocumentRequest, frozen=True, kw_only=True, tag="save"):
     """Write the document, to its own file where `path` is empty.
 
@@ -91,12 +104,14 @@ class Save(DocumentRequest, frozen=True, kw_only=True, tag="save"):
     replace: bool = False
 
 
+@MESSAGES.register
 class ListFolder(Request, frozen=True, kw_only=True, tag="list_folder"):
     """Ask for the documents and folders in a folder below the root; a `folder` follows."""
 
     path: Text = ""
 
 
+@MESSAGES.register
 class Set(DocumentRequest, frozen=True, kw_only=True, tag="set"):
     """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter
     of that name.
@@ -111,6 +126,7 @@ class Set(DocumentRequest, frozen=True, kw_only=True, tag="set"):
     gesture: Count = 0
 
 
+@MESSAGES.register
 class Describe(DocumentRequest, frozen=True, kw_only=True, tag="describe"):
     """Change general properties of the document; what is None stays."""
 
@@ -119,6 +135,7 @@ class Describe(DocumentRequest, frozen=True, kw_only=True, tag="describe"):
     dt: float | None = None
 
 
+@MESSAGES.register
 class AddKnob(DocumentRequest, frozen=True, kw_only=True, tag="add_knob"):
     """A new document parameter, at the value of the first parameter that it drives."""
 
@@ -127,6 +144,7 @@ class AddKnob(DocumentRequest, frozen=True, kw_only=True, tag="add_knob"):
     parameter: Text
 
 
+@MESSAGES.register
 class Link(DocumentRequest, frozen=True, kw_only=True, tag="link"):
     """Let a document parameter drive a parameter of an element."""
 
@@ -135,6 +153,7 @@ class Link(DocumentRequest, frozen=True, kw_only=True, tag="link"):
     parameter: Text
 
 
+@MESSAGES.register
 class Unlink(DocumentRequest, frozen=True, kw_only=True, tag="unlink"):
     """Let a parameter stand for itself again."""
 
@@ -142,12 +161,14 @@ class Unlink(DocumentRequest, frozen=True, kw_only=True, tag="unlink"):
     parameter: Text
 
 
+@MESSAGES.register
 class RemoveKnob(DocumentRequest, frozen=True, kw_only=True, tag="remove_knob"):
     """Take a document parameter away; what it drove keeps its value."""
 
     name: Text
 
 
+@MESSAGES.register
 class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
     """Change parts of the layout: each key given replaces that key of the document's layout, None takes it
     away.
@@ -157,6 +178,7 @@ class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
     undoable: bool = True
 
 
+@MESSAGES.register
 class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"):
     """Take over the values of another file below the root, by names and kinds, as one step of undo;
     connections stay. The answer lists what did not match.
@@ -165,6 +187,7 @@ class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"
     path: Text
 
 
+@MESSAGES.register
 class ApplyPresetText(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset_text"):
     """The same with the content of a file of the person's own."""
 
@@ -172,40 +195,48 @@ class ApplyPresetText(DocumentRequest, frozen=True, kw_only=True, tag="apply_pre
     text: str
 
 
+@MESSAGES.register
 class Undo(DocumentRequest, frozen=True, kw_only=True, tag="undo"):
     """Take the last change back."""
 
 
+@MESSAGES.register
 class Redo(DocumentRequest, frozen=True, kw_only=True, tag="redo"):
     """Make the change again that was taken back."""
 
 
+@MESSAGES.register
 class Play(Request, frozen=True, kw_only=True, tag="play"):
     """Run on."""
 
 
+@MESSAGES.register
 class Pause(Request, frozen=True, kw_only=True, tag="pause"):
     """Stand still."""
 
 
+@MESSAGES.register
 class Step(Request, frozen=True, kw_only=True, tag="step"):
     """So many Euler steps, then stand still."""
 
     n: Annotated[int, msgspec.Meta(ge=1, le=1_000_000)] = 1
 
 
+@MESSAGES.register
 class Reset(Request, frozen=True, kw_only=True, tag="reset"):
     """State, time and noise back to the start; with a seed, another one from then on. Parameters stay."""
 
     seed: Seed | None = None
 
 
+@MESSAGES.register
 class Speed(Request, frozen=True, kw_only=True, tag="speed"):
     """Document time in relation to the clock on the wall: 1 is real time, None as fast as possible."""
 
     factor: Annotated[float, msgspec.Meta(gt=0, le=1e6)] | None
 
 
+@MESSAGES.register
 class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
     """Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run
     falls behind.
@@ -214,12 +245,14 @@ class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
     longest: Annotated[float, msgspec.Meta(gt=0)] | None
 
 
+@MESSAGES.register
 class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
     """Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is
     done.
     """
 
 
+@MESSAGES.register
 class Push(Request, frozen=True, kw_only=True, tag="push"):
     """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the
     same where it is None.
@@ -231,10 +264,12 @@ class Push(Request, frozen=True, kw_only=True, tag="push"):
     sigma: list[float] | None = None
 
 
+@MESSAGES.register
 class Release(Request, frozen=True, kw_only=True, tag="release"):
     """End of `push`."""
 
 
+@MESSAGES.register
 class UseWorld(DocumentRequest, frozen=True, kw_only=True, tag="use_world"):
     """Let the sensors read a world of that kind, opened with a file below the root."""
 
@@ -242,6 +277,7 @@ class UseWorld(DocumentRequest, frozen=True, kw_only=True, tag="use_world"):
     path: Text
 
 
+@MESSAGES.register
 class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world_content"):
     """Let the sensors read a world made of the content (base64) of a file that was dropped on the page."""
 
@@ -250,12 +286,14 @@ class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world
     content: str
 
 
+@MESSAGES.register
 class WatchWorld(Request, frozen=True, kw_only=True, tag="watch_world"):
     """Send `bodies` from now on, or no longer."""
 
     on: bool
 
 
+@MESSAGES.register
 class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
     """Put a thing or a mark of the world elsewhere: x and y of its middle."""
 
@@ -264,6 +302,7 @@ class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
     y: float
 
 
+@MESSAGES.register
 class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
     """Put a new thing into the world: its middle and its size."""
 
@@ -274,12 +313,14 @@ class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
     height: float
 
 
+@MESSAGES.register
 class RemoveThing(Request, frozen=True, kw_only=True, tag="remove_thing"):
     """Take a thing out of the world."""
 
     name: Text
 
 
+@MESSAGES.register
 class Watch(Request, frozen=True, kw_only=True, tag="watch"):
     """Send a port of an element as frames under a number of the page's choice, thinned to at most `most`
     samples along each axis (0: all).
@@ -291,6 +332,7 @@ class Watch(Request, frozen=True, kw_only=True, tag="watch"):
     most: Count = 0
 
 
+@MESSAGES.register
 class Trace(Request, frozen=True, kw_only=True, tag="trace"):
     """Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its
     mean.
@@ -303,56 +345,15 @@ class Trace(Request, frozen=True, kw_only=True, tag="trace"):
     at: list[float] = []
 
 
+@MESSAGES.register
 class Unwatch(Request, frozen=True, kw_only=True, tag="unwatch"):
     """End a stream."""
 
     stream: Count
 
 
+@MESSAGES.register
 class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
     """The page has taken in the frames up to the clock of this number; only then the next ones are sent."""
 
     frame: Count
-
-
-ToServer = (
-    OpenFile
-    | OpenExample
-    | OpenText
-    | OpenPackage
-    | Recover
-    | Forget
-    | Close
-    | Save
-    | ListFolder
-    | Set
-    | Describe
-    | AddKnob
-    | Link
-    | Unlink
-    | RemoveKnob
-    | Arrange
-    | ApplyPreset
-    | ApplyPresetText
-    | Undo
-    | Redo
-    | Play
-    | Pause
-    | Step
-    | Reset
-    | Speed
-    | Lengthen
-    | MeasureCosts
-    | Push
-    | Release
-    | UseWorld
-    | UseWorldContent
-    | WatchWorld
-    | MoveThing
-    | PlaceThing
-    | RemoveThing
-    | Watch
-    | Trace
-    | Unwatch
-    | Drawn
-)
