@@ -77,6 +77,7 @@ CLASSES = [
         "PureWorld",
         "Signal",
         "Setting",
+        "Convolution",
         "Time",
         "Action",
         "Event",

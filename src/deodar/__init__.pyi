@@ -67,6 +67,7 @@ from deodar.declarations import Rebuild as Rebuild
 from deodar.declarations import Recompile as Recompile
 from deodar.declarations import needed as needed
 from deodar.element import Arrays as Arrays
+from deodar.element import Convolution as Convolution
 from deodar.element import Coupling as Coupling
 from deodar.element import Element as Element
 from deodar.element import Setting as Setting

@@ -16,31 +16,23 @@ The laws that an element may rely on:
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal, Self
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
+from deodar import renamed
 from deodar.errors import ModelError
 from deodar.numerics.axes import Axes, Axis, shape
-from deodar.numerics.choice import Choice
 from deodar.numerics.exact import Exact, exact, split, wide
 from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.signs import Sign
-from deodar.numerics.waves import Waves
 from deodar.parameters import Part, Recompile
 
 Arrays = dict[str, Any]
-WAVES = "~"
-"""Ends the name of a port that holds as waves what the port without it holds; of an input, only what comes as
-waves.
-"""
-
-REST = "-"
-"""Ends the name of a port that holds what does not come as waves."""
 
 
 @dc.dataclass(frozen=True)
@@ -113,28 +105,51 @@ class Time:
 
 
 @dc.dataclass(frozen=True)
+class Convolution:
+    """Declares what an element convolves with its `kernels`, by `Setting.convolve`, and where the integral
+    goes.
+
+    A class that overrides `output` or `advance` restates the declaration. Without it `Setting.convolve` works
+    too, but the compiler does not rearrange sums around the class.
+
+    Attributes:
+        of: port that is convolved: an input, or the output that the dynamics read.
+        into: an output that is the integral and nothing else, or an input to which `advance` adds the
+            integral and which it does not use otherwise.
+    """
+
+    of: str
+    into: str
+
+
+def _undeclared(y: Any) -> Any:
+    raise ModelError(
+        "an element calls `at.convolve` and declares no convolution, or calls it outside of `output` and"
+        " `advance`",
+        fix='Declare it in the class: convolution: ClassVar = dd.Convolution("output", into="input")',
+    )
+
+
+@dc.dataclass(frozen=True)
 class Setting:
-    """Where an element stands: the axes at its ports, the precision of the model, and how it applies its
-    kernels.
+    """Where an element stands: the axes at its ports, the precision of the model, and its convolution.
 
     Attributes:
         ins, outs: axes of the ports.
         dtype: working precision.
-        choices: for each kind of boundaries how kernels are applied, where not by matrices.
-        shared: the kind of boundaries whose waves it shares with others (it then has ports ending in `WAVES`
-            and `REST`), or "".
+        convolve: function of an array over the axes of the port that `Element.convolution` declares: the
+            integral of the kernels times it, over the same axes. In `output` and `advance` only.
     """
 
     ins: Mapping[str, Axes]
     outs: Mapping[str, Axes]
     dtype: Any
-    choices: Mapping[str, Choice] = dc.field(default_factory=dict)
-    shared: str = ""
+    convolve: Callable[[Any], Any] = _undeclared
 
-    @property
-    def waves(self) -> Sequence[Waves]:
-        """The waves that are shared."""
-        return self.choices[self.shared].waves
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise renamed.no_member(self, name)
 
     def full(self, axes: Axes, value: Any) -> Any:
         """An array over the axes, filled with one value."""
@@ -166,12 +181,10 @@ class Element(Part):
         direct: for each output port that passes inputs on in the same instant, which; ports not named show
             the state.
         stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
-        sees_output: whether `advance` finds what the port `output` showed in the same step among its inputs
-            (inside a program).
+        reads_own_output: output ports that `advance` finds among its inputs, as they were in the same step.
         linear: whether the default output is linear in the one input.
-        sharing: how its `input` and `output` take part where couplings are added up as waves: they are the
-            `ends` of it (what comes as waves is taken back, and what goes is also given as waves), it
-            `filters` (a kernel is applied to waves too), or it `scales`.
+        convolution: what it convolves with its `kernels`, and where the integral goes; None: nothing.
+        scaled_by: the parameter by which `output` is a multiple of `input`; "" where it is no multiple.
         levels: for a port, the parameters that are levels on its scale, by what they are called: drawn as
             lines in plots.
     """
@@ -181,10 +194,17 @@ class Element(Part):
     inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     stateful: ClassVar[bool] = False
-    sees_output: ClassVar[bool] = False
+    reads_own_output: ClassVar[tuple[str, ...]] = ()
     linear: ClassVar[bool] = False
-    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = ""
+    convolution: ClassVar[Convolution | None] = None
+    scaled_by: ClassVar[str] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        for name in vars(cls):
+            if hint := renamed.fix(f"dd.Element.{name}"):
+                raise ModelError(f"{cls.__name__} sets {name!r}, which elements no longer have", fix=hint)
 
     def __rshift__(self, other: object) -> Any:
         raise ModelError(
@@ -255,7 +275,7 @@ class Element(Part):
         return {}
 
     def kernels(self) -> Sequence[Kernel]:
-        """The kernels it convolves with, whose way of being applied is chosen before it is compiled."""
+        """The kernels that `Setting.convolve` applies, summed."""
         return ()
 
     # -------------------------------------------------------------------------------------------- in pictures

@@ -16,10 +16,15 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 RENAMED = {
+    "dd.Element.sees_output": "dd.Element.reads_own_output",
+    "dd.Element.sharing": "dd.Element.convolution",
     "dd.Model.add(every=...)": "dd.Model.add(ticks=...)",
     "dd.Model.change": "dd.Model.set",
     "dd.Model.every": "dd.Model.set_ticks",
     "dd.MovingGaussian(path=...)": "dd.MovingGaussian(waypoints=...)",
+    "dd.Setting.choices": "dd.Setting.convolve",
+    "dd.Setting.shared": "dd.Setting.convolve",
+    "dd.Setting.waves": "dd.Setting.convolve",
     "dd.animate_path(every=...)": "dd.animate_path(stride=...)",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",

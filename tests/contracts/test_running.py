@@ -8,6 +8,7 @@ import jax
 import numpy as np
 import pytest
 
+from deodar.compiler.functions import Functions, Step
 from deodar.element import Setting, Time
 from deodar.leaves import leaves
 from deodar.model import find
@@ -59,24 +60,27 @@ def test_every_port_can_be_read_and_has_the_axes_it_declares(kind):
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
 def test_one_copy_gives_just_what_it_declares(kind, precision):
-    """The element's own functions, without the compiler: shapes and precision of outputs and of the state."""
+    """The element's own functions, outside a program: shapes and precision of outputs and of the state."""
     element = any_example(kind)
     here = node(around(element))
     at = Setting(here.ins, here.outs, np.dtype(precision))
     with jax.enable_x64(precision == "float64"):
         zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
         zeros["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
+        zeros |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
         noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
         time = Time.at(0.0, 1.0, at.dtype)
         state = element.init(at)
-        constants = element.settle(at, element.prepare(at))
-        out = jax.eval_shape(lambda: element.output(at, state, zeros, constants, time, noise))
+        functions = Functions(here, {})
+        constants = functions.settle(element, at, functions.prepare(element, at))
+        read = Step(state, zeros, constants, noise)
+        out = jax.eval_shape(lambda: functions.output(element, at, read, time))
         assert {port: np.shape(v) for port, v in out.items()} == {
             port: shape(axes) for port, axes in here.outs.items()
         }
         assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(here.outs, at.dtype)
         assert element.stateful == bool(state)
-        new = jax.eval_shape(lambda: element.advance(at, state, zeros, constants, time, noise))
+        new = jax.eval_shape(lambda: functions.advance(element, at, read, time))
         assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {
             k: (np.shape(v), v.dtype) for k, v in state.items()
         }

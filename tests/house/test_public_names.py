@@ -4,6 +4,7 @@ names say.
 
 from __future__ import annotations
 
+import functools
 import inspect
 import json
 import subprocess
@@ -124,7 +125,10 @@ def test_a_renamed_name_of_the_root_says_the_new_one(monkeypatch: pytest.MonkeyP
         deodar.Feild  # noqa: B018
 
 
-CALLS: dict[str, Callable[[], object]] = {}
+CALLS: dict[str, Callable[[], object]] = {
+    f"dd.Element.{name}": functools.partial(type, "Late", (deodar.Element,), {name: True})
+    for name in ("sees_output", "sharing")
+}
 """For each old name that is an argument with a certain value, or a call that needs more than its name: the
 call that raises.
 """

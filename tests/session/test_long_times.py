@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler.functions import Functions, Step
 from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.reward_gate import RewardGate
 from deodar.element import Element, Setting, Time
@@ -224,13 +225,15 @@ def reads_time(kind: str) -> bool:
     at = Setting(here.ins, here.outs, np.dtype("float32"))
     inputs = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
     inputs["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
+    inputs |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
     noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
     time = Watched.at(0.0, 1.0, at.dtype)
 
     def step() -> object:
-        state, constants = element.init(at), element.settle(at, element.prepare(at))
-        shown = element.output(at, state, inputs, constants, time, noise)
-        return shown, element.advance(at, state, inputs, constants, time, noise) if state else {}
+        state, functions = element.init(at), Functions(here, {})
+        constants = functions.settle(element, at, functions.prepare(element, at))
+        read = Step(state, inputs, constants, noise)
+        return functions.output(element, at, read, time), functions.advance(element, at, read, time)
 
     Watched.read.clear()
     jax.eval_shape(step)

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.compiler.ways import EXACT, Way, shared, ways
+from deodar.compiler.sharing import shared
+from deodar.compiler.ways import EXACT, Way, ways
 from deodar.elements.sensor import Sensor
 from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure

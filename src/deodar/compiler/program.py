@@ -18,7 +18,9 @@ import numpy as np
 from jax import Array, lax
 
 from deodar.compiler.body import Body
+from deodar.compiler.functions import Step
 from deodar.compiler.plan import Call, Group, Plan, Read
+from deodar.compiler.sharing import functions, plain_ports
 from deodar.element import Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
@@ -92,9 +94,9 @@ class Program:
         self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
         self.settings = [
-            Setting(g.like.ins, g.like.outs, self.dtype, dict(g.way.choices), g.way.shared)
-            for g in plan.groups
+            Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
+        self.functions = [functions(g.like, g.way) for g in plan.groups]
 
     # --------------------------------------------------------------------------------------- prepare and init
 
@@ -121,7 +123,7 @@ class Program:
     def settle(self, values: Tree, constants: Tree) -> list[Any]:
         """What groups make of their constants and of live parameters once a chunk."""
         return [
-            self._each(g, lambda e, at, c: e.settle(at, c), values, constants[g])
+            self._each(g, self.functions[g].settle, values, constants[g])
             for g in range(len(self.plan.groups))
         ]
 
@@ -170,8 +172,8 @@ class Program:
                 self._output(call, buffers, values, constants, shown, keys, sensed, time, tick)
             else:
                 inputs = self._inputs(call.group, buffers)
-                if group.like.element.sees_output:
-                    inputs["output"] = buffers[call.group, "output", 0]
+                for port in group.like.element.reads_own_output:
+                    inputs[port] = buffers[call.group, port, 0]
 
                 def run(g: int = call.group, inputs: Any = inputs, time: Time = time) -> Any:
                     noise = drawn[str(g)] if str(g) in drawn else self._noise(g, keys, tick)
@@ -233,7 +235,7 @@ class Program:
     # ---------------------------------------------------------------------------------------------- one group
 
     def _prepared(self, g: int, values: Tree) -> Any:
-        return self._each(g, lambda e, at: e.prepare(at), values, only="rebuild")
+        return self._each(g, self.functions[g].prepare, values, only="rebuild")
 
     def _output(
         self,
@@ -256,12 +258,9 @@ class Program:
         noise = None if group.like.element.stateful else self._noise(g, keys, tick)
         out = self._each(
             g,
-            lambda e, at, s, x, c, z: e.output(at, s, x, c, time, z),
+            lambda e, at, read: self.functions[g].output(e, at, read, time),
             values,
-            shown,
-            inputs,
-            constants[g],
-            noise,
+            Step(shown, inputs, constants[g], noise),
         )
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
@@ -273,12 +272,9 @@ class Program:
     ) -> Any:
         new = self._each(
             g,
-            lambda e, at, s, x, c, z: e.advance(at, s, x, c, time, z),
+            lambda e, at, read: self.functions[g].advance(e, at, read, time),
             values,
-            state,
-            inputs,
-            constants[g],
-            noise,
+            Step(state, inputs, constants[g], noise),
         )
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, state)
 

@@ -3,20 +3,22 @@
 A convolution is cheap between transforms. Where fields of the same axes are coupled by Gaussian kernels, each
 field is therefore transformed once, all kernels are applied to its waves, what arrives at a field is added up
 as waves, and there is one way back. `ways` decides, before anything is compiled, by the costs of
-`numerics.choice`; `shared` rewrites the nodes: ports whose names end in `WAVES` hold what travels so.
+`numerics.choice` and by what elements declare of their equations (`role`); `sharing` does it.
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
-from deodar.element import REST, WAVES
+from deodar.compiler.functions import convolved_axes
+from deodar.element import Element
 from deodar.leaves import structure
 from deodar.model.document import Document
-from deodar.model.resolve import Node, Slot
+from deodar.model.resolve import Node
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
 from deodar.numerics.choice import Choice, by_matrices, together
@@ -39,8 +41,42 @@ EXACT = Way()
 WORTH = 1.1
 """How much more a step may cost for a program with fewer groups: it compiles sooner."""
 
+Part = Literal["", "source", "filter", "gain"]
+
 Circle = tuple[list[Node], str, Choice]
 """Nodes, the kind of boundaries, and the waves that they share."""
+
+
+def role(n: Node) -> Part:
+    """How an element can take part in a sum in Fourier space, from what it declares: as a `source` of waves
+    whose dynamics take others in, as a `filter`, or as a `gain`.
+    """
+    return _role(type(n.element))
+
+
+@functools.cache
+def _role(cls: type[Element]) -> Part:
+    """The facts of a class are those of its functions: one that overrides a function declares them anew."""
+    convolution = cls.convolution if _holds(cls, "convolution") else None
+    if convolution is None:
+        return "gain" if cls.scaled_by and _holds(cls, "scaled_by") else ""
+    if (convolution.of, convolution.into) == ("output", "input") and cls.stateful:
+        return "source"
+    return "filter" if (convolution.of, convolution.into) == ("input", "output") and not cls.stateful else ""
+
+
+def _holds(cls: type[Element], fact: str) -> bool:
+    for base in cls.__mro__:
+        if fact in vars(base):
+            return True
+        if not {"output", "advance"}.isdisjoint(vars(base)):
+            return False
+    return False
+
+
+def acted_axes(n: Node) -> Axes:
+    """The axes over which an element convolves or scales."""
+    return convolved_axes(n) or (n.outs["output"] if role(n) else ())
 
 
 def widths(doc: Document) -> dict[str, Any]:
@@ -63,77 +99,14 @@ def ways(
         own = (
             {}
             if n.id in exact
-            else interaction.choices(n.element.kernels(), _axes(n), copies * alike[_likeness(n)])
+            else interaction.choices(n.element.kernels(), acted_axes(n), copies * alike[_likeness(n)])
         )
         out[n.id] = Way(_sorted(own))
-    free = [n for n in nodes if n.element.sharing and not still[n.id] and n.id not in exact and _axes(n)]
+    free = [n for n in nodes if role(n) and not still[n.id] and n.id not in exact and acted_axes(n)]
     for members, key, choice in _merged(list(_circles(free, out, copies)), free, out, copies):
         for n in members:
             out[n.id] = Way(_sorted({**dict(out[n.id].choices), key: choice}), key)
     return out
-
-
-def shared(nodes: Sequence[Node], found: dict[str, Way]) -> list[Node]:
-    """The nodes, with the second parts of ports where they share waves.
-
-    What cannot share after all takes back its choice in `found`.
-    """
-    by = {n.id: n for n in nodes}
-    smooth: set[str] = set()
-    """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it.
-    """
-    for n in _upstream_first([n for n in nodes if found[n.id].shared and n.element.sharing != "ends"]):
-        if n.element.sharing == "filters" or (
-            n.reads["input"] and all(s[0] in smooth and _joined(by[s[0]], n, found) for s in n.reads["input"])
-        ):
-            smooth.add(n.id)
-        else:
-            found[n.id] = EXACT
-    return [_with_waves(n, by, found, smooth) if found[n.id].shared else n for n in nodes]
-
-
-def _with_waves(n: Node, by: Mapping[str, Node], found: Mapping[str, Way], smooth: Collection[str]) -> Node:
-    way = found[n.id]
-    waves = tuple(w.axis(a) for w, a in zip(dict(way.choices)[way.shared].waves, _axes(n), strict=True))
-    through = n.element.sharing == "filters"
-
-    def comes(slot: Slot) -> bool:
-        source = by[slot[0]]
-        if slot[1] != "output" or not _joined(source, n, found):
-            return False
-        if source.element.sharing == "ends":
-            return through
-        # beyond a border there is nothing; as waves what a kernel has spread over it would still be there for
-        # the next
-        return slot[0] in smooth and not (through and "zero" in way.shared)
-
-    arriving = [slot for slot in n.reads["input"] if comes(slot)]
-    staying = [slot for slot in n.reads["input"] if not comes(slot)]
-    reads = n.reads | {
-        "input" + REST: staying,
-        "input" + WAVES: [(i, port + WAVES, instant) for i, port, instant in arriving],
-    }
-    if n.element.sharing == "ends":
-        reads["output" + WAVES] = [
-            (n.id, "output" + WAVES, 0)
-        ]  # its own, for its lateral interaction: transformed once
-    return dc.replace(
-        n,
-        ins=n.ins | {"input" + REST: n.ins["input"], "input" + WAVES: waves},
-        outs=n.outs | {"output" + WAVES: waves},
-        reads=reads,
-    )
-
-
-def _joined(a: Node, b: Node, found: Mapping[str, Way]) -> bool:
-    """Whether both share the same waves."""
-    one, other = found[a.id], found[b.id]
-    same = (
-        bool(one.shared)
-        and one.shared == other.shared
-        and dict(one.choices)[one.shared] == dict(other.choices)[other.shared]
-    )
-    return same and a.every == b.every and _axes(a) == _axes(b)
 
 
 def _merged(
@@ -145,13 +118,13 @@ def _merged(
     places: dict[Any, list[Circle]] = {}
     for circle in circles:
         first = circle[0][0]
-        places.setdefault((_axes(first), first.every, circle[1]), []).append(circle)
+        places.setdefault((acted_axes(first), first.every, circle[1]), []).append(circle)
     for (axes, every, key), found in places.items():
         inside = {n.id for members, _, _ in found for n in members}
         beside = [
             n
             for n in free
-            if n.element.sharing == "ends" and n.id not in inside and (_axes(n), n.every) == (axes, every)
+            if role(n) == "source" and n.id not in inside and (acted_axes(n), n.every) == (axes, every)
         ]
         beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "way", "") == "waves"]
         everyone = [n for n in free if n.id in inside | {n.id for n in beside}]
@@ -170,7 +143,7 @@ def _circles(free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Ite
     them than each on its own.
     """
     by = {n.id: n for n in free}
-    keys = {n.id: _key(n) for n in free if n.element.sharing == "filters"}
+    keys = {n.id: _key(n) for n in free if role(n) == "filter"}
     readers: dict[str, list[str]] = {}
     for n in free:
         for slot in n.reads["input"]:
@@ -190,21 +163,19 @@ def _circles(free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Ite
         taken |= members
         found = [n for n in free if n.id in members]
         choice = _waves_of(found, key, copies)
-        apart = sum(_alone(n, key, alone, _axes(n), copies) for n in found if n.element.sharing != "scales")
-        if any(n.element.sharing == "ends" for n in found) and _shared_cost(found, key, choice) < apart:
+        apart = sum(_alone(n, key, alone, acted_axes(n), copies) for n in found if role(n) != "gain")
+        if any(role(n) == "source" for n in found) and _shared_cost(found, key, choice) < apart:
             yield found, key, choice
 
 
 def _linked(a: Node, b: Node) -> bool:
     """Whether two neighbours could share waves: not two fields without a kernel between them."""
-    return (
-        _axes(a) == _axes(b) and a.every == b.every and not a.element.sharing == b.element.sharing == "ends"
-    )
+    return acted_axes(a) == acted_axes(b) and a.every == b.every and not role(a) == role(b) == "source"
 
 
 def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
     """The waves that carry all kernels of these nodes."""
-    axes = _axes(members[0])
+    axes = acted_axes(members[0])
     terms = [span for n in members for span in interaction.spans(n.element.kernels(), axes).get(key, ())]
     return together(axes, tuple(key.split()), interaction.covering(terms), copies * len(members))
 
@@ -213,11 +184,11 @@ def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:
     """What they cost together: half of a transform for each field whose output is wanted as waves, half for
     each way back.
     """
-    axes = _axes(members[0])
-    there = {s[0] for n in members if n.element.sharing == "filters" for s in n.reads["input"]}
+    axes = acted_axes(members[0])
+    there = {s[0] for n in members if role(n) == "filter" for s in n.reads["input"]}
     total = 0.0
     for n in members:
-        if n.element.sharing == "ends":
+        if role(n) == "source":
             lateral = key in interaction.spans(n.element.kernels(), axes)
             total += choice.nanoseconds * (0.5 * (lateral or n.id in there) + 0.5)
     return total
@@ -238,18 +209,9 @@ def _sorted(choices: Mapping[str, Choice]) -> tuple[tuple[str, Choice], ...]:
 def _key(n: Node) -> str:
     """The one kind of boundaries of kernels that are Gaussians, or ""."""
     kernels = n.element.kernels()
-    keys = {interaction.boundaries(k, _axes(n)) if k.widths() else "" for k in kernels}
+    keys = {interaction.boundaries(k, acted_axes(n)) if k.widths() else "" for k in kernels}
     return keys.pop() if len(keys) == 1 else ""
 
 
-def _axes(n: Node) -> Axes:
-    """The axes over which an element convolves."""
-    return n.outs["output"] if n.element.sharing else ()
-
-
 def _likeness(n: Node) -> Any:
-    return (n.every, structure(n.element), _axes(n)) if n.element.kernels() else n.id
-
-
-def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
-    return sorted(nodes, key=lambda n: (n.level, n.id))
+    return (n.every, structure(n.element), acted_axes(n)) if n.element.kernels() else n.id

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
-from deodar.element import REST, WAVES, Arrays, Coupling, Setting, Time
-from deodar.numerics import interaction
+from deodar.element import Arrays, Convolution, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times, total
 from deodar.numerics.kernels._base import Kernel
@@ -39,7 +38,7 @@ class Convolve(Coupling):
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
 
     linear: ClassVar[bool] = True
-    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "filters"
+    convolution: ClassVar[Convolution | None] = Convolution("input", into="output")
 
     def polarity(self) -> Sign:
         return together(k.polarity() for k in self.kernel)
@@ -60,20 +59,7 @@ class Convolve(Coupling):
             "output": total(*(times((0.0, k[1]), x) for k in parts), *(times((k[0], 0.0), x) for k in parts))
         }
 
-    def prepare(self, at: Setting) -> Any:
-        return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype, at.choices)}
-
-    def settle(self, at: Setting, constants: Any) -> Any:
-        return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
-
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
-        if not at.shared:
-            return {
-                "output": interaction.apply(constants["kernel"], at.ins["input"], inputs["input"], at.choices)
-            }
-        waves = constants["kernel"]["waves"][at.shared] * (
-            inputs["input" + WAVES] + interaction.to_waves(at.waves, inputs["input" + REST])
-        )
-        return {"output": interaction.from_waves(at.waves, waves), "output" + WAVES: waves}
+        return {"output": at.convolve(inputs["input"])}

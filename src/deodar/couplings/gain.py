@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
-from deodar.element import WAVES, Arrays, Coupling, Setting, Time
-from deodar.numerics import interaction
+from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times
 from deodar.numerics.signs import Sign, sign_of
@@ -37,7 +36,7 @@ class Gain(Coupling):
     factor: Annotated[float, Live(meaning="strength")] = 1.0
 
     linear: ClassVar[bool] = True
-    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "scales"
+    scaled_by: ClassVar[str] = "factor"
 
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
@@ -50,7 +49,4 @@ class Gain(Coupling):
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
-        if not at.shared:
-            return {"output": self.factor * inputs["input"]}
-        waves = self.factor * inputs["input" + WAVES]
-        return {"output": interaction.from_waves(at.waves, waves), "output" + WAVES: waves}
+        return {"output": self.factor * inputs["input"]}

@@ -105,7 +105,7 @@ class Hebbian(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate")
     stateful: ClassVar[bool] = True
-    sees_output: ClassVar[bool] = True
+    reads_own_output: ClassVar[tuple[str, ...]] = ("output",)
 
     def polarity(self) -> Sign:
         return sign_of(self.initial, self.start)
@@ -156,8 +156,7 @@ class Hebbian(Coupling):
     ) -> Arrays:
         w, pre = state["weights"], shape(at.ins["input"])
         step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)
-        if "output" in inputs:
-            step = plasticity.after(step, inputs["output"])
+        step = plasticity.after(step, inputs["output"])
         most = jnp.where(self.saturation > 0, self.saturation, jnp.inf).astype(at.dtype)
         x, z = self._active(inputs["input"]), self._active(inputs["post"])
         new = plasticity.learn(

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
-from deodar.element import REST, WAVES, Arrays, Element, Setting, Time
+from deodar.element import Arrays, Convolution, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
-from deodar.numerics import interaction, quadrature
 from deodar.numerics import noise as noises
+from deodar.numerics import quadrature
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.intervals import Interval, hull, signed, times, total
@@ -85,7 +85,7 @@ class Field(Element):
     ] = "point"
 
     stateful: ClassVar[bool] = True
-    sharing: ClassVar[Literal["", "ends", "filters", "scales"]] = "ends"
+    convolution: ClassVar[Convolution | None] = Convolution("output", into="input")
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
         "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}
     }
@@ -165,29 +165,24 @@ class Field(Element):
         return {"activation": at.full(tuple(self.axes), self.resting_level)}
 
     def prepare(self, at: Setting) -> Any:
+        if is_neutral(self.noise_length):
+            return {}
         axes = tuple(self.axes)
-        constants: dict[str, Any] = {"kernel": interaction.prepare(self.kernel, axes, at.dtype, at.choices)}
-        if not is_neutral(self.noise_length):
-            constants["noise"] = noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)
-        return constants
-
-    def settle(self, at: Setting, constants: Any) -> Any:
-        return constants | {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
+        return {"noise": noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)}
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
         u = state["activation"]
         g = self._output(u)
-        shown = {"output": g, "activation": u, "interaction": self._interaction(at, g, constants)}
-        return shown | ({"output" + WAVES: interaction.to_waves(at.waves, g)} if at.shared else {})
+        return {"output": g, "activation": u, "interaction": self._interaction(at, g)}
 
     def advance(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
-        u, h, s = state["activation"], self.resting_level, inputs["input" + REST if at.shared else "input"]
-        rate = -u + h + s + self._interaction(at, self._output(u), constants, inputs)
-        return {"activation": euler(u, rate, self.tau, time.dt, self._noise(noise, constants))}
+        u, h, s = state["activation"], self.resting_level, inputs["input"]
+        change = -u + h + s + self._interaction(at, self._output(u))
+        return {"activation": euler(u, change, self.tau, time.dt, self._noise(noise, constants))}
 
     def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
@@ -199,13 +194,9 @@ class Field(Element):
             else self.sigmoid(u)
         )
 
-    def _interaction(self, at: Setting, g: Any, constants: Any, inputs: Arrays | None = None) -> Any:
-        axes = tuple(self.axes)
-        inhibition = self.global_inhibition * cell(axes) * jnp.sum(g)
-        own, arriving = ((inputs or {}).get(port + WAVES) for port in ("output", "input"))
-        return (
-            interaction.apply(constants["kernel"], axes, g, at.choices, at.shared, own, arriving) - inhibition
-        )
+    def _interaction(self, at: Setting, g: Any) -> Any:
+        inhibition = self.global_inhibition * cell(tuple(self.axes)) * jnp.sum(g)
+        return at.convolve(g) - inhibition
 
     def _noise(self, deviates: Any, constants: Any) -> Any:
         if deviates is None:

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from deodar.couplings.delay import Delay
 from deodar.couplings.project import Project
-from deodar.element import REST, WAVES, Element
+from deodar.element import Element
 from deodar.errors import Problem
 from deodar.leaves import leaves
 from deodar.model.document import Connection, Document, Entry
@@ -45,12 +45,7 @@ class Node:
 
     def passes(self, port: str) -> Sequence[str]:
         """Input ports that an output port passes on in the same instant."""
-        direct = type(self.element).direct.get(port.removesuffix(WAVES), ())
-        return (
-            direct
-            if "input" + WAVES not in self.ins or "input" not in direct
-            else (*direct, "input" + WAVES, "input" + REST)
-        )
+        return type(self.element).direct.get(port, ())
 
     def shows_state(self, port: str) -> bool:
         """Whether an output port shows the state, so that it may be read before and after a step."""

@@ -1,0 +1,101 @@
+"""The functions of one group as the program calls them: those of its elements, and the kernels that these
+convolve with.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.model.resolve import Node
+from deodar.numerics import interaction
+from deodar.numerics.axes import Axes
+from deodar.numerics.choice import Choice
+
+
+class Constants(NamedTuple):
+    """What a group keeps from step to step; a JAX PyTree.
+
+    Attributes:
+        kernels: weights of the kernels, or their mixture after `settle`; empty without a convolution.
+        own: what the elements themselves prepared.
+    """
+
+    kernels: Any
+    own: Any
+
+
+class Step(NamedTuple):
+    """What an element reads in one step; a JAX PyTree.
+
+    Attributes:
+        state: its state.
+        inputs: the sums at its input ports.
+        constants: what it keeps from step to step.
+        noise: standard normal deviates, or None.
+    """
+
+    state: Arrays
+    inputs: Arrays
+    constants: Constants
+    noise: Any
+
+
+class Functions:
+    """The functions of the elements of a group, each convolving on its own.
+
+    Attributes:
+        axes: axes of what is convolved.
+        choices: for each kind of boundaries how kernels are applied, where not by matrices.
+    """
+
+    def __init__(self, node: Node, choices: Mapping[str, Choice]) -> None:
+        self.axes, self.choices = convolved_axes(node), dict(choices)
+        self.convolves = node.element.convolution is not None
+
+    def prepare(self, element: Element, at: Setting) -> Constants:
+        """Constants that depend on axes and on parameters that rebuild."""
+        if not self.convolves:
+            return Constants((), element.prepare(at))
+        weights = interaction.prepare(element.kernels(), self.axes, at.dtype, self.choices)
+        return Constants(weights, element.prepare(at))
+
+    def settle(self, element: Element, at: Setting, constants: Constants) -> Constants:
+        """What stays the same from step to step although it depends on live parameters."""
+        own = element.settle(at, constants.own)
+        if not self.convolves:
+            return Constants((), own)
+        return Constants(interaction.mix(element.kernels(), self.axes, constants.kernels), own)
+
+    def output(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+        """Every output port at time t."""
+        return run_output(element, self.convolving(at, read.constants), read, time)
+
+    def advance(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+        """The state at t + dt."""
+        return run_advance(element, self.convolving(at, read.constants), read, time)
+
+    def convolving(self, at: Setting, constants: Constants) -> Setting:
+        """The setting in which `convolve` applies the mixed kernels."""
+        if not self.convolves:
+            return at
+        mixture = constants.kernels
+        return dc.replace(at, convolve=lambda y: interaction.apply(mixture, self.axes, y, self.choices))
+
+
+def convolved_axes(node: Node) -> Axes:
+    """Axes of the port that an element convolves; none where it convolves nothing."""
+    convolution = node.element.convolution
+    return node.axes(convolution.of) if convolution is not None else ()
+
+
+def run_output(element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    """Call `output` of an element."""
+    return element.output(at, read.state, read.inputs, read.constants.own, time, read.noise)
+
+
+def run_advance(element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    """Call `advance` of an element."""
+    return element.advance(at, read.state, read.inputs, read.constants.own, time, read.noise)

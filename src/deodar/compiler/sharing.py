@@ -1,0 +1,173 @@
+"""Sums in Fourier space: the ports, reads and functions of nodes that share waves.
+
+`ways` decides which nodes share. `shared` adds ports to them: what ends in `WAVES` holds the coefficients of
+a port, and what ends in `REST` the part of an input that does not come as coefficients. `functions` wraps the
+elements, which see neither: a `Source` gives its output as coefficients and takes those that arrive into the
+convolution of its dynamics, and a `Filter` applies its own function to coefficients, where a convolution is a
+product.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+from deodar.compiler.functions import Functions, Step, run_advance, run_output
+from deodar.compiler.ways import EXACT, Way, acted_axes, role
+from deodar.element import Arrays, Element, Setting, Time
+from deodar.errors import ModelError
+from deodar.model.resolve import Node, Slot
+from deodar.numerics import interaction
+
+WAVES = "~"
+"""Ends the name of a port that holds as waves what the port without it holds; of an input, only what comes as
+waves.
+"""
+
+REST = "-"
+"""Ends the name of a port that holds what does not come as waves."""
+
+
+@dc.dataclass
+class SharedNode(Node):
+    """A node that shares waves: one with the ports that hold them."""
+
+    def passes(self, port: str) -> Sequence[str]:
+        direct = super().passes(port.removesuffix(WAVES))
+        return (*direct, "input" + WAVES, "input" + REST) if "input" in direct else direct
+
+
+def plain_ports(ports: Mapping[str, Any]) -> dict[str, Any]:
+    """The ports that an element itself has."""
+    return {name: value for name, value in ports.items() if not name.endswith((WAVES, REST))}
+
+
+def shared(nodes: Sequence[Node], found: dict[str, Way]) -> list[Node]:
+    """The nodes, with the second parts of ports where they share waves.
+
+    What cannot share after all takes back its choice in `found`.
+    """
+    by = {n.id: n for n in nodes}
+    smooth: set[str] = set()
+    """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it.
+    """
+    for n in _upstream_first([n for n in nodes if found[n.id].shared and role(n) != "source"]):
+        if role(n) == "filter" or (
+            n.reads["input"] and all(s[0] in smooth and _joined(by[s[0]], n, found) for s in n.reads["input"])
+        ):
+            smooth.add(n.id)
+        else:
+            found[n.id] = EXACT
+    return [_with_waves(n, by, found, smooth) if found[n.id].shared else n for n in nodes]
+
+
+def _with_waves(n: Node, by: Mapping[str, Node], found: Mapping[str, Way], smooth: Collection[str]) -> Node:
+    way = found[n.id]
+    waves = tuple(w.axis(a) for w, a in zip(dict(way.choices)[way.shared].waves, acted_axes(n), strict=True))
+    through = role(n) == "filter"
+
+    def comes(slot: Slot) -> bool:
+        source = by[slot[0]]
+        if slot[1] != "output" or not _joined(source, n, found):
+            return False
+        if role(source) == "source":
+            return through
+        # beyond a border there is nothing; as waves what a kernel has spread over it would still be there for
+        # the next
+        return slot[0] in smooth and not (through and "zero" in way.shared)
+
+    arriving = [slot for slot in n.reads["input"] if comes(slot)]
+    staying = [slot for slot in n.reads["input"] if not comes(slot)]
+    reads: dict[str, list[Slot]] = dict(n.reads)
+    reads["input" + REST] = staying
+    reads["input" + WAVES] = [(i, port + WAVES, instant) for i, port, instant in arriving]
+    if role(n) == "source":  # its own, for its lateral interaction: transformed once
+        reads["output" + WAVES] = [(n.id, "output" + WAVES, 0)]
+    return SharedNode(
+        n.id,
+        n.path,
+        n.element,
+        n.every,
+        n.ins | {"input" + REST: n.ins["input"], "input" + WAVES: waves},
+        n.outs | {"output" + WAVES: waves},
+        reads,
+        n.level,
+        n.declared,
+    )
+
+
+def _joined(a: Node, b: Node, found: Mapping[str, Way]) -> bool:
+    """Whether both share the same waves."""
+    one, other = found[a.id], found[b.id]
+    same = (
+        bool(one.shared)
+        and one.shared == other.shared
+        and dict(one.choices)[one.shared] == dict(other.choices)[other.shared]
+    )
+    return same and a.every == b.every and acted_axes(a) == acted_axes(b)
+
+
+def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
+    return sorted(nodes, key=lambda n: (n.level, n.id))
+
+
+# ------------------------------------------------------------------------------------------ wrapped functions
+
+
+def functions(node: Node, way: Way) -> Functions:
+    """The functions of a group whose rows are like the node."""
+    if not way.shared:
+        return Functions(node, dict(way.choices))
+    return (Source if role(node) == "source" else Filter)(node, way)
+
+
+class _Sharing(Functions):
+    def __init__(self, node: Node, way: Way) -> None:
+        super().__init__(node, dict(way.choices))
+        self.key, self.waves = way.shared, dict(way.choices)[way.shared].waves
+
+
+class Source(_Sharing):
+    """Elements whose dynamics convolve their output: it is transformed once for all readers, and what arrives
+    as waves is added before the one way back.
+    """
+
+    def output(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+        out = super().output(element, at, read, time)
+        return out | {"output" + WAVES: interaction.to_waves(self.waves, out["output"])}
+
+    def advance(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+        given, calls = read.inputs, list[Any]()
+
+        def convolve(y: Any) -> Any:
+            calls.append(y)
+            own, arriving = given["output" + WAVES], given["input" + WAVES]
+            return interaction.apply(
+                read.constants.kernels, self.axes, y, self.choices, self.key, own, arriving
+            )
+
+        inputs = plain_ports(given) | {"input": given["input" + REST]}
+        new = run_advance(element, dc.replace(at, convolve=convolve), read._replace(inputs=inputs), time)
+        if len(calls) != 1:
+            raise ModelError(
+                f"{type(element).__name__} declares a convolution that `advance` adds to its input, and calls"
+                f" `at.convolve` {len(calls)} times; the input arrives by exactly one call",
+                fix="Call it once in `advance`, or declare no convolution, and add the integral up yourself",
+            )
+        return new
+
+
+class Filter(_Sharing):
+    """Elements that are linear and translation invariant: their own function is applied to waves, where the
+    convolution is a product.
+    """
+
+    def output(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+        arriving = read.inputs["input" + WAVES]
+        if self.convolves:
+            arriving = arriving + interaction.to_waves(self.waves, read.inputs["input" + REST])
+            gains = read.constants.kernels["waves"][self.key]
+            at = dc.replace(at, convolve=lambda y: gains * y)
+        out = run_output(element, at, read._replace(inputs={"input": arriving}), time)["output"]
+        return {"output": interaction.from_waves(self.waves, out), "output" + WAVES: out}

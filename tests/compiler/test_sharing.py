@@ -1,0 +1,147 @@
+"""Sums in Fourier space follow from what elements declare, and from nothing else."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from typing import Any, ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler.executable import executable
+from deodar.compiler.plan import plan
+from deodar.compiler.ways import role
+from deodar.errors import ModelError
+from deodar.model.resolve import resolve
+
+SQUARE = [dd.Axis(name, 0, 40, samples=40, periodic=True) for name in "xy"]
+
+
+@dc.dataclass(frozen=True)
+class Follower(dd.Field):
+    """A field without lateral interaction that follows its input."""
+
+    def advance(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
+        u = state["activation"]
+        return {"activation": dd.euler(u, -u + self.resting_level + inputs["input"], self.tau, time.dt)}
+
+
+@dc.dataclass(frozen=True)
+class Halved(dd.Field):
+    """A field that acts on others, and not on itself, by half of its output."""
+
+    def output(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
+        shown = super().output(at, state, inputs, constants, time, noise)
+        return shown | {"output": 0.5 * shown["output"]}
+
+
+@dc.dataclass(frozen=True)
+class Doubled(dd.Field):
+    """A field whose time course is twice as fast, with the interaction of any field."""
+
+    convolution: ClassVar[dd.Convolution | None] = dd.Convolution("output", into="input")
+
+    def advance(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
+        u = state["activation"]
+        rate = -u + self.resting_level + inputs["input"] + at.convolve(self.sigmoid(u))
+        return {"activation": dd.euler(u, 2 * rate, self.tau, time.dt)}
+
+
+@dc.dataclass(frozen=True)
+class Twice(Doubled):
+    """A field that breaks what it declares: it calls `convolve` twice."""
+
+    convolution: ClassVar[dd.Convolution | None] = dd.Convolution("output", into="input")
+
+    def advance(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
+        u = state["activation"]
+        rate = at.convolve(self.sigmoid(u)) + at.convolve(jnp.tanh(u)) + inputs["input"]
+        return {"activation": dd.euler(u, rate, self.tau, time.dt)}
+
+
+@dc.dataclass(frozen=True)
+class Undeclared(Doubled):
+    """A field that convolves without a declaration."""
+
+    convolution: ClassVar[dd.Convolution | None] = None
+
+
+def coupled(kind: type[dd.Field]) -> dd.Model:
+    """Two fields that are coupled by Gaussians, the second one of a kind and with a stimulus."""
+    model = dd.Model("two fields")
+    kernel = [dd.Gaussian(15, 3, normalized=True)]
+    u = model.add(dd.Field("u", SQUARE, resting_level=-1, kernel=kernel))
+    w = model.add(kind("w", SQUARE, resting_level=-1, kernel=kernel))
+    model.add(dd.GaussianStimulus("s", SQUARE, center=[20, 20], sigma=3, amplitude=9)) >> w
+    u >> dd.Convolve([dd.Gaussian(6, 3, normalized=True)]) >> dd.Gain(0.9) >> w
+    w >> dd.Convolve([dd.Gaussian(6, 4, normalized=True)]) >> u
+    return model
+
+
+def roles(model: dd.Model) -> dict[str, str]:
+    return {n.path: role(n) for n in resolve(model.document)[0]}
+
+
+def shares(model: dd.Model, path: str) -> bool:
+    groups = plan(model.document).groups
+    return next(bool(g.way.shared) for g in groups for n in g.nodes if n.path == path)
+
+
+def test_roles_follow_from_declarations() -> None:
+    found = roles(coupled(dd.Field))
+    assert found["u"] == "source" and found["s"] == ""
+    assert sorted(found.values()) == ["", "filter", "filter", "gain", "source", "source"]
+    assert role(resolve(_with(dd.Logarithm()).document)[0][1]) == ""
+
+
+def _with(coupling: dd.Coupling) -> dd.Model:
+    model = dd.Model("one")
+    model.add(dd.Field("u", SQUARE)) >> model.add(coupling)
+    return model
+
+
+@pytest.mark.parametrize("kind", [dd.Field, Doubled])
+def test_what_declares_a_convolution_shares_transforms(kind: type[dd.Field]) -> None:
+    assert shares(coupled(kind), "w")
+
+
+@pytest.mark.parametrize("kind", [Follower, Halved])
+def test_a_class_with_functions_of_its_own_does_not_take_over_the_declaration(kind: type[dd.Field]) -> None:
+    model = coupled(kind)
+    assert roles(model)["w"] == "" and not shares(model, "w")
+
+
+@pytest.mark.parametrize("kind", [Doubled, Follower])
+def test_classes_of_ones_own_compute_what_they_state(kind: type[dd.Field]) -> None:
+    model = coupled(kind)
+    given, exact = (
+        dd.simulate(model, 20, record=["w.activation"], precision=precision)["w.activation"].values[-1]
+        for precision in ("float32", "float64")
+    )
+    assert exact.max() > 2 and np.abs(given - exact).max() < 1e-4
+
+
+def test_a_second_call_of_convolve_is_an_error() -> None:
+    with pytest.raises(ModelError, match=r"Twice declares a convolution .* calls `at.convolve` 2 times"):
+        executable(coupled(Twice)).chunk(())
+
+
+def test_convolving_without_a_declaration_is_an_error() -> None:
+    with pytest.raises(ModelError, match=r"declares no convolution.*dd.Convolution"):
+        executable(coupled(Undeclared)).chunk(())
+
+
+@pytest.mark.parametrize("old", ["sharing", "sees_output"])
+def test_a_class_that_sets_what_elements_no_longer_have_is_an_error(old: str) -> None:
+    with pytest.raises(ModelError, match=rf"Late sets {old!r}.*dd.Element.{old} is now dd.Element"):
+        type("Late", (dd.Element,), {old: True})

@@ -1,0 +1,46 @@
+"""Elements and couplings state equations; the compiler alone decides and names how sums are computed."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.house.source import SRC, tree
+
+FILES = [
+    *sorted((SRC / "elements").glob("*.py")),
+    *sorted((SRC / "couplings").glob("*.py")),
+    SRC / "element.py",
+]
+WORDS = re.compile(r"\b([Ww]aves?|WAVES|REST|sharing|to_waves|from_waves|at\.(choices|shared|waves))\b")
+"""Words of the compiler."""
+
+ROOMS = ("deodar.compiler", "deodar.numerics.choice", "deodar.numerics.waves")
+"""What decides how kernels are applied."""
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(SRC)))
+def test_an_element_names_nothing_of_the_compiler(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert not [line for line in text.splitlines() if WORDS.search(line)]
+    imported = [
+        name
+        for node in ast.walk(tree(path))
+        for name in (
+            [node.module or ""]
+            if isinstance(node, ast.ImportFrom)
+            else [alias.name for alias in node.names]
+            if isinstance(node, ast.Import)
+            else []
+        )
+    ]
+    assert not [name for name in imported if name.startswith(ROOMS)]
+
+
+def test_the_words_are_found_where_they_occur() -> None:
+    for line in ("if not at.shared:", 'out["output" + WAVES] = y', "sharing: ClassVar[str]", "y in waves"):
+        assert WORDS.search(line), line
+    assert not WORDS.search("what shares no axis with the rest")
