@@ -25,9 +25,10 @@ from deodar.architectures.cascade import cascade, cascade_paths
 from deodar.architectures.saliency import saliency
 from deodar.architectures.serial_order import lesson, lesson_end, production_start
 from deodar.architectures.spa import spa
-from deodar.demos.saliency import look, photographs, totals
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Within
+from deodar.papers.saliency.scenes import look, photographs
+from deodar.papers.saliency.targets import totals
 from deodar.papers.spa import cases
 from deodar.papers.spa.pairs import pairs, reference
 from deodar.papers.spa.trials import LIMIT, POSE, RADIUS, STAY

@@ -18,13 +18,13 @@ import deodar as dd
 from deodar import architectures as published
 from deodar.architectures._elementary_behaviour import elementary_behaviour
 from deodar.architectures.serial_order import action_axis, ordinal_pair
-from deodar.demos.saliency import photographs
 from deodar.experiments.actions import Move, Push, Ramp, Set
 from deodar.experiments.events import Appears, Crosses, Vanishes
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.importers import examples
 from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.papers.saliency.scenes import photographs
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena
 

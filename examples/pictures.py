@@ -199,7 +199,7 @@ def motor_attractor() -> Figure:
 def saliency() -> Figure:
     """A photograph as the model sees it, and where the peak for red stands."""
     figure = blank()
-    scene = next(s for s in dd.demos.saliency.photographs() if s.name == "coffee")
+    scene = next(s for s in dd.papers.saliency.scenes.photographs() if s.name == "coffee")
     model = dd.load(HERE / "saliency.json")
     model.set("cue.center", 5.0)
     paths = ["eye.output", "spatial.activation", "pan.output", "tilt.output"]

@@ -4,9 +4,9 @@
 
 from deodar import analysis as analysis
 from deodar import architectures as architectures
-from deodar import demos as demos
 from deodar import errors as errors
 from deodar import figures as figures
+from deodar import papers as papers
 from deodar import worlds as worlds
 from deodar.analysis.figures import phase_figure as phase_figure
 from deodar.analysis.figures import regimes_figure as regimes_figure

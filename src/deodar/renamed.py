@@ -26,6 +26,7 @@ RENAMED = {
     "dd.Setting.shared": "dd.Setting.convolve",
     "dd.Setting.waves": "dd.Setting.convolve",
     "dd.animate_path(every=...)": "dd.animate_path(stride=...)",
+    "dd.demos": "dd.papers",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",
     "deodar.analysis.paths.until": "dd.path_until",

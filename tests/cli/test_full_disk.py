@@ -13,8 +13,10 @@ import pytest
 
 import deodar as dd
 from deodar.analysis.claims import Claim
-from deodar.cli import _demo_spa, main
+from deodar.cli import main
 from deodar.model import output
+from deodar.papers import Demonstration
+from deodar.papers.spa import demo
 from deodar.recording import files
 from tests.recording.models import model
 
@@ -134,14 +136,8 @@ def test_a_demo_is_kept_in_a_second_place(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     claims = [Claim("arrives", 1, "1", True, "required", n=1, origin="ours")]
-    found = (
-        claims,
-        {},
-        "spa.png",
-        "The robot arrived.",
-        lambda folder: (folder / "results.json").write_text("{}"),
-    )
-    monkeypatch.setattr(_demo_spa, "run", lambda args: found)
+    found = Demonstration(claims, {}, "spa.png", "The robot arrived.", lambda folder: None)
+    monkeypatch.setattr(demo, "run", lambda args, show: found)
     assert main(["demo", "spa", "--out", "planned"]) == 1
     told = capsys.readouterr()
     (place,) = (here.parent / "data").rglob("planned-001")

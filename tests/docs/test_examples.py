@@ -12,7 +12,7 @@ import xarray
 
 import deodar as dd
 from deodar.analysis.peaks import peaks
-from deodar.demos.saliency import photographs
+from deodar.papers.saliency.scenes import photographs
 from deodar.worlds.arena.arena import Arena
 from tests.docs.source import EXAMPLES, module
 

@@ -38,3 +38,14 @@ def test_without_runs_nothing_is_decided(name):
 def test_an_unknown_paper_suggests_the_nearest():
     with pytest.raises(UnknownName, match="Did you mean 'spa'"):
         papers.paper("sba")
+
+
+def test_each_paper_of_deodar_with_a_file_demo_is_a_demonstration():
+    assert list(papers.demos()) == ["saliency", "spa"]
+    assert all(demo.HELP and demo.run and demo.arguments for demo in papers.demos().values())
+
+
+def test_a_paper_and_its_files_are_imported_when_they_are_used():
+    assert papers.saliency.scenes.photographs and papers.spa.narrative.go
+    with pytest.raises(AttributeError, match="no attribute 'salience'"):
+        papers.salience  # noqa: B018

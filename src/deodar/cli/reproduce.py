@@ -37,7 +37,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--quick",
         action="store_true",
-        help="at most 20 runs of each condition; a claim is false only where they exclude it",
+        help="a part of the runs, at most 20 of each condition; a claim is false only where they exclude it",
     )
     parser.add_argument(
         "--only",

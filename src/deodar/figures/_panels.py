@@ -19,9 +19,10 @@ MOST_PANELS = 12
 
 
 def kinds() -> dict[str, ModuleType]:
-    """Every kind of figure by name."""
+    """Every kind of figure of a variable by name: the files of the folder that have a function `suits`."""
     names = sorted(m.name for m in pkgutil.iter_modules(figures.__path__) if not m.name.startswith("_"))
-    return {name: importlib.import_module(f"deodar.figures.{name}") for name in names}
+    found = {name: importlib.import_module(f"deodar.figures.{name}") for name in names}
+    return {name: module for name, module in found.items() if hasattr(module, "suits")}
 
 
 def choose(view: View) -> str:

@@ -12,30 +12,48 @@ A paper is a module or a package with
 * `kept(row)`: a row without what no claim, figure or number reads; so it is kept in the repository;
 * `PICTURES`: pictures of the manual, and which figure each of them is.
 
+A paper of deodar may have a file `demo.py`, its quick form, which `deodar demo NAME` runs: `HELP`,
+`arguments(parser)` and `run(args, show)`, which returns a `papers.Demonstration`.
+
 Heavy imports stand inside.
 """
 
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import pkgutil
+from collections.abc import Callable
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from deodar import plugins
 from deodar.errors import UnknownName, did_you_mean
+from deodar.papers._demonstration import Demonstration as Demonstration
+from deodar.papers._demonstration import Show as Show
 from deodar.plugins import Plugin
 
 if TYPE_CHECKING:
     from deodar.papers._report import NOT_RUN as NOT_RUN
     from deodar.papers._report import Report as Report
-else:
+
+
+def __getattr__(name: str) -> Any:
+    """Import what reports are made of, or a paper, when it is first used."""
+    if name in ("NOT_RUN", "Report"):
+        return getattr(importlib.import_module("deodar.papers._report"), name)
+    return files(__name__)(name)
+
+
+def files(package: str) -> Callable[[str], Any]:
+    """Make the `__getattr__` of a package that imports a file of its own when it is first used."""
 
     def __getattr__(name: str) -> Any:
-        """What reports are made of, imported when it is first used."""
-        if name not in ("NOT_RUN", "Report"):
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        return getattr(importlib.import_module("deodar.papers._report"), name)
+        if name.startswith("_") or importlib.util.find_spec(f"{package}.{name}") is None:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=None)
+        return importlib.import_module(f"{package}.{name}")
+
+    return __getattr__
 
 
 def names() -> list[str]:
@@ -46,6 +64,12 @@ def names() -> list[str]:
 def own() -> list[str]:
     """The papers that come with deodar."""
     return sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
+
+
+def demos() -> dict[str, ModuleType]:
+    """The demonstrations of the papers that come with deodar, by the name of the paper."""
+    found = [name for name in own() if importlib.util.find_spec(f"deodar.papers.{name}.demo")]
+    return {name: importlib.import_module(f"deodar.papers.{name}.demo") for name in found}
 
 
 def packaged() -> list[Plugin]:

@@ -14,6 +14,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from deodar import papers
+
 if TYPE_CHECKING:
     from deodar.experiments.jobs import Job
     from deodar.experiments.rows import Row
@@ -31,6 +33,8 @@ PICTURES = {
     "spa-choice": "figure-16-full",
 }
 """Pictures of the manual, and which figure each of them is."""
+
+__getattr__ = papers.files(__name__)
 
 
 def about(quick: bool) -> dict[str, Any]:

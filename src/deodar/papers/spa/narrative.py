@@ -1,5 +1,5 @@
-"""`deodar demo spa`: a robot plans its way through a maze and drives it; an obstacle comes, and it plans anew
-on the way. Or any other maze.
+"""The run of figures 10 to 12: a robot plans its way through a maze and drives it; an obstacle comes, and the
+robot plans again on the way. Or a run in any other maze.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from deodar.worlds.arena.arena import Arena
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
-HELP = "a robot plans its way through a maze and drives it; an obstacle comes, and it plans anew"
 SOURCE = "Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.2"
 
 DURATION = 1400
 """Steps of 64 ms that are run."""
 
 EVERY = 2
-"""Steps between two records: the robot hears of its place as often."""
+"""Steps between two records: the robot receives its place as often."""
 
 LONGEST = 3000
 """Steps that are run in a maze of one's own; more than any published run takes."""
@@ -52,7 +52,7 @@ COMES = 336
 """Step at which the obstacle comes, as in figure 11; it stays."""
 
 PLANNED, ARRIVES = 210, 1250
-"""Steps at which the plan is complete and the robot at its goal, as the paper tells of this run (figures 10
+"""Steps at which the plan is complete and the robot at its goal, as the paper reports of this run (figures 10
 to 12).
 """
 
@@ -72,7 +72,7 @@ RECORDED = [
     *(f"{name}.motivation.activation" for name in DIRECTIONS),
 ]
 SITES = (0, 500, 850, 1250)
-"""Steps at which the robot stands at the places that the paper calls location 1 to 4."""
+"""Steps at which the robot is at the places that the paper calls location 1 to 4."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Result:
         left: it moved.
         north, south: it was first on either route after it had moved; south after north.
         arrived: it came within NEAR of the goal.
-        told: whether it is the run that the paper tells of, with the obstacle that comes.
+        told: whether it is the run that the paper describes, with the obstacle that comes.
     """
 
     record: xarray.Dataset
@@ -97,6 +97,11 @@ class Result:
     south: int | None
     arrived: int | None
     told: bool = True
+
+    @property
+    def obstacle_at(self) -> int | None:
+        """Step at which the obstacle comes; None: nothing comes."""
+        return COMES if self.told else None
 
     @property
     def every(self) -> int:
@@ -127,6 +132,12 @@ class Result:
         """x, y and heading over time, until it arrived."""
         pose = np.asarray(self.record["pose.output"].values, float)
         return pose if self.arrived is None else pose[: self.arrived // self.every + 1]
+
+    def figure(self) -> Figure:
+        """Draw the path, the motivation fields at two moments, and activation at the sites over time."""
+        from deodar.figures.plan import plan_figure  # matplotlib is imported where something is drawn
+
+        return plan_figure(self)
 
 
 def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Result:

@@ -1,4 +1,4 @@
-"""The film of the planning demo: motivation spreads through the maze, and the robot follows it."""
+"""A video of a robot that plans and drives: motivation spreads through the maze, and the robot follows it."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from deodar.architectures.spa import DIRECTIONS
-from deodar.demos.spa import COMES, Result
-from deodar.demos.spa_figure import COLOUR
+from deodar.figures.plan import COLOUR, DrawnRun
 from deodar.model import output
 
 SCALE = 4
@@ -32,7 +31,7 @@ FULL = 8.0
 FLOOR, WALL, OBSTACLE, ROBOT = (250, 250, 248), (70, 70, 74), (215, 185, 135), (20, 20, 20)
 
 
-def film(result: Result, file: str | Path) -> Path:
+def film(result: DrawnRun, file: str | Path) -> Path:
     """Write a GIF: each place in the colours of the behaviours that are motivated there, the path, the robot,
     walls and goal.
     """
@@ -48,7 +47,7 @@ def film(result: Result, file: str | Path) -> Path:
     return path
 
 
-def _frame(r: Result, k: int) -> Image.Image:
+def _frame(r: DrawnRun, k: int) -> Image.Image:
     x, y = r.record["x"].values, r.record["y"].values
     fields = np.stack([r.record[f"{name}.motivation.activation"].values[k] for name in DIRECTIONS])
     colours = np.array([_rgb(COLOUR[name]) for name in DIRECTIONS], float)
@@ -89,14 +88,14 @@ def _frame(r: Result, k: int) -> Image.Image:
     return image.quantize(TONES, dither=Image.Dither.NONE)
 
 
-def _things(pen: Any, r: Result, k: int, at: Any) -> None:
+def _things(pen: Any, r: DrawnRun, k: int, at: Any) -> None:
     border = [100 * v for v in r.arena.layout.border]
     (width, height), (x0, y0), (x1, y1) = pen.im.size, at(border[0], border[3]), at(border[2], border[1])
     for side in ((0, 0, x0, height), (x1, 0, width, height), (0, 0, width, y0), (0, y1, width, height)):
         pen.rectangle(side, fill=WALL)
     for thing in r.arena.furniture.things:
-        comes = r.told and thing is not None and thing.name == "obstacle"
-        if thing is not None and (not comes or k * r.every > COMES):
+        comes = r.obstacle_at is not None and thing is not None and thing.name == "obstacle"
+        if thing is not None and (not comes or k * r.every > (r.obstacle_at or 0)):
             left, low, right, high = (100 * v for v in thing.box)
             pen.rectangle([*at(left, high), *at(right, low)], fill=OBSTACLE if comes else WALL)
 

@@ -13,14 +13,14 @@ from PIL import Image
 
 from deodar.architectures.spa import DIRECTIONS, maze
 from deodar.cli import main
-from deodar.demos import spa
+from deodar.papers.spa import narrative
 
 INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at step"
 
 
 def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
     """A record as a run gives it, without noise in it: north intends what is given, nobody else anything."""
-    time, x, y = np.arange(len(pose)) * float(spa.EVERY), np.arange(-104.0, -4), np.arange(5.0, 105)
+    time, x, y = np.arange(len(pose)) * float(narrative.EVERY), np.arange(-104.0, -4), np.arange(5.0, 105)
     data: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
     for name in DIRECTIONS:
         data[f"{name}.strongest.output"] = (("time",), intention if name == "north" else np.zeros(len(pose)))
@@ -48,12 +48,12 @@ def test_claims_follow_from_the_record() -> None:
     )
     pose = np.concatenate([way(start, start, each=110), way(start, north, back, south, goal, each=100)])
     intention = (np.arange(len(pose)) >= 105).astype(float)
-    found = spa.read(record(pose, intention), maze("z"))
+    found = narrative.read(record(pose, intention), maze("z"))
     assert (found.planned, found.left) == (210, pytest.approx(236, abs=4))
     assert found.north is not None and found.south is not None and found.arrived is not None
     assert found.left < found.north < found.south < found.arrived
-    assert [c.holds for c in spa.claims(found) if c.kind == "required"] == [True] * 3
-    assert {c.name.partition(":")[0] for c in spa.claims(found) if c.inferred} == {
+    assert [c.holds for c in narrative.claims(found) if c.kind == "required"] == [True] * 3
+    assert {c.name.partition(":")[0] for c in narrative.claims(found) if c.inferred} == {
         "the plan is complete",
         INFERRED_WAVE,
     }
@@ -64,15 +64,15 @@ def test_claims_follow_from_the_record() -> None:
         (intention, pose[:300]),
         (intention, np.concatenate([pose[:110], way(start, goal, each=200)])),
     ):
-        wrong = spa.read(record(straight, late[: len(straight)]), maze("z"))
-        assert any(c.holds is False for c in spa.claims(wrong) if c.kind == "required")
-    assert "never planned" in spa.sentence(spa.read(record(pose, intention * 0), maze("z")))
+        wrong = narrative.read(record(straight, late[: len(straight)]), maze("z"))
+        assert any(c.holds is False for c in narrative.claims(wrong) if c.kind == "required")
+    assert "never planned" in narrative.sentence(narrative.read(record(pose, intention * 0), maze("z")))
 
 
 def test_the_command_writes_what_it_says(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(spa, "DURATION", 300)
+    monkeypatch.setattr(narrative, "DURATION", 300)
     out = tmp_path / "planned"
     assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, (
         "in 300 steps it does not arrive, which is a required claim"
@@ -112,7 +112,7 @@ MAZE = {
 def test_a_maze_of_ones_own_is_planned_and_driven_too(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(spa, "LONGEST", 500)
+    monkeypatch.setattr(narrative, "LONGEST", 500)
     file = tmp_path / "maze.json"
     file.write_text(json.dumps(MAZE))
     out = tmp_path / "out"

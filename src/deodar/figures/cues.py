@@ -1,19 +1,22 @@
-"""The figure of the saliency demo: one row for each cue, read from left to right."""
+"""Pictures with colour cues: one row for each cue, read from left to right."""
 
 from __future__ import annotations
 
 import colorsys
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
+import xarray
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
 from deodar.architectures.saliency import CUE_AT
-from deodar.demos.saliency import Outcome, Result, spatial_pixels
 from deodar.figures._style import COLORS, SEQUENTIAL, style
 from deodar.figures._style import figure as sheet
+from deodar.worlds.picture import Picture
+
+Place = tuple[float, float]
 
 ROW = 1.75
 WIDTH = 9.6
@@ -25,7 +28,60 @@ LOWEST, HIGHEST = -6.0, 4.0
 """Activation at the ends of the colour scale, the same in all pictures, so that they can be compared."""
 
 
-def figure(result: Result) -> Figure:
+class DrawnCue(Protocol):
+    """A cued hue in degrees, and the outlines of the regions that a person marked, in pixels."""
+
+    @property
+    def hue(self) -> float: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def expect(self) -> str: ...
+    @property
+    def outlines(self) -> Sequence[Sequence[Place]]: ...
+
+
+class DrawnOutcome(Protocol):
+    """The peaks after a cue, and the end of the motor variable; `spatial` in scene units, else in pixels."""
+
+    @property
+    def cue(self) -> DrawnCue: ...
+    @property
+    def places(self) -> Sequence[Place]: ...
+    @property
+    def spatial(self) -> Sequence[Place]: ...
+    @property
+    def motor(self) -> Place: ...
+
+
+class DrawnScene(Protocol):
+    """A picture and its name."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def picture(self) -> Picture: ...
+
+
+class DrawnScenes(Protocol):
+    """A scene with the outcomes of its cues."""
+
+    @property
+    def scene(self) -> DrawnScene: ...
+    @property
+    def outcomes(self) -> Sequence[DrawnOutcome]: ...
+
+
+class DrawnResult(DrawnScenes, Protocol):
+    """A scene that was run: its record, and the corners of the spatial field in pixels."""
+
+    @property
+    def record(self) -> xarray.Dataset: ...
+    @property
+    def corners(self) -> tuple[float, float, float, float]: ...
+
+
+def cues_figure(result: DrawnResult) -> Figure:
     """Photograph with the selected place, colour-space field, spatial field, motor variable over time."""
     rows = len(result.outcomes) + 1
     with style():
@@ -63,7 +119,7 @@ def figure(result: Result) -> Figure:
     return out
 
 
-def overview(results: Sequence[Result], columns: int = 4) -> Figure:
+def overview(results: Sequence[DrawnScenes], columns: int = 4) -> Figure:
     """All photographs with what the cues of present colours selected: marked region, peaks, end of the motor
     variable.
     """
@@ -94,7 +150,7 @@ def _label(axes: Any, text: str, hue: float | None) -> None:
         )
 
 
-def _photograph(axes: Any, result: Result, outcome: Outcome | None) -> None:
+def _photograph(axes: Any, result: DrawnScenes, outcome: DrawnOutcome | None) -> None:
     axes.imshow(result.scene.picture.pixels, origin="upper", interpolation="antialiased")
     axes.set_anchor("N")
     axes.set_xticks([])
@@ -122,7 +178,7 @@ def _photograph(axes: Any, result: Result, outcome: Outcome | None) -> None:
         )
 
 
-def _colour_space(axes: Any, result: Result, k: int, at: int, hue: float | None = None) -> Any:
+def _colour_space(axes: Any, result: DrawnResult, k: int, at: int, hue: float | None = None) -> Any:
     seen = result.record["seen.output"].isel({"cue.center": k, "time": at}).values
     x, hues = result.record["x"].values, result.record["hue"].values
     step = hues[1] - hues[0]
@@ -146,14 +202,13 @@ def _colour_space(axes: Any, result: Result, k: int, at: int, hue: float | None 
     return image
 
 
-def _spatial(axes: Any, result: Result, k: int, at: int) -> None:
+def _spatial(axes: Any, result: DrawnResult, k: int, at: int) -> None:
     u = result.record["spatial.activation"].isel({"cue.center": k, "time": at}).values
     width, height = result.scene.picture.size
-    corners = spatial_pixels(result)
     axes.imshow(
         u.T,
         origin="upper",
-        extent=tuple(corners),
+        extent=result.corners,
         cmap=SEQUENTIAL,
         vmin=LOWEST,
         vmax=HIGHEST,
@@ -167,13 +222,13 @@ def _spatial(axes: Any, result: Result, k: int, at: int) -> None:
     axes.set_xlabel("columns and rows of the picture" if at == -1 and k == len(result.outcomes) - 1 else "")
 
 
-def _motor(axes: Any, result: Result, k: int, outcome: Outcome, last: bool) -> None:
+def _motor(axes: Any, result: DrawnResult, k: int, outcome: DrawnOutcome, last: bool) -> None:
     time = result.record["time"].values / 1000
     for name, words, color, place in (("pan", "x", COLORS[0], 0), ("tilt", "y", COLORS[1], 1)):
         values = result.record[f"{name}.output"].isel({"cue.center": k}).values
         axes.plot(time, values, color=color, label=f"{name} ({words})")
         for peak in outcome.spatial:
-            axes.axhline(peak.position[place], color=color, linewidth=0.7, linestyle=":")
+            axes.axhline(peak[place], color=color, linewidth=0.7, linestyle=":")
     axes.axvline(CUE_AT / 1000, color="#888888", linewidth=0.7)
     axes.text(CUE_AT / 1000 + 0.05, 78, "cue", va="top", color="#555555", fontsize=7)
     axes.set_ylim(0, 80)

@@ -1,18 +1,21 @@
-"""The figure of the planning demo: where the robot went, what was motivated when the plan was complete, and
-how that changed.
+"""A robot that plans and drives: its path, the motivation fields when the plan was complete and later, and
+activation over time.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Protocol
 
+import numpy as np
+import xarray
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from deodar.architectures.spa import DIRECTIONS
-from deodar.demos.spa import COMES, Result
 from deodar.figures._style import COLORS, DIVERGING, DOUBLE, THRESHOLD, style
 from deodar.figures._style import figure as sheet
+from deodar.worlds.arena.arena import Arena
 
 COLOUR = dict(zip(DIRECTIONS, COLORS, strict=False))
 BEFORE = 20
@@ -22,18 +25,43 @@ RANGE = 10.0
 """Activation at both ends of the colour scale; inhibition by walls goes beyond."""
 
 
-def figure(result: Result) -> Figure:
+class DrawnRun(Protocol):
+    """A run of the planner, and what happened when, in steps; None: it did not happen."""
+
+    @property
+    def record(self) -> xarray.Dataset: ...
+    @property
+    def arena(self) -> Arena: ...
+    @property
+    def planned(self) -> int | None: ...
+    @property
+    def south(self) -> int | None: ...
+    @property
+    def arrived(self) -> int | None: ...
+    @property
+    def obstacle_at(self) -> int | None: ...
+    @property
+    def every(self) -> int: ...
+    @property
+    def goal(self) -> np.ndarray: ...
+    @property
+    def sites(self) -> Sequence[tuple[float, float]]: ...
+    @property
+    def path(self) -> np.ndarray: ...
+
+
+def plan_figure(result: DrawnRun) -> Figure:
     """Path (as figure 11 of the paper), motivation fields at two moments (figure 12), and at four places over
     time (figure 10).
     """
-    r = result
+    r, changed = result, result.obstacle_at is not None
     with style():
-        out = sheet(DOUBLE, 6.6 if r.told else 4.4)
-        halves: Any = out.subfigures(2, 1, height_ratios=(1.0, 1.5 if r.told else 0.6))
+        out = sheet(DOUBLE, 6.6 if changed else 4.4)
+        halves: Any = out.subfigures(2, 1, height_ratios=(1.0, 1.5 if changed else 0.6))
         places: Any = halves[0].subfigures(1, 3, width_ratios=(1.12, 1.0, 1.0))
         _path(places[0].subplots(), r)
         before = None if r.south is None else r.south - BEFORE
-        later = ("another plan", before) if r.told else ("at the goal", r.arrived)
+        later = ("another plan", before) if changed else ("at the goal", r.arrived)
         for place, (what, step) in zip(places[1:], (("plan complete", r.planned), later), strict=True):
             place.suptitle(f"{what}, step {step}" if step is not None else f"{what}: never", fontsize=8)
             for axes, name in zip(place.subplots(2, 2).flat, DIRECTIONS, strict=True):
@@ -43,15 +71,16 @@ def figure(result: Result) -> Figure:
     return out
 
 
-def _path(axes: Any, r: Result) -> None:
+def _path(axes: Any, r: DrawnRun) -> None:
     _walls(axes, r, "#777777")
     for thing in r.arena.furniture.things:
-        if r.told and thing is not None and thing.name == "obstacle":
+        if r.obstacle_at is not None and thing is not None and thing.name == "obstacle":
             x0, y0, x1, y1 = (100 * v for v in thing.box)
             axes.add_patch(
                 Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#e0c8a0", edgecolor="#8a6d3b", linewidth=0.6)
             )
-            axes.text((x0 + x1) / 2, (y0 + y1) / 2, f"from\n{COMES}", ha="center", va="center", fontsize=6)
+            words = f"from\n{r.obstacle_at}"
+            axes.text((x0 + x1) / 2, (y0 + y1) / 2, words, ha="center", va="center", fontsize=6)
     axes.plot(*r.path[:, :2].T, color=COLORS[0])
     axes.plot(*r.path[:: 100 // r.every, :2].T, ".", color=COLORS[0], markersize=4)
     for number, site in enumerate(r.sites, 1):
@@ -71,7 +100,7 @@ def _path(axes: Any, r: Result) -> None:
     axes.set_ylabel("y (cm)")
 
 
-def _walls(axes: Any, r: Result, colour: str) -> None:
+def _walls(axes: Any, r: DrawnRun, colour: str) -> None:
     left, low, right, high = (100 * v for v in r.arena.layout.border)
     for thing in r.arena.layout.things:
         x0, y0, x1, y1 = (100 * v for v in thing.box)
@@ -83,7 +112,7 @@ def _walls(axes: Any, r: Result, colour: str) -> None:
         spine.set_visible(True)
 
 
-def _motivation(axes: Any, r: Result, name: str, step: int | None) -> None:
+def _motivation(axes: Any, r: DrawnRun, name: str, step: int | None) -> None:
     axes.axis("off")
     if step is None:
         return
@@ -105,7 +134,7 @@ def _motivation(axes: Any, r: Result, name: str, step: int | None) -> None:
     axes.set_ylim(low, high)
 
 
-def _courses(place: Any, r: Result) -> None:
+def _courses(place: Any, r: DrawnRun) -> None:
     rows = place.subplots(len(r.sites) + 1, 1, sharex=True, squeeze=False)[:, 0]
     times = r.record["time"].values
     for number, (axes, (x, y)) in enumerate(zip(rows, r.sites, strict=False), 1):
@@ -129,7 +158,7 @@ def _courses(place: Any, r: Result) -> None:
     for axes in rows:
         for step, words in (
             (r.planned, "planned"),
-            (COMES if r.told else None, "obstacle"),
+            (r.obstacle_at, "obstacle"),
             (r.arrived, "arrived"),
         ):
             if step is not None:

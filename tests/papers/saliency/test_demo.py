@@ -12,8 +12,9 @@ import pytest
 from PIL import Image
 
 import deodar as dd
-from deodar.demos import saliency
-from deodar.demos.saliency import Cue, claims, filmed, look, own, photographs, sentence, watched
+from deodar.papers.saliency import scenes
+from deodar.papers.saliency.scenes import Cue, filmed, look, own, photographs, watched
+from deodar.papers.saliency.targets import claims, sentence
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
 
@@ -44,7 +45,7 @@ def test_another_seed_and_a_wrong_mark_shows() -> None:
     """The claim is computed: with the box elsewhere it is false."""
     chelsea = next(s for s in photographs() if s.name == "chelsea")
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
-    scene = saliency.Scene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
+    scene = scenes.Scene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
     result = look(scene, seed=11)
     assert [c.holds for c in claims(result)] == [True, True, True, True, True, False, True, False, False]
     assert "1 of 2 cued colours" in sentence([result])
@@ -68,7 +69,7 @@ def test_a_film_and_a_camera(way: str) -> None:
     scene = (
         filmed(film, [0.0, 240.0])
         if way == "film"
-        else watched(Camera(str(film), period=saliency.PERIOD, patience=60.0), [0.0, 240.0])
+        else watched(Camera(str(film), period=scenes.PERIOD, patience=60.0), [0.0, 240.0])
     )
     red, blue = look(scene).outcomes
     assert len(red.places) == 1 and 46 <= red.places[0][0] <= 64 and 14 <= red.places[0][1] <= 34

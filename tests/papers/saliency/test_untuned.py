@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from importlib import resources
 
-from deodar.demos.saliency import NEAR, Cue, claims, look, photographs, totals
+from deodar.papers.saliency.scenes import NEAR, Cue, look, photographs
+from deodar.papers.saliency.targets import claims, totals
 
-FOLDER = resources.files("deodar.demos") / "photographs"
+FOLDER = resources.files("deodar.papers.saliency") / "photographs"
 
 
 def test_each_photograph_has_a_present_and_an_absent_cue_and_marks_inside_the_picture() -> None:

@@ -1,6 +1,4 @@
-"""`deodar demo saliency`: a colour cue selects an object in a photograph, and a motor variable turns to
-it.
-"""
+"""Scenes: photographs, videos and cameras with colour cues, and the run of all cues on one of them."""
 
 from __future__ import annotations
 
@@ -13,9 +11,6 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from deodar.analysis.claims import Claim
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
 from deodar.batch.simulate import simulate
@@ -31,30 +26,20 @@ from deodar.worlds.video import Video
 
 if TYPE_CHECKING:
     import xarray
-
-HELP = "a colour cue selects an object in a photograph, and a motor variable turns to it"
-SOURCE = "Sandamirskaya (2014), Front. Neurosci. 7:276, figure 2"
+    from matplotlib.figure import Figure
 
 DURATION = 3500.0
 EVERY = 50.0
 PERIOD = 50.0
-"""ms between two pictures of a film or a camera."""
+"""ms between two pictures of a video or a camera."""
 
 NEAR = 2.0
 """Distance from a peak within which the motor variable counts as converged, in scene units: one sample of the
 fields. Ours.
 """
 
-LEAST_RIGHT = 10
-"""Of the twelve cues for a colour that is present in an untuned photograph, how many have to be selected.
-
-Ours.
-"""
-
-FOUND_HERE = "parameters that were found on this photograph"
-
 WHEEL = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0)
-"""Cues for a picture in which nobody has marked anything."""
+"""Cues for a picture without marks."""
 
 Outline = tuple[tuple[float, float], ...]
 """Corners (column, row) of a polygon, in pixels."""
@@ -67,7 +52,7 @@ class Cue:
     Attributes:
         hue: degrees.
         name: of the colour.
-        expect: `present`, `absent`, or "" where nobody has marked the picture.
+        expect: `present`, `absent`, or "" for a picture without marks.
         object: what a person sees in the marked region.
         outlines: of the region; an outline inside another one is a hole.
     """
@@ -87,7 +72,7 @@ class Cue:
 class Scene:
     """A picture and the cues to be tried on it.
 
-    Of a film or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether
+    Of a video or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether
     parameters were found on the picture.
     """
 
@@ -101,22 +86,22 @@ class Scene:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one cue brought: all peaks of both fields at the end, and where the motor variable ended.
+    """The result of one cue: all peaks of both fields at the end, and the end of the motor variable.
 
     Attributes:
         cue: the cue.
-        peaks, spatial: peaks of the colour-space field and of the spatial field.
-        places, spatial_places, motor: the same and the motor variable, in pixels.
+        places, spatial_places, motor: peaks of the colour-space field and of the spatial field, and the motor
+            variable, in pixels.
+        spatial: peaks of the spatial field, in scene units.
         gap: distance of the motor variable from the nearest peak of the spatial field, in scene units; None
             without a peak.
         moved: distance of the motor variable from where it began, in scene units.
     """
 
     cue: Cue
-    peaks: Peaks
-    spatial: Peaks
     places: tuple[tuple[float, float], ...]
     spatial_places: tuple[tuple[float, float], ...]
+    spatial: tuple[tuple[float, float], ...]
     motor: tuple[float, float]
     gap: float | None
     moved: float
@@ -127,7 +112,7 @@ class Outcome:
         either where the colour is absent.
         """
         if self.cue.expect == "absent":
-            return not self.peaks and not self.spatial
+            return not self.places and not self.spatial
         one = len(self.places) == 1 and len(self.spatial_places) == 1
         return one and all(self.cue.holds(p) for p in (*self.places, *self.spatial_places))
 
@@ -138,15 +123,37 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class Result:
-    """A scene, run: the record over time, the largest activation before the cue, and an outcome for each
-    cue.
+class Found:
+    """What is known of a scene: the largest activation before the cue, and an outcome for each cue.
+
+    Before it is run `quiet` is None, and there are no outcomes.
     """
 
     scene: Scene
+    quiet: float | None = None
+    outcomes: tuple[Outcome, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result(Found):
+    """A scene that was run, with its record over time."""
+
     record: xarray.Dataset
-    quiet: float
-    outcomes: tuple[Outcome, ...]
+
+    @property
+    def corners(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom and top of the spatial field in pixels of the picture."""
+        x, y, _ = scene()
+        to_pixels = self.scene.picture.to_pixels
+        left, top = to_pixels((x, y), x.lower - x.step / 2, y.lower - y.step / 2)
+        right, bottom = to_pixels((x, y), x.upper + x.step / 2, y.upper + y.step / 2)
+        return left, right, bottom, top
+
+    def figure(self) -> Figure:
+        """Draw the scene with one row for each cue: selected place, both fields, motor variable over time."""
+        from deodar.figures.cues import cues_figure  # matplotlib is imported where something is drawn
+
+        return cues_figure(self)
 
 
 def _inside(place: tuple[float, float], outline: Outline) -> bool:
@@ -166,7 +173,7 @@ def photographs(untuned: bool = False) -> list[Scene]:
         untuned: the twelve that were marked before the architecture first saw them, in place of the three on
             which its parameters were found.
     """
-    folder = resources.files("deodar.demos") / "photographs"
+    folder = resources.files("deodar.papers.saliency") / "photographs"
     if untuned:
         folder = folder / "untuned"
     marks: dict[str, Any] = json.loads((folder / "marks.json").read_text())
@@ -187,19 +194,19 @@ def _outlines(corners: Sequence[Sequence[Sequence[float]]]) -> tuple[Outline, ..
 
 
 def own(file: Path, hues: Sequence[float]) -> Scene:
-    """A picture of one's own; what is right in it nobody has marked."""
+    """A picture of one's own, without marks."""
     cues = _cues(hues)
     return Scene(file.stem, file.name, Picture(file), cues)
 
 
 def filmed(file: Path, hues: Sequence[float]) -> Scene:
-    """A film of one's own, from its beginning; after its end its last picture stays."""
+    """A video of one's own, from its beginning; after its end its last picture stays."""
     cues, film = _cues(hues), Video(file, period=PERIOD)
     return Scene(file.stem, file.name, Picture(film.picture(DURATION)), cues, film)
 
 
 def watched(camera: Camera, hues: Sequence[float]) -> Scene:
-    """What a camera sees for as long as a run lasts, recorded by the clock on the wall, so that all cues are
+    """What a camera sees for as long as a run lasts, recorded by the wall clock, so that all cues are
     tried on the same.
     """
     cues, eye = _cues(hues), Model("eye", dt=PERIOD)
@@ -250,12 +257,8 @@ def look(
     end = simulate(model, DURATION, seed=seed, sweep=sweep, world=world, progress=False).isel(time=-1)
     step()
     before = record["seen.output"].sel(time=record["time"] < CUE_AT)
-    return Result(
-        scene,
-        record,
-        float(before.max()),
-        tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues))),
-    )
+    outcomes = tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues)))
+    return Result(scene, float(before.max()), outcomes, record=record)
 
 
 def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int) -> Outcome:
@@ -268,154 +271,10 @@ def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int)
     gap = min((math.dist(motor, p.position) for p in spatial), default=None)
     moved = math.dist(motor, (SIDE / 2, SIDE / 2))
     places, spatial_places = (_places(scene_, p, (x, y)) for p in (found, spatial))
-    return Outcome(
-        scene_.cues[k],
-        found,
-        spatial,
-        places,
-        spatial_places,
-        scene_.picture.to_pixels((x, y), *motor),
-        gap,
-        moved,
-    )
+    positions = tuple((float(p.position[0]), float(p.position[1])) for p in spatial)
+    pixels = scene_.picture.to_pixels((x, y), *motor)
+    return Outcome(scene_.cues[k], places, spatial_places, positions, pixels, gap, moved)
 
 
 def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
     return tuple(scene.picture.to_pixels(axes, p.position[0], p.position[1]) for p in found)
-
-
-def claims(result: Result) -> list[Claim]:
-    """One claim for the time without a cue, and for each cue of a marked picture one for the fields and one
-    for the motor variable.
-
-    Each is reported. On the photographs on which the parameters were found none of them is evidence; `totals`
-    says what is required of the others.
-    """
-    name = result.scene.name
-    found: dict[str, Any] = (
-        {"assumes": FOUND_HERE, "inferred": True}
-        if result.scene.tuned and any(c.expect for c in result.scene.cues)
-        else {}
-    )
-    marks: dict[str, Any] = {"kind": "reported", "source": SOURCE, "origin": "ours", **found}
-    quiet = f"{name}, no cue: the colour-space field stays below threshold"
-    out = [Claim(quiet, round(result.quiet, 3), "< 0", result.quiet < 0, **marks)]
-    for o in result.outcomes:
-        value: dict[str, Any] = {
-            "peaks": len(o.places),
-            "spatial peaks": len(o.spatial_places),
-            "places": [[round(v) for v in p] for p in o.places],
-            "motor variable": [round(v) for v in o.motor],
-        }
-        if not o.cue.expect:
-            out.append(
-                Claim(
-                    f"{name}, cue {o.cue.hue:g} deg",
-                    value,
-                    "not marked",
-                    None,
-                    kind="reported",
-                    origin="none",
-                )
-            )
-            continue
-        cue = f"{name}, cue {o.cue.name} ({o.cue.hue:g} deg)"
-        present = o.cue.expect == "present"
-        what = (
-            f"exactly one peak, on {o.cue.object}; the spatial field follows"
-            if present
-            else "no such colour in the picture, no peak"
-        )
-        target = (
-            "one peak in the marked region, one spatial peak there too"
-            if present
-            else "no peak in either field"
-        )
-        out.append(Claim(f"{cue}: {what}", value, target, o.right, **marks))
-        what = "the motor variable converges to the peak" if present else "the motor variable stays"
-        distance, target = (
-            (o.gap, f"at most {NEAR:g} from the spatial peak")
-            if present
-            else (o.moved, f"at most {NEAR / 10:g} from its start")
-        )
-        held = o.converged if (o.gap is not None) == present else False
-        out.append(
-            Claim(f"{cue}: {what}", None if distance is None else round(distance, 2), target, held, **marks)
-        )
-    return out
-
-
-def totals(results: Sequence[Result]) -> list[Claim]:
-    """What is required of the untuned photographs together, and in how many the motor variable arrives in
-    time. The targets are ours.
-    """
-    asked = [o for r in results if not r.scene.tuned for o in r.outcomes]
-    if not asked:
-        return []
-    present, absent = ([o for o in asked if o.cue.expect == e] for e in ("present", "absent"))
-    right, silent = sum(o.right for o in present), sum(o.right for o in absent)
-    arrived = sum(o.gap is not None and o.converged for o in present)
-    says = (
-        "a present colour is selected",
-        "an absent colour selects nothing",
-        "the motor variable converges to the peak",
-    )
-    selected, nothing, motor = (f"untuned: {what}" for what in says)
-    return [
-        Claim(
-            selected,
-            right,
-            f"at least {LEAST_RIGHT} of {len(present)}",
-            right >= LEAST_RIGHT,
-            n=len(present),
-            origin="ours",
-        ),
-        Claim(nothing, silent, f"all of {len(absent)}", silent == len(absent), n=len(absent), origin="ours"),
-        Claim(
-            motor,
-            arrived,
-            f"all of {len(present)}",
-            arrived == len(present),
-            "reported",
-            n=len(present),
-            origin="ours",
-        ),
-    ]
-
-
-def sentence(results: Sequence[Result]) -> str:
-    """The outcome in one line of plain words."""
-    asked = [o for r in results for o in r.outcomes if o.cue.expect]
-    quiet = sum(r.quiet < 0 for r in results)
-    if asked:
-        present, absent = ([o.right for o in asked if o.cue.expect == e] for e in ("present", "absent"))
-        return (
-            f"{len(results)} photographs: silent without a cue in {quiet}; {sum(present)} of {len(present)}"
-            f" cued colours selected on the right object; {sum(absent)} of {len(absent)} cues of absent"
-            " colours selected nothing."
-        )
-    found = [f"{o.cue.hue:g} deg: {_where(o)}" for r in results for o in r.outcomes if o.peaks or o.spatial]
-    return (
-        f"Selected: {'; '.join(found)}. Other cues selected nothing."
-        if found
-        else "No cue selected anything."
-    )
-
-
-def _where(outcome: Outcome) -> str:
-    """Where the peaks of the spatial field are; of the colour-space field, where the spatial field has
-    none.
-    """
-    places = outcome.spatial_places or outcome.places
-    text = " and ".join(f"column {x:.0f}, row {y:.0f}" for x, y in places)
-    return text if outcome.spatial else f"{text} (without a peak of the spatial field)"
-
-
-def spatial_pixels(result: Result) -> np.ndarray:
-    """Corners (left, right, bottom, top) of the spatial field's picture in pixels, for drawing over the
-    photograph.
-    """
-    x, y, _ = scene()
-    left, top = result.scene.picture.to_pixels((x, y), x.lower - x.step / 2, y.lower - y.step / 2)
-    right, bottom = result.scene.picture.to_pixels((x, y), x.upper + x.step / 2, y.upper + y.step / 2)
-    return np.array([left, right, bottom, top])

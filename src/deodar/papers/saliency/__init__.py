@@ -1,0 +1,63 @@
+"""Sandamirskaya (2014), figure 2: a colour cue selects an object in a photograph, and a motor variable turns
+to it.
+
+Three photographs on which the parameters were found, and twelve on which none was.
+
+Reference:
+    Sandamirskaya (2014), Dynamic neural fields as a step toward cognitive neuromorphic architectures,
+    Front. Neurosci. 7:276, figure 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from deodar import papers
+
+if TYPE_CHECKING:
+    from deodar.experiments.jobs import Job
+    from deodar.experiments.rows import Row
+    from deodar.papers._report import Report
+
+HELP = "Sandamirskaya (2014): a colour cue selects an object in a photograph"
+
+BY_CONDITION = ("photographs",)
+"""Entries of `about` that map names of conditions to their settings."""
+
+PICTURES: dict[str, str] = {}
+"""No picture of the manual is drawn from kept rows."""
+
+__getattr__ = papers.files(__name__)
+
+
+def about(quick: bool) -> dict[str, Any]:
+    """What makes the design: rows of another one are not mixed with its own."""
+    from deodar.papers.saliency import scenes, trials
+
+    cues = {s.name: [[c.hue, c.expect] for c in s.cues] for s in trials.scenes(quick)}
+    return {"paper": "saliency", "quick": quick, "duration": scenes.DURATION, "seed": 0, "photographs": cues}
+
+
+def jobs(quick: bool) -> Sequence[Job]:
+    """One job for each photograph; three photographs where it is to be quick, fifteen otherwise."""
+    from deodar.papers.saliency import trials
+
+    return trials.jobs(quick)
+
+
+def kept(row: Row) -> Row:
+    """A row as the repository keeps it: all of it."""
+    return row
+
+
+def report(rows: Mapping[str, Row], quick: bool) -> Report:
+    """Claims and the overview of the photographs that were run."""
+    from deodar.figures.cues import overview
+    from deodar.papers._report import Report
+    from deodar.papers.saliency import targets, trials
+
+    found = trials.found(rows, quick)
+    shown = [f for f in found if f.outcomes]
+    claims = [*(claim for f in found for claim in targets.claims(f)), *targets.totals(found)]
+    return Report(claims, {"overview": overview(shown)} if shown else {})

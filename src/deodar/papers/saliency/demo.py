@@ -1,0 +1,103 @@
+"""The demonstration: three photographs, or pictures of the user's own, with figures and records."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar.papers import Demonstration, Show
+
+if TYPE_CHECKING:
+    from deodar.papers.saliency.scenes import Result, Scene
+
+HELP = "a colour cue selects an object in a photograph"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the demonstration."""
+    group = parser.add_argument_group("saliency", HELP)
+    source = group.add_mutually_exclusive_group()
+    source.add_argument(
+        "--image",
+        type=Path,
+        metavar="FILE",
+        help="a photograph of your own instead of the three that come with deodar",
+    )
+    source.add_argument(
+        "--untuned",
+        action="store_true",
+        default=None,
+        help="twelve photographs on which no parameter was found",
+    )
+    source.add_argument(
+        "--video", type=Path, metavar="FILE", help="a video of your own, from its beginning (extra vision)"
+    )
+    source.add_argument(
+        "--camera",
+        type=int,
+        metavar="N",
+        help="what a camera sees now, 0 for the first (extra vision)",
+    )
+    group.add_argument(
+        "--cue",
+        type=float,
+        action="append",
+        metavar="HUE",
+        help="with --image, --video, --camera: a hue to cue, in degrees (0 red, 120 green); may be repeated",
+    )
+
+
+def run(args: argparse.Namespace, show: Show) -> Demonstration:
+    """Run all cues on each picture."""
+    from deodar.figures._files import save_figure
+    from deodar.figures.cues import overview
+    from deodar.papers.saliency import targets
+    from deodar.papers.saliency.scenes import CUE_AT, DURATION, look
+    from deodar.recording import files
+
+    scenes = _scenes(args)
+    done: list[Result] = []
+    drawn = []
+    for k, scene in enumerate(scenes):
+        words = f"examining {scene.title}"
+        shares = iter((k + part / 3) / len(scenes) for part in range(3))
+
+        def step(words: str = words, shares: Iterator[float] = shares) -> None:
+            show(words, next(shares))
+
+        step()
+        result = look(scene, args.seed, step)
+        done.append(result)
+        drawn.append(result.figure())
+
+    def fill(folder: Path) -> None:
+        for result, picture in zip(done, drawn, strict=True):
+            save_figure(picture, folder / f"{result.scene.name}.png")
+            files.save_record(result.record, folder / f"{result.scene.name}.zarr")
+        if len(done) > 1:
+            save_figure(overview(done), folder / "overview.png")
+
+    names = [*(f"{r.scene.name}.png" for r in done), *(["overview.png"] if len(done) > 1 else [])]
+    return Demonstration(
+        claims=[*(c for result in done for c in targets.claims(result)), *targets.totals(done)],
+        settings={"duration": DURATION, "cue_at": CUE_AT},
+        written=f"{', '.join(names)}, the records (*.zarr)",
+        sentence=targets.sentence(done),
+        fill=fill,
+    )
+
+
+def _scenes(args: argparse.Namespace) -> list[Scene]:
+    from deodar.papers.saliency import scenes
+    from deodar.worlds.camera import Camera
+
+    cues = args.cue or ()
+    if args.image:
+        return [scenes.own(args.image, cues)]
+    if args.video:
+        return [scenes.filmed(args.video, cues)]
+    if args.camera is not None:
+        return [scenes.watched(Camera(args.camera, period=scenes.PERIOD), cues)]
+    return scenes.photographs(bool(args.untuned))

@@ -1,0 +1,73 @@
+"""The trials: all cues of a photograph as one batch, and the row that is kept of each cue."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from deodar.experiments.jobs import Job
+from deodar.experiments.rows import Row
+from deodar.papers.saliency.scenes import Found, Outcome, Scene, look, photographs
+
+COST = 15.0
+"""About how long a photograph takes, s."""
+
+MEASURED = ("places", "spatial_places", "spatial", "motor", "gap", "moved")
+"""Entries of a row that are attributes of an `Outcome`."""
+
+
+def scenes(quick: bool) -> list[Scene]:
+    """The photographs on which the parameters were found, and, unless it is to be quick, the untuned ones."""
+    return [*photographs(), *([] if quick else photographs(untuned=True))]
+
+
+def jobs(quick: bool) -> list[Job]:
+    """One job for each photograph."""
+    return [Job(_keys(s), photograph, {"name": s.name, "untuned": not s.tuned}, COST) for s in scenes(quick)]
+
+
+def photograph(name: str, untuned: bool) -> Sequence[Row]:
+    """The rows of a photograph, one for each cue."""
+    [scene] = [s for s in photographs(untuned) if s.name == name]
+    result = look(scene)
+    return [
+        {
+            "key": key,
+            "condition": name,
+            "trial": k,
+            "hue": o.cue.hue,
+            "quiet": result.quiet,
+            **{entry: getattr(o, entry) for entry in MEASURED},
+        }
+        for k, (key, o) in enumerate(zip(_keys(scene), result.outcomes, strict=True))
+    ]
+
+
+def found(rows: Mapping[str, Row], quick: bool) -> list[Found]:
+    """What the rows say of each photograph; of one without rows nothing is known."""
+    return [_found(s, [rows[key] for key in _keys(s) if key in rows]) for s in scenes(quick)]
+
+
+def _found(scene: Scene, rows: Sequence[Row]) -> Found:
+    if len(rows) < len(scene.cues):
+        return Found(scene)
+    outcomes = tuple(
+        Outcome(
+            cue,
+            _pairs(row["places"]),
+            _pairs(row["spatial_places"]),
+            _pairs(row["spatial"]),
+            (row["motor"][0], row["motor"][1]),
+            row["gap"],
+            row["moved"],
+        )
+        for cue, row in zip(scene.cues, rows, strict=True)
+    )
+    return Found(scene, rows[0]["quiet"], outcomes)
+
+
+def _pairs(places: Sequence[Sequence[float]]) -> tuple[tuple[float, float], ...]:
+    return tuple((x, y) for x, y in places)
+
+
+def _keys(scene: Scene) -> tuple[str, ...]:
+    return tuple(f"{scene.name}/{k}" for k in range(len(scene.cues)))

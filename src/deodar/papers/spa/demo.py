@@ -1,0 +1,70 @@
+"""The demonstration: the run of figures 10 to 12, or a maze of the user's own, with a figure and a video."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from deodar.papers import Demonstration, Show
+
+HELP = "a robot plans its way through a maze while it drives"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the demonstration."""
+    group = parser.add_argument_group("spa", HELP)
+    group.add_argument(
+        "--maze",
+        metavar="FILE",
+        help="spa: a maze of your own, as FILE or FILE#NAME, or large; nothing comes on the way",
+    )
+    group.add_argument(
+        "--start",
+        type=float,
+        nargs="+",
+        metavar="CM",
+        help="spa: where the robot starts: x, y and, if wanted, its heading in rad",
+    )
+    group.add_argument("--goal", type=float, nargs=2, metavar="CM", help="spa: x and y of the goal")
+    group.add_argument(
+        "--noise", choices=("none", "low", "high"), help="spa: of its map and place sense (default low)"
+    )
+
+
+def run(args: argparse.Namespace, show: Show) -> Demonstration:
+    """Run the narrative of the paper, or drive through the maze that is given."""
+    from deodar.architectures.spa import DIRECTIONS, maze
+    from deodar.figures._files import save_figure
+    from deodar.figures.film import film
+    from deodar.papers.spa import narrative
+    from deodar.recording import files
+
+    own = any(value is not None for value in (args.maze, args.start, args.goal, args.noise))
+    duration, noise = narrative.LONGEST if own else narrative.DURATION, args.noise or "low"
+
+    def shown(done: int) -> None:
+        show("planning and driving", done / duration)
+
+    if own:
+        start = None if args.start is None else [*args.start, 0.0][:3]
+        arena = maze(args.maze or "z", noise, start, args.goal)
+        result = narrative.drive(arena, noise, args.seed, duration, shown)
+        about = {"maze": result.arena.describe()}
+    else:
+        result = narrative.go(args.seed, duration, shown)
+        about = {"obstacle_at": narrative.COMES}
+
+    def fill(folder: Path) -> None:
+        save_figure(result.figure(), folder / "spa.png")
+        film(result, folder / "spa.gif")
+        # the motivation fields are as large as a video: the pictures show them
+        names = ["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]
+        files.save_record(result.record[names], folder / "spa.zarr")
+
+    return Demonstration(
+        claims=narrative.claims(result),
+        settings={"duration": duration, "noise": noise, **about},
+        written="spa.png, spa.gif, the record (spa.zarr)",
+        sentence=narrative.sentence(result),
+        fill=fill,
+    )

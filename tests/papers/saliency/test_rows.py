@@ -1,0 +1,68 @@
+"""Rows of the saliency paper: one for each cue; claims and figure are computed from them alone."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+import pytest
+import xarray
+
+from deodar import papers
+from deodar.experiments.rows import Row
+from deodar.papers.saliency import targets, trials
+from deodar.papers.saliency.scenes import Outcome, Result, Scene
+
+PAPER = papers.paper("saliency")
+
+
+def ideal(scene: Scene) -> Result:
+    """A result as the marks ask for: a peak at the middle of the region of a present colour, else none."""
+    outcomes: list[Outcome] = []
+    for cue in scene.cues:
+        corners = [p for outline in cue.outlines[:1] for p in outline]
+        places = tuple(p for p in [inside(cue.holds, scene)] if corners)
+        at = places[0] if places else (40.0, 40.0)
+        outcomes.append(Outcome(cue, places, places, places, at, 0.5 if places else None, 0.0))
+    return Result(scene, -1.0, tuple(outcomes), record=xarray.Dataset())
+
+
+def inside(holds: Callable[[tuple[float, float]], bool], scene: Scene) -> tuple[float, float]:
+    """A pixel in a region."""
+    width, height = scene.picture.size
+    found = ((float(x), float(y)) for x in range(0, width, 5) for y in range(0, height, 5) if holds((x, y)))
+    return next(found, (0.0, 0.0))
+
+
+@pytest.fixture
+def rows(monkeypatch: pytest.MonkeyPatch) -> dict[str, Row]:
+    """The rows of three photographs, after a file."""
+    monkeypatch.setattr(trials, "look", ideal)
+    made = [row for job in PAPER.jobs(True) for row in job.run()]
+    return {row["key"]: row for row in json.loads(json.dumps(made))}
+
+
+def test_claims_of_rows_are_those_of_the_runs(rows: dict[str, Row]) -> None:
+    direct = [claim for scene in trials.scenes(True) for claim in targets.claims(ideal(scene))]
+    report = PAPER.report(rows, True)
+    assert report.claims == direct and all(c.holds for c in direct)
+    assert list(report.figures) == ["overview"]
+
+
+def test_a_photograph_without_all_of_its_rows_is_undecided(rows: dict[str, Row]) -> None:
+    first = next(iter(rows))
+    report = PAPER.report({key: row for key, row in rows.items() if key != first}, True)
+    name = rows[first]["condition"]
+    assert {c.holds for c in report.claims if c.name.startswith(name)} == {None}
+    assert {c.holds for c in report.claims if not c.name.startswith(name)} == {True}
+
+
+def test_what_is_required_of_the_untuned_photographs_is_undecided_until_all_were_run(
+    monkeypatch: pytest.MonkeyPatch, rows: dict[str, Row]
+) -> None:
+    monkeypatch.setattr(trials, "look", ideal)
+    whole = {row["key"]: row for job in PAPER.jobs(False) for row in job.run()}
+    required = [c for c in PAPER.report(whole, False).claims if c.kind == "required"]
+    assert [(c.value, c.holds) for c in required] == [(12, True), (12, True)]
+    undecided = [c for c in PAPER.report(rows, False).claims if c.kind == "required"]
+    assert [(c.value, c.holds) for c in undecided] == [(None, None), (None, None)]
