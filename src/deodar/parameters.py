@@ -79,7 +79,7 @@ class Reference:
 ArrayLike = FrozenArray | np.ndarray | Sequence[Any]
 
 PLAIN = ("number", "integer", "flag", "text", "texts", "per_axis", "numbers", "pairs")
-Form = Literal[
+ValueForm = Literal[
     "number",
     "integer",
     "flag",
@@ -101,7 +101,7 @@ class Parameter:
     """One parameter as read from its declaration."""
 
     name: str
-    form: Form
+    form: ValueForm
     cost: Cost
     unit: str
     lower: float | None
@@ -270,7 +270,7 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
     )
 
 
-def _form(hint: Any) -> tuple[Form, type[Any] | None, bool]:
+def _form(hint: Any) -> tuple[ValueForm, type[Any] | None, bool]:
     origin, args = typing.get_origin(hint), typing.get_args(hint)
     if origin in (types.UnionType, typing.Union):
         rest = [a for a in args if a is not type(None)]
@@ -446,8 +446,14 @@ def is_text(value: str) -> bool:
     return True
 
 
-_SIMPLE: dict[Any, Form] = {float: "number", int: "integer", bool: "flag", str: "text", FrozenArray: "array"}
-_NORMAL: dict[Form, Callable[[Parameter, Any], Any]] = {
+_SIMPLE: dict[Any, ValueForm] = {
+    float: "number",
+    int: "integer",
+    bool: "flag",
+    str: "text",
+    FrozenArray: "array",
+}
+_NORMAL: dict[ValueForm, Callable[[Parameter, Any], Any]] = {
     "number": _number,
     "integer": _integer,
     "flag": _flag,

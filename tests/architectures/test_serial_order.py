@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.architectures.cascade import Transition, cascade, cascade_paths
+from deodar.architectures.cascade import ActionTransition, cascade, cascade_paths
 from deodar.architectures.serial_order import lesson, lesson_end, production_start, serial_order
 from deodar.errors import ParameterError
 from deodar.numerics.windows import Window
@@ -20,7 +20,7 @@ RELEASED = 250.0
 """After production began, ms: what was cleared is clear."""
 
 
-def assert_right(found: list[Transition], sequence: list[float]) -> None:
+def assert_right(found: list[ActionTransition], sequence: list[float]) -> None:
     assert [t.item for t in found] == list(range(1, len(sequence) + 1))
     assert [t.place for t in found] == pytest.approx(sequence, abs=1.5)
 
@@ -132,7 +132,7 @@ def test_a_sequence_must_fit_into_its_chain() -> None:
 
 
 def test_another_order_is_told() -> None:
-    good = Transition(1, 30.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0)
+    good = ActionTransition(1, 30.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0)
     assert (
         good.in_order
         and not dc.replace(good, action_off=11.0).in_order

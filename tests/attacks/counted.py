@@ -15,7 +15,7 @@ from pathlib import Path
 from types import FrameType
 
 from deodar import cli
-from deodar.server.connection import Connection
+from deodar.server.connection import PageConnection
 from deodar.session.session import Session
 
 
@@ -29,7 +29,7 @@ def count(number: int, frame: FrameType | None) -> None:
         "tasks": len(asyncio.all_tasks()),
         "threads": threading.active_count(),
         "sessions": kinds.count(Session),
-        "connections": kinds.count(Connection),
+        "connections": kinds.count(PageConnection),
     }
     place = Path(os.environ["COUNTS"])
     place.with_suffix(".new").write_text(json.dumps(found))

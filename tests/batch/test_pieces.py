@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray
 
-from deodar.batch.pieces import BATCH_BYTES, Part, Pieces, cut, joined
+from deodar.batch.pieces import BATCH_BYTES, PieceResult, Pieces, cut, joined
 from deodar.errors import ParameterError
 from deodar.recording.provenance import KEY
 
@@ -46,11 +46,11 @@ def test_a_wrong_batch_is_refused(wrong: object) -> None:
         cut({"trial": 3}, 1, 1, wrong)  # type: ignore[arg-type]
 
 
-def part(trials: list[int], times: int, whole: bool) -> Part:
+def part(trials: list[int], times: int, whole: bool) -> PieceResult:
     values = np.multiply.outer(np.array(trials, float), np.ones(times))
     data = xarray.Dataset({"u": (("trial", "time"), values)}, {"trial": trials, "time": np.arange(times)})
     data.attrs[KEY] = json.dumps({"trials": trials, "dt": 1.0})
-    return Part(data, whole)
+    return PieceResult(data, whole)
 
 
 def test_pieces_that_are_complete_become_one_record() -> None:

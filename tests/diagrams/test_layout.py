@@ -10,7 +10,7 @@ import pytest
 import deodar as dd
 from deodar.diagrams import boxes, given, layers, paint, text
 from deodar.diagrams.graph import Graph, Item, Wire
-from deodar.diagrams.scene import Label, Shape
+from deodar.diagrams.scene import Shape, TextLine
 from deodar.diagrams.straight import settle
 from deodar.model.sketch import sketch
 
@@ -149,7 +149,7 @@ def test_text_is_inside_its_box(form, name):
     )
     drawn = boxes.prepare(item, ["gate"], ["activation"], [boxes.Loop("+", ("× 2",)), boxes.Loop("-")], 9)
     for one in boxes.paint(drawn, 0, 0):
-        if isinstance(one, Label):
+        if isinstance(one, TextLine):
             half = text.width(one.text, one.size, one.bold) / 2
             assert (
                 one.x - half >= -0.01

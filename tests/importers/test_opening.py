@@ -13,7 +13,7 @@ from deodar import registry
 from deodar.errors import DocumentError
 from deodar.importers.imported import Imported
 from deodar.importers.opening import read, tool_of, tools
-from deodar.importers.report import Report
+from deodar.importers.report import ImportReport
 from tests.importers.cosivina.files import SAMPLES
 
 
@@ -50,7 +50,7 @@ def test_another_tool_is_one_more_folder(tmp_path, monkeypatch):
     other.NAME = "other"
     other.sniff = lambda head: head.startswith(b"OTHER")
     other.read = lambda content, name, bugs: Imported(
-        dd.Model(content.decode().split()[1]), Report("other", name, [])
+        dd.Model(content.decode().split()[1]), ImportReport("other", name, [])
     )
     modules = registry.modules
     monkeypatch.setitem(sys.modules, "deodar.importers.other", other)

@@ -8,12 +8,12 @@ from typing import Any, cast
 
 import pytest
 
-from deodar.server.connection import Connection
+from deodar.server.connection import PageConnection
 from deodar.server.message import Message
 from deodar.server.page import Page
 
 
-class Silent(Connection):
+class Silent(PageConnection):
     """Sends nothing."""
 
     async def _text(self, message: Message) -> None: ...

@@ -18,7 +18,7 @@ from deodar.couplings.convolve import Convolve
 from deodar.elements.function import Function
 from deodar.errors import TimeError
 from deodar.session import cost
-from deodar.session.cost import Cost, Costs
+from deodar.session.cost import ElementCost, StepCost
 from tests.session.models import mixed
 
 X = dd.Axis("x", 0, 100, samples=100, periodic=True)
@@ -144,11 +144,11 @@ def test_an_element_goes_by_the_name_it_has_now() -> None:
 
 
 def test_the_table_and_its_numbers() -> None:
-    found = Costs(
+    found = StepCost(
         (
-            Cost("1", "u", "Field", 3.0, 1, False),
-            Cost("2", "v", "Field", 1.0, 2, False),
-            Cost("3", "s", "BoxStimulus", 0.0, 1, True),
+            ElementCost("1", "u", "Field", 3.0, 1, False),
+            ElementCost("2", "v", "Field", 1.0, 2, False),
+            ElementCost("3", "s", "BoxStimulus", 0.0, 1, True),
         ),
         4.5,
     )
@@ -161,7 +161,7 @@ def test_the_table_and_its_numbers() -> None:
     )
     data = found.data()
     assert data["sum_us"] == 4 and data["step_us"] == 4.5 and data["elements"][1]["share"] == 0.25
-    assert Costs((), 0.0).sum == 0
+    assert StepCost((), 0.0).sum == 0
 
 
 @pytest.mark.parametrize("seconds", [0, -1, "long", float("inf")])

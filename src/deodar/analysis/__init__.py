@@ -11,7 +11,7 @@ from deodar.analysis.memory import Memory, forgetting, outlives
 from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
 from deodar.analysis.peaks import Peak, Peaks, peaks
 from deodar.analysis.phase import FixedPoint, Phase, phase
-from deodar.analysis.ramp import Branch, Ramp, ramp
+from deodar.analysis.ramp import Branch, SettledRamp, ramp
 from deodar.analysis.regimes import Regimes, regimes
 from deodar.analysis.selection import Selection, selects
 from deodar.analysis.settle import Settled, settle
@@ -28,10 +28,10 @@ __all__ = [
     "Peak",
     "Peaks",
     "Phase",
-    "Ramp",
     "Regimes",
     "Selection",
     "Settled",
+    "SettledRamp",
     "Thresholds",
     "Transition",
     "anova",

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from deodar.errors import AnalysisError
 
-Kind = Literal["required", "reported"]
+ClaimKind = Literal["required", "reported"]
 Origin = Literal["printed", "read off a figure", "ours", "none"]
 """Where a target comes from: the text of the paper prints it (a tolerance round it may be ours, and the
 target then says so); it was read off a figure of the paper; it is ours, although the sentence may be the
@@ -46,7 +46,7 @@ class Claim:
     value: Any
     target: Any
     holds: bool | None
-    kind: Kind = "required"
+    kind: ClaimKind = "required"
     source: str = ""
     n: int = 1
     interval: tuple[float, float] | None = None

@@ -26,9 +26,10 @@ from deodar.model.model import Handle, Model
 from deodar.model.paths import display
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
-from deodar.session.session import Session, Snapshot
+from deodar.session.session import Session
+from deodar.session.snapshot import SessionSnapshot
 
-Knob = Literal["input", "boost"]
+InputKind = Literal["input", "boost"]
 """What is turned: the strength of the localised input, or a homogeneous boost (on a node the two are the
 same).
 """
@@ -110,11 +111,11 @@ class Isolated:
         whole = math.prod(a.range for a in self.axes)
         return bool(self.axes) and any(p.size >= WHOLE * whole for p in found)
 
-    def snapshot(self) -> Snapshot:
+    def snapshot(self) -> SessionSnapshot:
         """The whole state, inputs included."""
         return self.session.snapshot()
 
-    def restore(self, snapshot: Snapshot) -> None:
+    def restore(self, snapshot: SessionSnapshot) -> None:
         """Back to a snapshot."""
         self.session.restore(snapshot)
 

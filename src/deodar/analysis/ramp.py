@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from deodar.analysis.isolated import Isolated, Knob
+from deodar.analysis.isolated import InputKind, Isolated
 from deodar.analysis.settle import LIMIT
 
 
@@ -30,7 +30,7 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class Ramp:
+class SettledRamp:
     """A field settled at each of some values of its input, first upwards, then downwards.
 
     Attributes:
@@ -40,7 +40,7 @@ class Ramp:
         down: from the highest value downwards.
     """
 
-    by: Knob
+    by: InputKind
     values: np.ndarray
     up: Branch
     down: Branch
@@ -52,8 +52,8 @@ class Ramp:
 
 
 def ramp(
-    isolated: Isolated, values: Sequence[float] | np.ndarray, by: Knob = "input", limit: float = LIMIT
-) -> Ramp:
+    isolated: Isolated, values: Sequence[float] | np.ndarray, by: InputKind = "input", limit: float = LIMIT
+) -> SettledRamp:
     """Settle a field at each value of its input, going up from rest and then down again.
 
     Args:
@@ -66,12 +66,12 @@ def ramp(
     isolated.reset()
     up = _branch(isolated, steps, by, limit)
     down = _branch(isolated, steps[::-1], by, limit)
-    return Ramp(
+    return SettledRamp(
         by, steps, up, Branch(down.count[::-1], down.activation[::-1], down.width[::-1], down.settled[::-1])
     )
 
 
-def _branch(isolated: Isolated, values: np.ndarray, by: Knob, limit: float) -> Branch:
+def _branch(isolated: Isolated, values: np.ndarray, by: InputKind, limit: float) -> Branch:
     count, activation, width, settled = [], [], [], []
     for value in values:
         isolated.put(**{by: value})

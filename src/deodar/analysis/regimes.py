@@ -14,7 +14,7 @@ from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.memory import Memory, forgetting, outlives, suppression
 from deodar.analysis.peaks import Peak, Peaks
 from deodar.analysis.preshape import SHARES, Boosted, boosted
-from deodar.analysis.ramp import Ramp, ramp
+from deodar.analysis.ramp import SettledRamp, ramp
 from deodar.analysis.selection import Selection, selects, separation
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Thresholds, Transition, thresholds
@@ -67,7 +67,7 @@ class Regimes:
     selection: Selection | None
     separation: float | None
     boosts: tuple[Boosted, ...]
-    ramp: Ramp
+    ramp: SettledRamp
     transitions: Mapping[str, Transition]
     discretisation: Mapping[str, float | None] | None
     coarse_alone: str

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from deodar.analysis.claims import Claim, Kind, Origin
+from deodar.analysis.claims import Claim, ClaimKind, Origin
 from deodar.errors import AnalysisError
 from deodar.numerics.intervals import Interval
 
@@ -198,7 +198,7 @@ def share(
     hits: int,
     n: int,
     at_least: float,
-    kind: Kind = "required",
+    kind: ClaimKind = "required",
     source: str = "",
     quick: bool = False,
     origin: Origin = "ours",

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from deodar.analysis.isolated import Isolated, Knob
+from deodar.analysis.isolated import InputKind, Isolated
 from deodar.analysis.settle import LIMIT
-from deodar.session.session import Snapshot
+from deodar.session.snapshot import SessionSnapshot
 
 MOST_DOUBLINGS = 8
 JUMP = 20.0
@@ -49,7 +49,7 @@ class Transition:
     after: float
     interval: tuple[float, float]
     jump: bool
-    state: Snapshot
+    state: SessionSnapshot
 
     def __repr__(self) -> str:
         return (
@@ -78,7 +78,7 @@ class Thresholds:
 
 
 def thresholds(
-    isolated: Isolated, by: Knob = "input", accuracy: float = 0.01, limit: float = LIMIT
+    isolated: Isolated, by: InputKind = "input", accuracy: float = 0.01, limit: float = LIMIT
 ) -> Thresholds:
     """Detection and reverse-detection thresholds of a field.
 
@@ -135,7 +135,9 @@ def _stuck(isolated: Isolated, most: float) -> float:
     )
 
 
-def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = LIMIT) -> Transition | None:
+def ascend(
+    isolated: Isolated, by: InputKind, accuracy: float = 0.01, limit: float = LIMIT
+) -> Transition | None:
     """From a settled field without a peak, `by` at 0, upwards: where a peak appears, or None where none
     does.
     """
@@ -155,7 +157,12 @@ def ascend(isolated: Isolated, by: Knob, accuracy: float = 0.01, limit: float = 
 
 
 def descend(
-    isolated: Isolated, by: Knob, start: float, floor: float, accuracy: float = 0.01, limit: float = LIMIT
+    isolated: Isolated,
+    by: InputKind,
+    start: float,
+    floor: float,
+    accuracy: float = 0.01,
+    limit: float = LIMIT,
 ) -> Transition | None:
     """From a settled peak at `start` downwards: where it vanishes, or None where it is still there at
     `floor`.
@@ -176,10 +183,10 @@ def descend(
 
 def bisect(
     isolated: Isolated,
-    by: Knob,
+    by: InputKind,
     before: float,
     after: float,
-    state: Snapshot,
+    state: SessionSnapshot,
     changed: Callable[[], bool],
     accuracy: float = 0.01,
     limit: float = LIMIT,
@@ -193,7 +200,7 @@ def bisect(
     )  # below this the bracket is measured against the scale: a threshold may be 0
     isolated.restore(state)
     last = isolated.activation()
-    settled: tuple[Snapshot, np.ndarray] | None = None
+    settled: tuple[SessionSnapshot, np.ndarray] | None = None
     while settled is None or abs(after - before) > accuracy / 2 * max(abs(before + after) / 2, least):
         trial = (before + after) / 2 if settled is not None else after
         isolated.restore(state)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Transition:
+class ActionTransition:
     """One action's end and the beginning of the next, as times in the unit of the record; NaN: it did not
     happen.
 
@@ -59,7 +59,7 @@ def cascade_paths(items: int) -> list[str]:
     ]
 
 
-def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Transition]:
+def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[ActionTransition]:
     """The transitions between two moments of a single run, one for each time that an ordinal node went off.
 
     Args:
@@ -74,7 +74,7 @@ def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Tr
     action, satisfaction = (part[f"{name}.activation"] for name in ("action", "satisfaction"))
     acting, satisfied = (u.max(str(u.dims[1])).values > 0 for u in (action, satisfaction))
     ended = sorted((i, k) for k in on for i in _switches(on[k], False))
-    found: list[Transition] = []
+    found: list[ActionTransition] = []
     for n, (i, k) in enumerate(ended):
         last = ended[n + 1][0] if n + 1 < len(ended) else len(time)
         came = [j for j in _switches(satisfied, True) if j <= i]
@@ -86,7 +86,7 @@ def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Tr
             return next((float(time[j]) for j in switched if low <= j < high), np.nan)
 
         found.append(
-            Transition(
+            ActionTransition(
                 k,
                 place[0] if place else np.nan,
                 float(time[came[-1]]) if came else np.nan,

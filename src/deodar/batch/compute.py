@@ -31,7 +31,8 @@ from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
 Spread = Callable[
-    [Model, World | None, Sequence[Mapping[str, Any]], int, Callable[[int], None]], list[pieces.Part | None]
+    [Model, World | None, Sequence[Mapping[str, Any]], int, Callable[[int], None]],
+    list[pieces.PieceResult | None],
 ]
 """A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
 
@@ -54,7 +55,7 @@ def compute(
     accuracy: str = "default",
     width: tuple[str, int] | None = None,
     spread: Spread | None = None,
-) -> pieces.Part:
+) -> pieces.PieceResult:
     """Compute a whole run of `simulate`, or one piece of it; if all its copies diverge, the error is returned
     beside the record.
 
@@ -120,7 +121,9 @@ def compute(
                 f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data
             )
         errors = [part.lost for part in parts if part is not None]
-        return pieces.Part(data, True, errors[0] if all(error is not None for error in errors) else None)
+        return pieces.PieceResult(
+            data, True, errors[0] if all(error is not None for error in errors) else None
+        )
     stopped, nothing = False, None
     with stoppable() as check:
         more_points, more_trials = _missing(width, points, len(numbers))
@@ -186,7 +189,7 @@ def compute(
     data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
     if stopped:
         raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
-    return pieces.Part(data, True, nothing)
+    return pieces.PieceResult(data, True, nothing)
 
 
 def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tuple[int, int]:
@@ -208,9 +211,9 @@ def _in_pieces(
     steps: int,
     progress: Shown,
     spread: Spread | None,
-) -> list[pieces.Part | None]:
+) -> list[pieces.PieceResult | None]:
     """Compute the pieces one after another, or in `count` worker processes."""
-    parts: list[pieces.Part | None] = [None] * len(jobs)
+    parts: list[pieces.PieceResult | None] = [None] * len(jobs)
     with stoppable() as check, bar(steps * len(jobs), progress) as shown:
 
         def between(done: int) -> None:
@@ -225,7 +228,7 @@ def _in_pieces(
                     model, world=world, progress=lambda done, k=k: between(k * steps + done), **job
                 )
             except Interrupted as error:
-                parts[k] = pieces.Part(error.data, False)
+                parts[k] = pieces.PieceResult(error.data, False)
                 break
     return parts
 

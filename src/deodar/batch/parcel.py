@@ -21,7 +21,7 @@ from deodar.worlds._base import World
 
 
 @dc.dataclass(frozen=True)
-class Parcel:
+class PackedModel:
     """A model and its world, packed.
 
     Attributes:
@@ -39,7 +39,7 @@ class Parcel:
     packed: bytes
 
     @classmethod
-    def of(cls, model: Model, world: World | None) -> Parcel:
+    def of(cls, model: Model, world: World | None) -> PackedModel:
         """Pack both.
 
         Raises:

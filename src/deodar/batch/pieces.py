@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-class Part(NamedTuple):
+class PieceResult(NamedTuple):
     """The record of a piece, whether it is complete, and the error of its first copy if all of its copies
     diverged.
     """
@@ -123,7 +123,9 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
     return Pieces(dimension, total, length, rest)
 
 
-def joined(pieces: Pieces, parts: Sequence[Part | None], settings: Mapping[str, Any]) -> xarray.Dataset:
+def joined(
+    pieces: Pieces, parts: Sequence[PieceResult | None], settings: Mapping[str, Any]
+) -> xarray.Dataset:
     """One record from those of the pieces: of all that are complete; if none is, of those begun, up to a time
     that keeps most of them.
 

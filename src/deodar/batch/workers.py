@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from deodar.batch.compute import compute
-from deodar.batch.parcel import Parcel
-from deodar.batch.pieces import Part
+from deodar.batch.parcel import PackedModel
+from deodar.batch.pieces import PieceResult
 from deodar.batch.pool import Pool
 from deodar.errors import Interrupted
 from deodar.model.model import Model
@@ -29,7 +29,7 @@ LOOK_EVERY = 0.1
 
 
 @dc.dataclass(frozen=True)
-class Job:
+class WorkerTask:
     """One piece, as a worker gets it.
 
     Attributes:
@@ -39,7 +39,7 @@ class Job:
         number: which piece this is.
     """
 
-    parcel: Parcel
+    parcel: PackedModel
     settings: Mapping[str, Any]
     board: str
     number: int
@@ -51,7 +51,7 @@ def run(
     pieces: Sequence[Mapping[str, Any]],
     workers: int,
     between: Callable[[int], None],
-) -> list[Part | None]:
+) -> list[PieceResult | None]:
     """Run the pieces in `count` processes; return the record of each, or None if the run was stopped before
     the piece began.
 
@@ -67,10 +67,10 @@ def run(
         KeyboardInterrupt: on a second Ctrl-C; the processes are ended at once.
         WorkerError: something cannot be handed to another process, or a process has died.
     """
-    parcel = Parcel.of(model, world)
-    parts: list[Part | None] = [None] * len(pieces)
+    parcel = PackedModel.of(model, world)
+    parts: list[PieceResult | None] = [None] * len(pieces)
     with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces))) as pool:
-        waiting = [Job(parcel, settings, path, k) for k, settings in enumerate(pieces)][::-1]
+        waiting = [WorkerTask(parcel, settings, path, k) for k, settings in enumerate(pieces)][::-1]
         while waiting or pool.busy:
             while waiting and pool.idle:
                 pool.give(waiting[-1].number, work, waiting.pop())
@@ -111,7 +111,7 @@ def _mapped(path: str) -> Generator[memoryview]:
 # ---------------------------------------------------------------------------------------------- in the worker
 
 
-def work(job: Job) -> Part:
+def work(job: WorkerTask) -> PieceResult:
     """Run one piece."""
     with _mapped(job.board) as board:
 
@@ -123,4 +123,4 @@ def work(job: Job) -> Part:
         try:
             return compute(job.parcel.model, world=job.parcel.world(), progress=told, **job.settings)
         except Interrupted as error:
-            return Part(error.data, False)
+            return PieceResult(error.data, False)

@@ -11,7 +11,7 @@ from deodar.cli import _options
 from deodar.model import output
 
 if TYPE_CHECKING:
-    from deodar.importers.report import Report
+    from deodar.importers.report import ImportReport
 
 HELP = (
     "make a document from a file of another tool (cosivina), with a report of what was carried, approximated"
@@ -79,7 +79,7 @@ def run(args: argparse.Namespace) -> int:
     return int(failed)
 
 
-def _show(report: Report) -> None:
+def _show(report: ImportReport) -> None:
     # start-up time: only a terminal needs rich
     from rich import box
     from rich.console import Console

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.compiler.plan import Group, Leaf, Plan
+from deodar.compiler.plan import Leaf, Plan, RowGroup
 from deodar.compiler.program import array_key
 from deodar.errors import ParameterError
 from deodar.leaves import leaves
@@ -89,7 +89,7 @@ class Layout:
             rows[r] = part
             arrays[array_key(g, name)] = rows
 
-    def _group(self, ident: str) -> Group:
+    def _group(self, ident: str) -> RowGroup:
         return self.plan.groups[self.plan.row[ident][0]]
 
     def _part(self, name: str, value: Any) -> np.ndarray:

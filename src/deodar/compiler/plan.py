@@ -14,24 +14,24 @@ from typing import Any
 import numpy as np
 
 from deodar.compiler.sharing import shared
-from deodar.compiler.ways import EXACT, Way, ways
+from deodar.compiler.ways import EXACT, Strategy, ways
 from deodar.elements.sensor import Sensor
 from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure
 from deodar.model.document import Document
-from deodar.model.order import Role, order
+from deodar.model.order import NodeRole, order
 from deodar.model.resolve import Instant, Node, resolve
 from deodar.numerics.axes import Axes
 from deodar.numerics.exact import LOW
 from deodar.parameters import Parameter
 
-Partition = Callable[[Node, bool, frozenset[str], Way], Hashable]
+Partition = Callable[[Node, bool, frozenset[str], Strategy], Hashable]
 Leaf = tuple[str, str]
 """Element id and path of a traced leaf inside the element."""
 
 
 @dc.dataclass
-class Group:
+class RowGroup:
     """Rows of equal structure.
 
     Attributes:
@@ -52,7 +52,7 @@ class Group:
     cost: dict[str, str]
     still: bool
     noise: Axes | None
-    way: Way = EXACT
+    way: Strategy = EXACT
     exact: frozenset[str] = frozenset()
 
     @property
@@ -71,7 +71,7 @@ class Call:
     """One evaluation of a whole group."""
 
     group: int
-    role: Role
+    role: NodeRole
     instant: Instant
 
 
@@ -108,7 +108,7 @@ class Read:
 class Plan:
     """What is computed, in which order, from what."""
 
-    groups: list[Group]
+    groups: list[RowGroup]
     calls: list[Call]
     reads: dict[tuple[int, str], list[Read]]
     row: dict[str, tuple[int, int]]
@@ -170,7 +170,7 @@ class Plan:
         return [c for c in self.calls if c.role == "output" and c.instant == 0 and c.group in want]
 
 
-def by_structure(node: Node, still: bool, neutral: frozenset[str], way: Way) -> Hashable:
+def by_structure(node: Node, still: bool, neutral: frozenset[str], way: Strategy) -> Hashable:
     """Rows that share one group: equal level, rate, structure, axes and way.
 
     A sensor stands alone: a world feeds it by name.
@@ -226,7 +226,7 @@ def plan(
 
 def ways_of(
     doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False
-) -> dict[str, Way]:
+) -> dict[str, Strategy]:
     """How each element would apply its kernels, where not by matrices."""
     nodes, problems = resolve(doc)
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
@@ -254,11 +254,11 @@ def _groups(
     nodes: Sequence[Node],
     neutral: Mapping[str, frozenset[str]],
     still: Mapping[str, bool],
-    found: Mapping[str, Way],
+    found: Mapping[str, Strategy],
     partition: Partition,
-) -> tuple[list[Group], dict[str, tuple[int, int]]]:
+) -> tuple[list[RowGroup], dict[str, tuple[int, int]]]:
     keys: dict[Hashable, int] = {}
-    groups: list[Group] = []
+    groups: list[RowGroup] = []
     row: dict[str, tuple[int, int]] = {}
     for n in sorted(nodes, key=lambda n: n.id):  # by stored id: the order of declaration cannot matter
         key = partition(n, still[n.id], neutral[n.id], found[n.id])
@@ -266,7 +266,7 @@ def _groups(
         if g == len(groups):
             # noise at its neutral strength 0 is left out of the program, unless that value may change
             probe: Any = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
-            groups.append(Group([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id]))
+            groups.append(RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id]))
         row[n.id] = (g, groups[g].rows)
         groups[g].nodes.append(n)
     return groups, row
@@ -279,7 +279,7 @@ def _swept(nodes: Sequence[Node], lifted: frozenset[Leaf]) -> set[str]:
     return {i for i, path in lifted if costs[i, path] == "rebuild"}
 
 
-def _place(groups: Sequence[Group], neutral: Mapping[str, frozenset[str]]) -> int:
+def _place(groups: Sequence[RowGroup], neutral: Mapping[str, frozenset[str]]) -> int:
     size = 0
     for g in groups:
         arrays: list[str] = []
@@ -305,7 +305,7 @@ def cost(p: Parameter) -> str:
 
 
 def _reads(
-    group: Group, port: str, groups: Sequence[Group], row: Mapping[str, tuple[int, int]]
+    group: RowGroup, port: str, groups: Sequence[RowGroup], row: Mapping[str, tuple[int, int]]
 ) -> list[Read]:
     found: dict[tuple[int, str, Instant], list[list[int]]] = {}
     for r, n in enumerate(group.nodes):

@@ -19,7 +19,7 @@ from jax import Array, lax
 
 from deodar.compiler.body import Body
 from deodar.compiler.functions import Step
-from deodar.compiler.plan import Call, Group, Plan, Read
+from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.element import Setting, Time
 from deodar.leaves import bind
@@ -300,7 +300,7 @@ class Program:
         own = tick // jnp.uint32(group.like.every)
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
-    def _time(self, clock: Tree, tick: Any, group: Group) -> Time:
+    def _time(self, clock: Tree, tick: Any, group: RowGroup) -> Time:
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
 
     def _inputs(
@@ -358,7 +358,7 @@ class Program:
             out[path] = values["arrays"][array_key(g, path)]
         return out
 
-    def _swept_constants(self, group: Group) -> bool:
+    def _swept_constants(self, group: RowGroup) -> bool:
         for path, offset in group.offset.items():
             inside = any(offset <= place < offset + group.rows for places in self.sweep for place in places)
             if inside and group.cost[path] == "rebuild":
@@ -394,6 +394,6 @@ def gather(x: Any, read: Read) -> Any:
     return total
 
 
-def _numbers(group: Group) -> np.ndarray:
+def _numbers(group: RowGroup) -> np.ndarray:
     """The ids of a group as the numbers that key their noise."""
     return np.array([int(n.id, 16) for n in group.nodes], np.uint32)

@@ -14,7 +14,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from deodar.compiler.functions import Functions, Step, run_advance, run_output
-from deodar.compiler.ways import EXACT, Way, acted_axes, role
+from deodar.compiler.ways import EXACT, Strategy, acted_axes, role
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
 from deodar.model.resolve import Node, Slot
@@ -43,7 +43,7 @@ def plain_ports(ports: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in ports.items() if not name.endswith((WAVES, REST))}
 
 
-def shared(nodes: Sequence[Node], found: dict[str, Way]) -> list[Node]:
+def shared(nodes: Sequence[Node], found: dict[str, Strategy]) -> list[Node]:
     """The nodes, with the second parts of ports where they share waves.
 
     What cannot share after all takes back its choice in `found`.
@@ -62,7 +62,9 @@ def shared(nodes: Sequence[Node], found: dict[str, Way]) -> list[Node]:
     return [_with_waves(n, by, found, smooth) if found[n.id].shared else n for n in nodes]
 
 
-def _with_waves(n: Node, by: Mapping[str, Node], found: Mapping[str, Way], smooth: Collection[str]) -> Node:
+def _with_waves(
+    n: Node, by: Mapping[str, Node], found: Mapping[str, Strategy], smooth: Collection[str]
+) -> Node:
     way = found[n.id]
     waves = tuple(w.axis(a) for w, a in zip(dict(way.choices)[way.shared].waves, acted_axes(n), strict=True))
     through = role(n) == "filter"
@@ -97,7 +99,7 @@ def _with_waves(n: Node, by: Mapping[str, Node], found: Mapping[str, Way], smoot
     )
 
 
-def _joined(a: Node, b: Node, found: Mapping[str, Way]) -> bool:
+def _joined(a: Node, b: Node, found: Mapping[str, Strategy]) -> bool:
     """Whether both share the same waves."""
     one, other = found[a.id], found[b.id]
     same = (
@@ -115,7 +117,7 @@ def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
 # ------------------------------------------------------------------------------------------ wrapped functions
 
 
-def functions(node: Node, way: Way) -> Functions:
+def functions(node: Node, way: Strategy) -> Functions:
     """The functions of a group whose rows are like the node."""
     if not way.shared:
         return Functions(node, dict(way.choices))
@@ -123,7 +125,7 @@ def functions(node: Node, way: Way) -> Functions:
 
 
 class _Sharing(Functions):
-    def __init__(self, node: Node, way: Way) -> None:
+    def __init__(self, node: Node, way: Strategy) -> None:
         super().__init__(node, dict(way.choices))
         self.key, self.waves = way.shared, dict(way.choices)[way.shared].waves
 

@@ -25,7 +25,7 @@ from deodar.numerics.choice import Choice, by_matrices, together
 
 
 @dc.dataclass(frozen=True)
-class Way:
+class Strategy:
     """How one element applies its kernels.
 
     Attributes:
@@ -37,7 +37,7 @@ class Way:
     shared: str = ""
 
 
-EXACT = Way()
+EXACT = Strategy()
 WORTH = 1.1
 """How much more a step may cost for a program with fewer groups: it compiles sooner."""
 
@@ -88,29 +88,29 @@ def widths(doc: Document) -> dict[str, Any]:
 
 def ways(
     nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str], copies: int = 1
-) -> dict[str, Way]:
+) -> dict[str, Strategy]:
     """The way of every node; those in `exact` take matrices.
 
     `copies`: how many of the whole model run at once.
     """
     alike = Counter(_likeness(n) for n in nodes)
-    out: dict[str, Way] = {}
+    out: dict[str, Strategy] = {}
     for n in nodes:
         own = (
             {}
             if n.id in exact
             else interaction.choices(n.element.kernels(), acted_axes(n), copies * alike[_likeness(n)])
         )
-        out[n.id] = Way(_sorted(own))
+        out[n.id] = Strategy(_sorted(own))
     free = [n for n in nodes if role(n) and not still[n.id] and n.id not in exact and acted_axes(n)]
     for members, key, choice in _merged(list(_circles(free, out, copies)), free, out, copies):
         for n in members:
-            out[n.id] = Way(_sorted({**dict(out[n.id].choices), key: choice}), key)
+            out[n.id] = Strategy(_sorted({**dict(out[n.id].choices), key: choice}), key)
     return out
 
 
 def _merged(
-    circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str, Way], copies: int
+    circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str, Strategy], copies: int
 ) -> Iterator[Circle]:
     """Circles over the same axes with the same waves, and fields that would take waves on their own, where
     that costs little more: fewer groups.
@@ -138,7 +138,7 @@ def _merged(
             yield from found
 
 
-def _circles(free: Sequence[Node], alone: Mapping[str, Way], copies: int) -> Iterator[Circle]:
+def _circles(free: Sequence[Node], alone: Mapping[str, Strategy], copies: int) -> Iterator[Circle]:
     """Nodes that are linked through filters of one kind of boundaries, where sharing waves is cheaper for
     them than each on its own.
     """
@@ -194,7 +194,7 @@ def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:
     return total
 
 
-def _alone(n: Node, key: str, alone: Mapping[str, Way], axes: Axes, copies: int) -> float:
+def _alone(n: Node, key: str, alone: Mapping[str, Strategy], axes: Axes, copies: int) -> float:
     own = dict(alone[n.id].choices).get(key)
     if own is not None:
         return own.nanoseconds

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from deodar.diagrams import text
 from deodar.diagrams.graph import Item
-from deodar.diagrams.layout import Box
-from deodar.diagrams.scene import Label, Move, Shape, circle, line, polygon, rectangle
+from deodar.diagrams.layout import ItemSize
+from deodar.diagrams.scene import PathCommand, Shape, TextLine, circle, line, polygon, rectangle
 from deodar.numerics.axes import Axis
 from deodar.numerics.signs import Sign
 
@@ -56,7 +56,7 @@ class Loop:
 
 
 @dataclass(frozen=True)
-class Drawn:
+class SizedItem:
     """An item with all that decides its size: names of the ports at which wires end, and its loops."""
 
     item: Item
@@ -65,7 +65,7 @@ class Drawn:
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     loops: tuple[Loop, ...]
-    box: Box
+    box: ItemSize
 
     @property
     def loops_height(self) -> float:
@@ -75,7 +75,7 @@ class Drawn:
 
 def prepare(
     item: Item, inputs: Sequence[str], outputs: Sequence[str], loops: Sequence[Loop], most: int
-) -> Drawn:
+) -> SizedItem:
     """Decide how large an item is.
 
     Args:
@@ -96,7 +96,7 @@ def prepare(
     if item.form == "node":
         radius = max(NODE, body / 2)
         width = max(2 * radius, wide, small_wide, loops_wide)
-        box = Box(width, above + 2 * radius + 2 + high + small_high, above, 2 * radius)
+        box = ItemSize(width, above + 2 * radius + 2 + high + small_high, above, 2 * radius)
     else:
         ports = sum(max((text.width(p, PORT) + 4 for p in side), default=0.0) for side in (inputs, outputs))
         inner = high + small_high + 5
@@ -107,11 +107,11 @@ def prepare(
         if item.form in ("sensor", "motor"):
             width += 12
         body = max(body, inner)
-        box = Box(max(width + ports, loops_wide + 6), above + body, above, body)
-    return Drawn(item, lines, small, tuple(inputs), tuple(outputs), tuple(loops), box)
+        box = ItemSize(max(width + ports, loops_wide + 6), above + body, above, body)
+    return SizedItem(item, lines, small, tuple(inputs), tuple(outputs), tuple(loops), box)
 
 
-def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
+def paint(drawn: SizedItem, x: float, y: float) -> list[Shape | TextLine]:
     """The shapes of an item, given its upper left corner. Its loops are wires and not included."""
     item, box = drawn.item, drawn.box
     top, middle = y + box.top, x + box.width / 2
@@ -120,7 +120,7 @@ def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
     outline = Shape(
         _outline(item, x, top, box), stroke, FILLS[item.form], 0.6 if stroke == FAINT else 0.9, dash
     )
-    out: list[Shape | Label] = [outline]
+    out: list[Shape | TextLine] = [outline]
     if item.form == "node":
         out += _node_picture(middle, top + box.body / 2, box.body / 2)
         at = top + box.body + 2
@@ -135,18 +135,18 @@ def paint(drawn: Drawn, x: float, y: float) -> list[Shape | Label]:
         )
         at = top + (box.body - inner) / 2
     for name in drawn.lines:
-        out.append(Label(name, middle, at + 6.8, NAME, bold=_bold(item), color=INK))
+        out.append(TextLine(name, middle, at + 6.8, NAME, bold=_bold(item), color=INK))
         at += LINE
     if item.form != "node" and _pictured(item):
         out += _picture(item, middle - PICTURE[0] / 2, at + 1)
         at += PICTURE[1] + 3
     for small in drawn.small:
-        out.append(Label(small, middle, at + 5.4, SMALL, color=SOFT))
+        out.append(TextLine(small, middle, at + 5.4, SMALL, color=SOFT))
         at += SMALL_LINE
     return out
 
 
-def reach(drawn: Drawn, dy: float) -> float:
+def reach(drawn: SizedItem, dy: float) -> float:
     """How far inside its box the outline stands, at a height `dy` above or below the middle of its body."""
     box, form = drawn.box, drawn.item.form
     if form == "node":
@@ -157,7 +157,7 @@ def reach(drawn: Drawn, dy: float) -> float:
     return 0.0
 
 
-def height_at(drawn: Drawn, dx: float) -> float:
+def height_at(drawn: SizedItem, dx: float) -> float:
     """How far below the upper edge of the body the outline stands, at a distance `dx` from its middle."""
     if drawn.item.form != "node":
         return 0.0
@@ -198,7 +198,7 @@ def number(value: float) -> str:
     return f"{value:.4g}".replace("-", "\N{MINUS SIGN}")
 
 
-def _outline(item: Item, x: float, top: float, box: Box) -> tuple[Move, ...]:
+def _outline(item: Item, x: float, top: float, box: ItemSize) -> tuple[PathCommand, ...]:
     w, h = box.width, box.body
     if item.form == "node":
         return circle(x + w / 2, top + h / 2, h / 2)
@@ -225,7 +225,7 @@ def _outline(item: Item, x: float, top: float, box: Box) -> tuple[Move, ...]:
     )
 
 
-def _node_picture(x: float, y: float, r: float) -> list[Shape | Label]:
+def _node_picture(x: float, y: float, r: float) -> list[Shape | TextLine]:
     """A step up: on or off."""
     s = min(r, NODE) * 0.5
     return [
@@ -242,7 +242,7 @@ def _node_picture(x: float, y: float, r: float) -> list[Shape | Label]:
     ]
 
 
-def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
+def _picture(item: Item, x: float, y: float) -> list[Shape | TextLine]:
     """The glyph of a field by its number of dimensions: a line, a plane or a volume with a peak."""
     w, h = PICTURE
     dims = len(item.axes)
@@ -262,7 +262,7 @@ def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
     d, a = h * 0.3, h * 0.66
     x0, y0 = x + (w - a * 1.5 - d) / 2, y + d
     b = a * 1.5
-    out: list[Shape | Label] = [
+    out: list[Shape | TextLine] = [
         Shape(polygon((x0 + d, y), (x0 + d + b, y), (x0 + b, y0), (x0, y0)), SOFT, "#ffffff", 0.7),
         Shape(
             polygon((x0 + b, y0), (x0 + b + d, y), (x0 + b + d, y + a), (x0 + b, y0 + a)),
@@ -274,11 +274,11 @@ def _picture(item: Item, x: float, y: float) -> list[Shape | Label]:
         Shape(circle(x0 + b * 0.5, y0 + a * 0.5, a * 0.24), BLUE, "#d3e4f3", 1.0),
     ]
     if dims > 3:
-        out.append(Label(f"{dims}D", x + w, y + h - 1, PORT, "end", color=SOFT))
+        out.append(TextLine(f"{dims}D", x + w, y + h - 1, PORT, "end", color=SOFT))
     return out
 
 
-def _bump(x: float, base: float, w: float, h: float) -> tuple[Move, ...]:
+def _bump(x: float, base: float, w: float, h: float) -> tuple[PathCommand, ...]:
     """A bell on a base line."""
     m = x + w / 2
     return (

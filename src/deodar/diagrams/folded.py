@@ -7,7 +7,7 @@ from __future__ import annotations
 import dataclasses as dc
 from collections import Counter, defaultdict
 
-from deodar.diagrams.graph import Graph, Group, Item, Wire
+from deodar.diagrams.graph import Graph, GroupPath, Item, Wire
 from deodar.numerics.signs import Sign
 
 
@@ -53,11 +53,11 @@ def fold(graph: Graph, depth: int) -> Graph:
     return Graph(graph.name, tuple(items.values()), tuple(wires), open_groups)
 
 
-def _id(group: Group) -> str:
+def _id(group: GroupPath) -> str:
     return "group " + "\0".join(group)
 
 
-def _box(group: Group, inside: int, template: str) -> Item:
+def _box(group: GroupPath, inside: int, template: str) -> Item:
     kind = f"linked to {template}" if template else f"{inside} element{'s' if inside > 1 else ''}"
     return Item(_id(group), "group", group[-1], kind, group=group[:-1])
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping
 
-from deodar.diagrams.graph import Graph, Group
-from deodar.diagrams.layout import FRAME, HEAD, LEFT, RIGHT, SPACING, Box, Layout, Run
+from deodar.diagrams.graph import Graph, GroupPath
+from deodar.diagrams.layout import FRAME, HEAD, LEFT, RIGHT, SPACING, Arrangement, ItemSize, Stretch
 
 GIVEN = 0.7
 """Points of a unit of the places that a document holds: the studio's boxes are larger than those drawn here.
@@ -15,16 +15,16 @@ GIVEN = 0.7
 
 def placed(
     graph: Graph,
-    boxes: Mapping[str, Box],
+    boxes: Mapping[str, ItemSize],
     labels: Mapping[int, tuple[float, float]],
-    names: Mapping[Group, float],
-) -> Layout:
+    names: Mapping[GroupPath, float],
+) -> Arrangement:
     """Take the places that are given.
 
     Connections then run straight from side to side, wherever boxes stand.
     """
     left, top = (min(graph.places[i.id][k] for i in graph.items) for k in (0, 1))
-    found = Layout()
+    found = Arrangement()
     for item in graph.items:
         x, y = graph.places[item.id]
         found.boxes[item.id] = ((x - left) * GIVEN, (y - top) * GIVEN)
@@ -47,14 +47,14 @@ def placed(
         found.backwards[w] = a > b
         ends[wire.source, LEFT if a > b else RIGHT].append(w)
         ends[wire.target, RIGHT if a > b else LEFT].append(w)
-    at: dict[tuple[str, int], Run] = {}
+    at: dict[tuple[str, int], Stretch] = {}
     for (ident, side), wires in ends.items():
         box, (x, y) = boxes[ident], found.boxes[ident]
         wires.sort(key=lambda w, me=ident: (found.boxes[_other(graph, w, me)][1], w))
         step = min(SPACING, (box.body - 6) / max(1, len(wires) - 1))
         for k, w in enumerate(wires):
             edge = x if side == LEFT else x + box.width
-            at[ident, w] = Run(edge, edge, y + box.top + box.body / 2 + step * (k - (len(wires) - 1) / 2))
+            at[ident, w] = Stretch(edge, edge, y + box.top + box.body / 2 + step * (k - (len(wires) - 1) / 2))
     for w, wire in enumerate(graph.wires):
         if wire.source != wire.target:
             a, b = at[wire.source, w], at[wire.target, w]
@@ -69,7 +69,9 @@ def _other(graph: Graph, w: int, ident: str) -> str:
     return wire.target if wire.source == ident else wire.source
 
 
-def _to_origin(found: Layout, boxes: Mapping[str, Box], labels: Mapping[int, tuple[float, float]]) -> Layout:
+def _to_origin(
+    found: Arrangement, boxes: Mapping[str, ItemSize], labels: Mapping[int, tuple[float, float]]
+) -> Arrangement:
     """The same, moved so that nothing stands at places below 0."""
     areas = [(x, y, boxes[i].width, boxes[i].height) for i, (x, y) in found.boxes.items()] + list(
         found.frames.values()
@@ -78,7 +80,7 @@ def _to_origin(found: Layout, boxes: Mapping[str, Box], labels: Mapping[int, tup
         (x - labels[w][0] / 2, y - labels[w][1] / 2, *labels[w]) for w, (x, y) in found.captions.items()
     ]
     x, y = min(a[0] for a in areas), min(a[1] for a in areas)
-    moved = Layout(
+    moved = Arrangement(
         backwards=found.backwards,
         width=max(a[0] + a[2] for a in areas) - x,
         height=max(a[1] + a[3] for a in areas) - y,
@@ -86,5 +88,5 @@ def _to_origin(found: Layout, boxes: Mapping[str, Box], labels: Mapping[int, tup
     moved.boxes = {i: (bx - x, by - y) for i, (bx, by) in found.boxes.items()}
     moved.frames = {g: (fx - x, fy - y, w, h) for g, (fx, fy, w, h) in found.frames.items()}
     moved.captions = {w: (cx - x, cy - y) for w, (cx, cy) in found.captions.items()}
-    moved.runs = {w: [Run(r.x0 - x, r.x1 - x, r.y - y) for r in runs] for w, runs in found.runs.items()}
+    moved.runs = {w: [Stretch(r.x0 - x, r.x1 - x, r.y - y) for r in runs] for w, runs in found.runs.items()}
     return moved

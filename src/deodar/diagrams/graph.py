@@ -9,8 +9,8 @@ from typing import Literal
 from deodar.numerics.axes import Axes
 from deodar.numerics.signs import Sign
 
-Form = Literal["field", "node", "source", "sensor", "motor", "coupling", "missing", "group"]
-Group = tuple[str, ...]
+ItemForm = Literal["field", "node", "source", "sensor", "motor", "coupling", "missing", "group"]
+GroupPath = tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -30,12 +30,12 @@ class Item:
     """
 
     id: str
-    form: Form
+    form: ItemForm
     name: str
     kind: str = ""
     axes: Axes = ()
     recurrence: tuple[Sign, ...] = ()
-    group: Group = ()
+    group: GroupPath = ()
     every: int = 1
     told: bool = True
 
@@ -74,5 +74,5 @@ class Graph:
     name: str
     items: tuple[Item, ...]
     wires: tuple[Wire, ...]
-    groups: Mapping[Group, str] = field(default_factory=dict[Group, str])
+    groups: Mapping[GroupPath, str] = field(default_factory=dict[GroupPath, str])
     places: Mapping[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from deodar.diagrams import layers
-from deodar.diagrams.graph import Graph, Group
+from deodar.diagrams.graph import Graph, GroupPath
 from deodar.diagrams.straight import settle
 
 ROUNDS = 24
@@ -38,7 +38,7 @@ SPACING = 9.0
 
 
 @dataclass
-class Box:
+class ItemSize:
     """What an item needs.
 
     Attributes:
@@ -54,7 +54,7 @@ class Box:
 
 
 @dataclass(frozen=True)
-class Run:
+class Stretch:
     """A level stretch of a connection, from left to right."""
 
     x0: float
@@ -63,7 +63,7 @@ class Run:
 
 
 @dataclass
-class Layout:
+class Arrangement:
     """Where everything stands.
 
     Attributes:
@@ -75,10 +75,10 @@ class Layout:
     """
 
     boxes: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
-    frames: dict[Group, tuple[float, float, float, float]] = field(
-        default_factory=dict[Group, tuple[float, float, float, float]]
+    frames: dict[GroupPath, tuple[float, float, float, float]] = field(
+        default_factory=dict[GroupPath, tuple[float, float, float, float]]
     )
-    runs: dict[int, list[Run]] = field(default_factory=dict[int, list[Run]])
+    runs: dict[int, list[Stretch]] = field(default_factory=dict[int, list[Stretch]])
     backwards: dict[int, bool] = field(default_factory=dict[int, bool])
     captions: dict[int, tuple[float, float]] = field(default_factory=dict[int, tuple[float, float]])
     width: float = 0.0
@@ -89,8 +89,8 @@ class Layout:
 class _Block:
     """A group that is laid out, its corner at the origin, or an item."""
 
-    box: Box
-    inside: Layout | None = None
+    box: ItemSize
+    inside: Arrangement | None = None
     ports: dict[int, float] = field(default_factory=dict[int, float])
 
 
@@ -105,10 +105,10 @@ class _Edge:
 
 def arrange(
     graph: Graph,
-    boxes: Mapping[str, Box],
+    boxes: Mapping[str, ItemSize],
     labels: Mapping[int, tuple[float, float]],
-    names: Mapping[Group, float],
-) -> Layout:
+    names: Mapping[GroupPath, float],
+) -> Arrangement:
     """Lay out a graph.
 
     Args:
@@ -124,24 +124,24 @@ class _Arranger:
     def __init__(
         self,
         graph: Graph,
-        boxes: Mapping[str, Box],
+        boxes: Mapping[str, ItemSize],
         labels: Mapping[int, tuple[float, float]],
-        names: Mapping[Group, float],
+        names: Mapping[GroupPath, float],
     ) -> None:
         self.graph, self.boxes, self.labels, self.names = graph, boxes, labels, names
         self.group = {item.id: item.group for item in graph.items}
-        self.children: dict[Group, list[str | Group]] = {g: [] for g in [(), *graph.groups]}
+        self.children: dict[GroupPath, list[str | GroupPath]] = {g: [] for g in [(), *graph.groups]}
         for item in graph.items:
             self.children[item.group].append(item.id)
         for g in graph.groups:
             self.children[g[:-1]].append(g)
-        self.sides: dict[tuple[int, Group], str] = {}
-        self.edges: dict[Group, list[_Edge]] = defaultdict(list)
-        self.home: dict[int, Group] = {}
+        self.sides: dict[tuple[int, GroupPath], str] = {}
+        self.edges: dict[GroupPath, list[_Edge]] = defaultdict(list)
+        self.home: dict[int, GroupPath] = {}
         self.backwards: dict[int, bool] = {}
-        self.rank: dict[Group, dict[str, int]] = {}
+        self.rank: dict[GroupPath, dict[str, int]] = {}
 
-    def run(self) -> Layout:
+    def run(self) -> Arrangement:
         self._orient(())
         block = self._block(())
         assert block.inside is not None
@@ -151,14 +151,14 @@ class _Arranger:
 
     # ------------------------------------------------------------------- from outside in: which way wires run
 
-    def _child(self, ident: str, level: Group) -> str | Group | None:
+    def _child(self, ident: str, level: GroupPath) -> str | GroupPath | None:
         """The child of a level that holds an item; None where the item is outside."""
         group = self.group[ident]
         if group[: len(level)] != level:
             return None
         return ident if len(group) == len(level) else group[: len(level) + 1]
 
-    def _orient(self, level: Group) -> None:
+    def _orient(self, level: GroupPath) -> None:
         nodes = [_key(c) for c in self.children[level]]
         inner: list[tuple[str, str, int]] = []
         edges: list[_Edge] = []
@@ -195,7 +195,7 @@ class _Arranger:
 
     # --------------------------------------------------------------- from inside out: where everything stands
 
-    def _block(self, level: Group) -> _Block:
+    def _block(self, level: GroupPath) -> _Block:
         children = {_key(c): c for c in self.children[level]}
         blocks = {
             k: _Block(self.boxes[c]) if isinstance(c, str) else self._block(c) for k, c in children.items()
@@ -217,15 +217,15 @@ class _Arranger:
                 found.boxes[child] = (x, y)
             else:
                 _move_into(found, block, child, x, y)
-        return _Block(Box(found.width, found.height, 0.0, found.height), found, made.ports)
+        return _Block(ItemSize(found.width, found.height, 0.0, found.height), found, made.ports)
 
 
 class _Level:
     """One group: its children in columns."""
 
     def __init__(
-        self, level: Group, blocks: dict[str, _Block], rank: dict[str, int], edges: list[_Edge],
-        labels: Mapping[int, tuple[float, float]], home: Mapping[int, Group], least: float,
+        self, level: GroupPath, blocks: dict[str, _Block], rank: dict[str, int], edges: list[_Edge],
+        labels: Mapping[int, tuple[float, float]], home: Mapping[int, GroupPath], least: float,
     ) -> None:  # fmt: skip
         self.level, self.blocks, self.edges, self.least = level, blocks, edges, least
         self.labels = {w: size for w, size in labels.items() if home.get(w) == level}
@@ -247,7 +247,7 @@ class _Level:
         self.corners: dict[str, tuple[float, float]] = {}
         self.ports: dict[int, float] = {}
 
-    def run(self) -> Layout:
+    def run(self) -> Arrangement:
         columns = self._lanes()
         columns = layers.order(columns, self.links, self.back)
         self._attach(columns)
@@ -350,7 +350,7 @@ class _Level:
     def _end(self, n: str, side: str, w: int) -> float:
         return self.offset[n + side, w] if n in self.blocks else self.size[n][1] / 2
 
-    def _places(self, columns: Sequence[Sequence[str]], y: dict[str, float]) -> Layout:
+    def _places(self, columns: Sequence[Sequence[str]], y: dict[str, float]) -> Arrangement:
         widths = [max((self.size[n][0] for n in column), default=0.0) for column in columns]
         climbs = [0.0] * len(columns)
         for w, path in self.path.items():
@@ -385,7 +385,7 @@ class _Level:
         top = min((y[n] for column in columns for n in column), default=0.0)
         down = (HEAD + FRAME * 0.5 if framed else 0.0) - top
         bottom = max((y[n] + self.size[n][1] for column in columns for n in column), default=0.0)
-        found = Layout(width=right, height=bottom + down + (FRAME if framed else 0.0))
+        found = Arrangement(width=right, height=bottom + down + (FRAME if framed else 0.0))
         place = {
             n: (lefts[c] + (widths[c] - self.size[n][0]) / 2, y[n] + down)
             for c, column in enumerate(columns)
@@ -415,29 +415,29 @@ class _Level:
         place: Mapping[str, tuple[float, float]],
         lefts: Sequence[float],
         widths: Sequence[float],
-    ) -> list[Run]:
-        runs: list[Run] = []
+    ) -> list[Stretch]:
+        runs: list[Stretch] = []
         for k, n in enumerate(path):
             x, y = place[n]
             c = self.column[n]
             if n.startswith("lane ") and not widths[c]:
                 continue  # nothing stands in this column: one smooth curve to the next
             if n not in self.blocks:
-                runs.append(Run(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
+                runs.append(Stretch(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
             elif k == 0:
                 runs.append(
-                    Run(
+                    Stretch(
                         x + self.size[n][0],
                         max(x + self.size[n][0], lefts[c] + widths[c]),
                         y + self.offset[n + RIGHT, w],
                     )
                 )
             else:
-                runs.append(Run(lefts[c], x, y + self.offset[n + LEFT, w]))
+                runs.append(Stretch(lefts[c], x, y + self.offset[n + LEFT, w]))
         return runs
 
 
-def _move_into(found: Layout, block: _Block, group: Group, x: float, y: float) -> None:
+def _move_into(found: Arrangement, block: _Block, group: GroupPath, x: float, y: float) -> None:
     """Take a group that is laid out into the level around it."""
     inside = block.inside
     assert inside is not None
@@ -446,12 +446,12 @@ def _move_into(found: Layout, block: _Block, group: Group, x: float, y: float) -
     found.boxes.update({i: (bx + x, by + y) for i, (bx, by) in inside.boxes.items()})
     found.captions.update({w: (cx + x, cy + y) for w, (cx, cy) in inside.captions.items()})
     for w, runs in inside.runs.items():
-        moved = [Run(r.x0 + x, r.x1 + x, r.y + y) for r in runs]
+        moved = [Stretch(r.x0 + x, r.x1 + x, r.y + y) for r in runs]
         outside = found.runs.get(w, [])
         found.runs[w] = sorted([*outside, *moved], key=lambda r: (r.x0, r.x1))
 
 
-def _key(child: str | Group) -> str:
+def _key(child: str | GroupPath) -> str:
     return f"item {child}" if isinstance(child, str) else "group " + "\0".join(child)
 
 

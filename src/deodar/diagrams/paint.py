@@ -7,10 +7,10 @@ from collections import defaultdict
 
 from deodar.diagrams import boxes, given, layout, wires
 from deodar.diagrams import text as texts
-from deodar.diagrams.boxes import INK, NAME, PORT, SMALL, SMALL_LINE, SOFT, Drawn, Loop
-from deodar.diagrams.graph import Graph, Group, Wire
-from deodar.diagrams.layout import Layout, Run
-from deodar.diagrams.scene import Label, Part, Scene, Shape, rectangle
+from deodar.diagrams.boxes import INK, NAME, PORT, SMALL, SMALL_LINE, SOFT, Loop, SizedItem
+from deodar.diagrams.graph import Graph, GroupPath, Wire
+from deodar.diagrams.layout import Arrangement, Stretch
+from deodar.diagrams.scene import Drawing, SceneItem, Shape, TextLine, rectangle
 from deodar.numerics.signs import Sign
 
 MARGIN = 6.0
@@ -24,7 +24,7 @@ MOST_LINES = 4
 LEGEND: dict[Sign, str] = {"+": "excitation", "-": "inhibition", "±": "both"}
 
 
-def paint(graph: Graph, legend: bool = True) -> Scene:
+def paint(graph: Graph, legend: bool = True) -> Drawing:
     """Lay a graph out and paint it: frames at the back, then connections and their text, then items."""
     drawn, found, sizes = lay_out(graph)
     ends = [w for w, wire in enumerate(graph.wires) if wire.source != wire.target]
@@ -35,13 +35,13 @@ def paint(graph: Graph, legend: bool = True) -> Scene:
         if w in found.captions
     ]
     parts += [_item(one, *found.boxes[ident]) for ident, one in drawn.items()]
-    scene = Scene(found.width, found.height, graph.name, parts)
+    scene = Drawing(found.width, found.height, graph.name, parts)
     if legend:
         _legend(scene, graph)
     return _framed(scene)
 
 
-def lay_out(graph: Graph) -> tuple[dict[str, Drawn], Layout, dict[int, tuple[float, float]]]:
+def lay_out(graph: Graph) -> tuple[dict[str, SizedItem], Arrangement, dict[int, tuple[float, float]]]:
     """Every item with its size, where all stands, and the size of the text on each connection that has
     one.
     """
@@ -85,8 +85,8 @@ def caption(wire: Wire) -> tuple[str, ...]:
 # ------------------------------------------------------------------------------------------------------ parts
 
 
-def _frames(graph: Graph, found: Layout) -> list[Part]:
-    out: list[Part] = []
+def _frames(graph: Graph, found: Arrangement) -> list[SceneItem]:
+    out: list[SceneItem] = []
     for group in sorted(found.frames, key=len):
         x, y, w, h = found.frames[group]
         template = graph.groups[group]
@@ -94,24 +94,24 @@ def _frames(graph: Graph, found: Layout) -> list[Part]:
         frame = Shape(rectangle(x, y, w, h, 5.0), "#9a9a9a", fill, 0.7, (3.0, 2.0) if template else ())
         name = _name(graph, group)
         out.append(
-            Part(
+            SceneItem(
                 "group",
                 " / ".join(group),
-                [frame, Label(name, x + 6, y + 9.5, NAME, "start", color=SOFT, italic=True)],
+                [frame, TextLine(name, x + 6, y + 9.5, NAME, "start", color=SOFT, italic=True)],
             )
         )
     return out
 
 
-def _name(graph: Graph, group: Group) -> str:
+def _name(graph: Graph, group: GroupPath) -> str:
     template = graph.groups[group]
     [name] = texts.wrap(group[-1] + (f" (linked to {template})" if template else ""), NAME, WIDEST_NAME, 1)
     return name
 
 
-def _item(one: Drawn, x: float, y: float) -> Part:
+def _item(one: SizedItem, x: float, y: float) -> SceneItem:
     item, box = one.item, one.box
-    part = Part(item.form, item.name + (f" ({item.kind})" if item.kind else ""), boxes.paint(one, x, y))
+    part = SceneItem(item.form, item.name + (f" ({item.kind})" if item.kind else ""), boxes.paint(one, x, y))
     total = sum(loop.width for loop in one.loops)
     at, top = x + box.width / 2 - total / 2, y + box.top
     room = box.body / 2 * 0.85 if item.form == "node" else box.width / 2 - 3
@@ -132,7 +132,7 @@ def _item(one: Drawn, x: float, y: float) -> Part:
         ]
         for k, caption_ in enumerate(reversed(loop.captions)):
             part.content.append(
-                Label(
+                TextLine(
                     caption_,
                     middle,
                     top - boxes.LOOP - 0.5 - k * SMALL_LINE,
@@ -144,7 +144,7 @@ def _item(one: Drawn, x: float, y: float) -> Part:
     return part
 
 
-def _wire(graph: Graph, w: int, found: Layout, drawn: dict[str, Drawn]) -> Part:
+def _wire(graph: Graph, w: int, found: Arrangement, drawn: dict[str, SizedItem]) -> SceneItem:
     wire, runs, backwards = graph.wires[w], list(found.runs[w]), found.backwards[w]
     left, right = (wire.target, wire.source) if backwards else (wire.source, wire.target)
     for k, ident in ((0, left), (-1, right)):
@@ -152,28 +152,30 @@ def _wire(graph: Graph, w: int, found: Layout, drawn: dict[str, Drawn]) -> Part:
         inset = boxes.reach(one, run.y - found.boxes[ident][1] - one.box.top - one.box.body / 2)
         if one.item.form == "sensor":
             inset = inset if k == 0 else 6.0 - inset
-        runs[k] = Run(run.x0 - inset, run.x1, run.y) if k == 0 else Run(run.x0, run.x1 + inset, run.y)
-    content: list[Shape | Label] = []
+        runs[k] = Stretch(run.x0 - inset, run.x1, run.y) if k == 0 else Stretch(run.x0, run.x1 + inset, run.y)
+    content: list[Shape | TextLine] = []
     line, *marks = wires.path(runs, backwards, wire.sign)
     content += [dc.replace(line, dash=wires.DELAYED) if wire.delayed else line, *marks]
     for port, at_left in ((wire.source_port, not backwards), (wire.target_port, backwards)):
         if port:
             run = runs[0] if at_left else runs[-1]
             x = run.x0 - 3 if at_left else run.x1 + 3
-            content.append(Label(port, x, run.y + 1.9, PORT, "end" if at_left else "start", color=SOFT))
+            content.append(TextLine(port, x, run.y + 1.9, PORT, "end" if at_left else "start", color=SOFT))
     names = {item.id: item.name for item in graph.items}
     on = f" ({', '.join(wire.captions)})" if wire.captions else ""
-    return Part("wire", f"{names[wire.source]} → {names[wire.target]}{on}", content)
+    return SceneItem("wire", f"{names[wire.source]} → {names[wire.target]}{on}", content)
 
 
-def _chip(lines: tuple[str, ...], at: tuple[float, float], size: tuple[float, float], sign: Sign) -> Part:
+def _chip(
+    lines: tuple[str, ...], at: tuple[float, float], size: tuple[float, float], sign: Sign
+) -> SceneItem:
     (x, y), (w, h) = at, size
-    content: list[Shape | Label] = [
+    content: list[Shape | TextLine] = [
         Shape(rectangle(x - w / 2, y - h / 2, w, h, 2.5), "#c8c8c8", "#ffffff", 0.5)
     ]
     for k, one in enumerate(lines):
         content.append(
-            Label(
+            TextLine(
                 one,
                 x,
                 y - h / 2 + 1.2 + SMALL_LINE * k + 5.4,
@@ -181,33 +183,33 @@ def _chip(lines: tuple[str, ...], at: tuple[float, float], size: tuple[float, fl
                 color=wires.COLORS[sign] if sign != "+" else INK,
             )
         )
-    return Part("coupling", "", content)
+    return SceneItem("coupling", "", content)
 
 
-def _legend(scene: Scene, graph: Graph) -> None:
+def _legend(scene: Drawing, graph: Graph) -> None:
     """The marks that occur, below the picture, where there are several."""
     signs = {wire.sign for wire in graph.wires}.union(*(item.recurrence for item in graph.items))
     if len(signs) < 2:
         return
-    part, x, y = Part("legend", "", []), 0.0, scene.height + 12
+    part, x, y = SceneItem("legend", "", []), 0.0, scene.height + 12
     for sign, meaning in LEGEND.items():
         if sign not in signs:
             continue
-        content = wires.path([Run(x, x + 20, y)], False, sign)
-        part.content += [*content, Label(meaning, x + 24, y + 2.1, SMALL, "start", color=SOFT)]
+        content = wires.path([Stretch(x, x + 20, y)], False, sign)
+        part.content += [*content, TextLine(meaning, x + 24, y + 2.1, SMALL, "start", color=SOFT)]
         x += 24 + texts.width(meaning, SMALL) + 12
     scene.parts.append(part)
     scene.height += 18
     scene.width = max(scene.width, x - 12)
 
 
-def _framed(scene: Scene) -> Scene:
+def _framed(scene: Drawing) -> Drawing:
     """The same with a margin."""
 
-    def moved(one: Shape | Label) -> Shape | Label:
-        if isinstance(one, Label):
+    def moved(one: Shape | TextLine) -> Shape | TextLine:
+        if isinstance(one, TextLine):
             return dc.replace(one, x=one.x + MARGIN, y=one.y + MARGIN)
         return dc.replace(one, path=tuple((m[0], *(float(v) + MARGIN for v in m[1:])) for m in one.path))
 
-    parts = [Part(p.role, p.title, [moved(one) for one in p.content]) for p in scene.parts]
-    return Scene(scene.width + 2 * MARGIN, scene.height + 2 * MARGIN, scene.title, parts)
+    parts = [SceneItem(p.role, p.title, [moved(one) for one in p.content]) for p in scene.parts]
+    return Drawing(scene.width + 2 * MARGIN, scene.height + 2 * MARGIN, scene.title, parts)

@@ -6,7 +6,7 @@ import io
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from deodar.diagrams.scene import Label, Move, Scene
+from deodar.diagrams.scene import Drawing, PathCommand, TextLine
 from deodar.diagrams.text import FAMILY, plain
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ INCH = 72.0
 """Points of an inch."""
 
 
-def figure(scene: Scene, width: float | None = None) -> Figure:
+def figure(scene: Drawing, width: float | None = None) -> Figure:
     """A figure of the scene; `width` in inches, none: its own size."""
     # start-up time: matplotlib is needed for figures only
     from matplotlib.figure import Figure
@@ -32,7 +32,7 @@ def figure(scene: Scene, width: float | None = None) -> Figure:
     made = Figure(figsize=(scene.width * scale / INCH, scene.height * scale / INCH), dpi=300)
     place = Affine2D().scale(1, -1).translate(0, scene.height).scale(scale / INCH) + made.dpi_scale_trans
     for one in scene:
-        if isinstance(one, Label):
+        if isinstance(one, TextLine):
             text = Text(
                 one.x,
                 one.y,
@@ -67,7 +67,7 @@ def figure(scene: Scene, width: float | None = None) -> Figure:
     return made
 
 
-def content(scene: Scene, format: str, width: float | None = None) -> bytes:
+def content(scene: Drawing, format: str, width: float | None = None) -> bytes:
     """The picture as pdf or png; the same picture gives the same bytes."""
     # start-up time: matplotlib is needed for figures only
     import matplotlib
@@ -82,7 +82,7 @@ def content(scene: Scene, format: str, width: float | None = None) -> bytes:
     return out.getvalue()
 
 
-def _points(path: Sequence[Move]) -> list[tuple[float, float]]:
+def _points(path: Sequence[PathCommand]) -> list[tuple[float, float]]:
     found: list[tuple[float, float]] = []
     start = (0.0, 0.0)
     for move in path:

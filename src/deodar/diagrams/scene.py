@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 Point = tuple[float, float]
-Move = tuple[str, *tuple[float, ...]]
+PathCommand = tuple[str, *tuple[float, ...]]
 """M x y, L x y, C x1 y1 x2 y2 x y, or Z; y grows downwards."""
 
 
@@ -14,7 +14,7 @@ Move = tuple[str, *tuple[float, ...]]
 class Shape:
     """A path. Colours are empty where nothing is filled or stroked."""
 
-    path: tuple[Move, ...]
+    path: tuple[PathCommand, ...]
     stroke: str = ""
     fill: str = ""
     width: float = 0.8
@@ -22,7 +22,7 @@ class Shape:
 
 
 @dataclass(frozen=True)
-class Label:
+class TextLine:
     """One line of text; `anchor` is start, middle or end, and y the base line."""
 
     text: str
@@ -36,31 +36,31 @@ class Label:
 
 
 @dataclass
-class Part:
+class SceneItem:
     """What belongs to one element or connection: drawn together, with a title that a browser shows under the
     pointer.
     """
 
     role: str
     title: str
-    content: list[Shape | Label] = field(default_factory=list["Shape | Label"])
+    content: list[Shape | TextLine] = field(default_factory=list["Shape | TextLine"])
 
 
 @dataclass
-class Scene:
+class Drawing:
     """A picture: its size in points, its title, and its parts from back to front."""
 
     width: float
     height: float
     title: str
-    parts: list[Part]
+    parts: list[SceneItem]
 
-    def __iter__(self) -> Iterator[Shape | Label]:
+    def __iter__(self) -> Iterator[Shape | TextLine]:
         for part in self.parts:
             yield from part.content
 
 
-def rectangle(x: float, y: float, w: float, h: float, r: float = 0.0) -> tuple[Move, ...]:
+def rectangle(x: float, y: float, w: float, h: float, r: float = 0.0) -> tuple[PathCommand, ...]:
     """A rectangle with round corners."""
     if r <= 0:
         return (("M", x, y), ("L", x + w, y), ("L", x + w, y + h), ("L", x, y + h), ("Z",))
@@ -73,7 +73,7 @@ def rectangle(x: float, y: float, w: float, h: float, r: float = 0.0) -> tuple[M
     )  # fmt: skip
 
 
-def circle(x: float, y: float, r: float) -> tuple[Move, ...]:
+def circle(x: float, y: float, r: float) -> tuple[PathCommand, ...]:
     """A circle, as four curves."""
     k = 0.5523 * r
     return (
@@ -86,11 +86,11 @@ def circle(x: float, y: float, r: float) -> tuple[Move, ...]:
     )
 
 
-def polygon(*points: Point) -> tuple[Move, ...]:
+def polygon(*points: Point) -> tuple[PathCommand, ...]:
     """A closed line through points."""
     return (("M", *points[0]), *(("L", *p) for p in points[1:]), ("Z",))
 
 
-def line(*points: Point) -> tuple[Move, ...]:
+def line(*points: Point) -> tuple[PathCommand, ...]:
     """An open line through points."""
     return (("M", *points[0]), *(("L", *p) for p in points[1:]))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from html import escape
 
-from deodar.diagrams.scene import Label, Scene, Shape
+from deodar.diagrams.scene import Drawing, Shape, TextLine
 from deodar.diagrams.text import plain
 
 FONTS = "'DejaVu Sans', Arial, Helvetica, sans-serif"
 
 
-def write(scene: Scene, width: float | None = None) -> str:
+def write(scene: Drawing, width: float | None = None) -> str:
     """The picture as text; names are escaped, and text stays text.
 
     `width` is in points, none: the scene's own.
@@ -41,7 +41,7 @@ def _shape(shape: Shape) -> str:
     return f'<path d="{path}" fill="{shape.fill or "none"}"{stroke}{dash}/>'
 
 
-def _label(label: Label) -> str:
+def _label(label: TextLine) -> str:
     style = (' font-weight="bold"' if label.bold else "") + (' font-style="italic"' if label.italic else "")
     anchor = "" if label.anchor == "start" else f' text-anchor="{label.anchor}"'
     text = escape(plain(label.text))

@@ -6,8 +6,8 @@ import itertools
 import math
 from collections.abc import Sequence
 
-from deodar.diagrams.layout import Run
-from deodar.diagrams.scene import Move, Point, Shape, circle, polygon
+from deodar.diagrams.layout import Stretch
+from deodar.diagrams.scene import PathCommand, Point, Shape, circle, polygon
 from deodar.numerics.signs import Sign
 
 COLORS: dict[Sign, str] = {"+": "#333333", "-": "#c1440e", "±": "#6a3d9a"}
@@ -21,7 +21,7 @@ DELAYED = (3.0, 2.0)
 ARROW, DOT = 5.0, 2.3
 
 
-def path(runs: Sequence[Run], backwards: bool, sign: Sign) -> list[Shape]:
+def path(runs: Sequence[Stretch], backwards: bool, sign: Sign) -> list[Shape]:
     """A connection along its level stretches, with the mark at its target."""
     points = [p for run in runs for p in ((run.x0, run.y), (run.x1, run.y))]
     points, way = (points[::-1], -1.0) if backwards else (points, 1.0)
@@ -39,7 +39,7 @@ def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Sh
     """A connection that leaves upwards at (x, y) and comes back at (right, ...): `y` belongs to both ends."""
     w = right - x
     end = y - _length(sign)
-    curve: tuple[Move, ...] = (
+    curve: tuple[PathCommand, ...] = (
         ("M", x, y), ("C", x, y - height * 0.9, x + w * 0.1, y - height, x + w / 2, y - height),
         ("C", right - w * 0.1, y - height, right, y - height * 0.9, right, end),
     )  # fmt: skip
@@ -64,7 +64,7 @@ def _length(sign: Sign) -> float:
     return {"+": ARROW - 0.5, "-": DOT, "±": ARROW + DOT}[sign]
 
 
-def _arrow(x: float, y: float, dx: float, dy: float) -> tuple[Move, ...]:
+def _arrow(x: float, y: float, dx: float, dy: float) -> tuple[PathCommand, ...]:
     half = ARROW * math.tan(math.radians(24))
     return polygon(
         (x, y),
@@ -73,9 +73,9 @@ def _arrow(x: float, y: float, dx: float, dy: float) -> tuple[Move, ...]:
     )
 
 
-def _curve(points: Sequence[Point]) -> tuple[Move, ...]:
+def _curve(points: Sequence[Point]) -> tuple[PathCommand, ...]:
     """A line that is level at every point and climbs between them."""
-    moves: list[Move] = [("M", *points[0])]
+    moves: list[PathCommand] = [("M", *points[0])]
     for (x0, y0), (x, y) in itertools.pairwise(points):
         if abs(y - y0) >= 0.05:
             middle = (x + x0) / 2

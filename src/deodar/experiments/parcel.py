@@ -24,7 +24,7 @@ class Parcel:
     """
 
     experiment: str
-    bench: parcel.Parcel
+    bench: parcel.PackedModel
 
     @classmethod
     def of(cls, bench: Bench) -> Parcel:
@@ -34,7 +34,7 @@ class Parcel:
             WorkerError: something of it cannot be handed to another process.
         """
         plain = bench.experiment.to_data() | {"model": "as handed over"}
-        return cls(json.dumps(plain), parcel.Parcel.of(bench.model, bench.world))
+        return cls(json.dumps(plain), parcel.PackedModel.of(bench.model, bench.world))
 
     def open(self) -> Bench:
         """The bench again."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from deodar.session.session import Session
-from deodar.session.snapshot import Snapshot
+from deodar.session.snapshot import SessionSnapshot
 
 Kept = tuple[float, Mapping[str, np.ndarray]]
 """Document time, and for each port what it then held."""
@@ -34,7 +34,7 @@ class Stage:
         self.recording = True
         self.snapshots: dict[str, Kept] = {}
         self.outcome = ""
-        self._start: Snapshot | None = session.snapshot() if restarts else None
+        self._start: SessionSnapshot | None = session.snapshot() if restarts else None
         self._due: list[tuple[int, int, Callable[[], object]]] = []
         self._count = 0
 

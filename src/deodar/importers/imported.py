@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 
-from deodar.importers.report import Report
+from deodar.importers.report import ImportReport
 from deodar.model.model import Model
 
 
@@ -13,4 +13,4 @@ class Imported:
     """A model made from a file of another tool, and what became of everything in it."""
 
     model: Model
-    report: Report
+    report: ImportReport

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from deodar import renamed
 from deodar.errors import DeodarError
 from deodar.importers.opening import load, tool_of
-from deodar.importers.report import Line, Report
+from deodar.importers.report import ImportReport, Line
 from deodar.leaves import get
 from deodar.model import edit
 from deodar.model.document import Document, Entry
@@ -26,7 +26,7 @@ be a part of one.
 """
 
 
-def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> Report:
+def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> ImportReport:
     """Give the elements of a model the values that elements of the same label and class have in a file;
     connections stay.
 
@@ -47,7 +47,7 @@ def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> Report:
     tool = tool_of(path)
     doc, lines = applied(model.document, load(path, bugs=bugs).document)
     model.history.commit(doc)
-    return Report(tool.NAME if tool is not None else "deodar", Path(path).name, lines)
+    return ImportReport(tool.NAME if tool is not None else "deodar", Path(path).name, lines)
 
 
 def applied(doc: Document, preset: Document) -> tuple[Document, list[Line]]:

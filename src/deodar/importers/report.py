@@ -36,7 +36,7 @@ class Line:
 
 
 @dc.dataclass(frozen=True)
-class Report:
+class ImportReport:
     """The lines of one file, and the known errors of the other tool that were met in it.
 
     Attributes:

@@ -12,7 +12,7 @@ from deodar.kinds.symbols import NAME, is_letter, symbol
 from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
 from deodar.numerics.axes import Axis
-from deodar.parameters import Form, FrozenArray, Parameter, Part
+from deodar.parameters import FrozenArray, Parameter, Part, ValueForm
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
 """A value as documents write it."""
@@ -46,7 +46,7 @@ class ParameterDescription:
     """
 
     name: str
-    form: Form
+    form: ValueForm
     cost: Cost
     meaning: str
     description: str

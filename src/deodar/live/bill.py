@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 
 from deodar.errors import DeodarError, Problem
-from deodar.session.cost import Costs
+from deodar.session.cost import StepCost
 
 
 @dc.dataclass(frozen=True)
@@ -13,7 +13,7 @@ class Bill:
     """What elements cost: whether it is being measured, what was found last, and why nothing was."""
 
     measuring: bool = False
-    costs: Costs | None = None
+    costs: StepCost | None = None
     problems: tuple[Problem, ...] = ()
 
 

@@ -24,8 +24,8 @@ from deodar.live.trace import Trace, Wish
 from deodar.live.track import Track
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.session.cost import Costs, costs
-from deodar.session.look import Look, Place, look
+from deodar.session.cost import StepCost, costs
+from deodar.session.look import Look, PortKey, look
 from deodar.session.pace import Pace, require_longest
 from deodar.session.run import require_step
 from deodar.session.session import Session
@@ -48,7 +48,7 @@ class Shot:
     number: int
     time: float
     tick: int
-    arrays: Mapping[Place, np.ndarray]
+    arrays: Mapping[PortKey, np.ndarray]
 
 
 @dc.dataclass
@@ -81,7 +81,7 @@ class Engine:
         self._wanted = True
         self._stale = True
         self._shown = 0.0
-        self._places: frozenset[Place] = frozenset()
+        self._places: frozenset[PortKey] = frozenset()
         self._looks: list[Look] = []
         self._look: Look | None = None
         self._sample: Look | None = None
@@ -226,7 +226,7 @@ class Engine:
         self.hand = hand
         self._stale = True
 
-    def show(self, places: Iterable[Place], wishes: Iterable[Wish]) -> None:
+    def show(self, places: Iterable[PortKey], wishes: Iterable[Wish]) -> None:
         """What shots are to hold from now on, and which time courses are to be kept."""
         self._places = frozenset(places)
         self.traces = {wish: self.traces.get(wish, Trace()) for wish in wishes}
@@ -315,7 +315,9 @@ class Engine:
             self._take_samples(session)
             self._stale = True
 
-    def _with_hand(self, arrays: Mapping[Place, np.ndarray], session: Session) -> Mapping[Place, np.ndarray]:
+    def _with_hand(
+        self, arrays: Mapping[PortKey, np.ndarray], session: Session
+    ) -> Mapping[PortKey, np.ndarray]:
         """What a hand brings is part of the input that is shown."""
         entry = session.document.by_id().get(self.hand.element) if self.hand is not None else None
         if self.hand is None or entry is None:
@@ -333,7 +335,7 @@ class Engine:
             False,
         )  # before the shot is there: who has seen it may want the next one at once
         session, seen = self.session, self._look
-        arrays: Mapping[Place, np.ndarray] = {}
+        arrays: Mapping[PortKey, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
             arrays = self._with_hand(session.look(seen, self._places), session)
         self.track.follow(session)
@@ -348,7 +350,7 @@ class Engine:
         self.failure, self._stale = (said(error), paths), True
         self._changed()
 
-    def _billed(self, session: Session, future: Future[Costs]) -> None:
+    def _billed(self, session: Session, future: Future[StepCost]) -> None:
         if session is self.session:
             error = future.exception()
             self.bill = Bill(costs=future.result()) if error is None else Bill(problems=said(error))
@@ -385,7 +387,11 @@ class Engine:
         )
 
     def _made(
-        self, session: Session, document: Document, wanted: tuple[frozenset[Place], ...], future: Future[Any]
+        self,
+        session: Session,
+        document: Document,
+        wanted: tuple[frozenset[PortKey], ...],
+        future: Future[Any],
     ) -> None:
         self._making, self.busy, self._stale = None, "", True
         if session is not self.session:
@@ -417,7 +423,7 @@ class Engine:
         return None
 
 
-def _found(known: Sequence[Look], program: Any, places: Iterable[Place]) -> Look | None:
+def _found(known: Sequence[Look], program: Any, places: Iterable[PortKey]) -> Look | None:
     """A look at these places of a program, and at not much else, if there is one: elements of one structure
     are seen together anyway.
     """

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.numerics.axes import Axis
-from deodar.session.look import Place
+from deodar.session.look import PortKey
 
 CAPACITY = 16384
 """Samples that are kept; older ones are gone (a guess: a minute at the pace at which a page draws)."""
@@ -20,7 +20,7 @@ class Wish:
     mean.
     """
 
-    place: Place
+    place: PortKey
     reduce: str = "max"
     at: tuple[float, ...] = ()
 

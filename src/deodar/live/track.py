@@ -16,15 +16,15 @@ drawn.
 MOST = 4000
 """Places that are kept; where there are more, every second one goes."""
 
-Places = tuple[float, ...]
+Positions = tuple[float, ...]
 """x and y of each body, one after the other."""
 
 
-class Way:
-    """Places that bodies came by. It only grows; what begins anew, or is thinned, is another `Way`."""
+class Trail:
+    """Places that bodies came by. It only grows; what begins anew, or is thinned, is another `Trail`."""
 
-    def __init__(self, places: list[Places] | None = None, fine: float = 0.0) -> None:
-        self.places: list[Places] = places or []
+    def __init__(self, places: list[Positions] | None = None, fine: float = 0.0) -> None:
+        self.places: list[Positions] = places or []
         self.fine = fine
 
 
@@ -40,7 +40,7 @@ class Track:
 
     def __init__(self) -> None:
         self.scene: Scene | None = None
-        self.way = Way()
+        self.way = Trail()
         self._of: tuple[Session, World | None] | None = None
         self._time = 0.0
 
@@ -48,17 +48,17 @@ class Track:
         """Take in where everything is now."""
         scene = None if session is None else session.scene()
         if session is None or scene is None:
-            self.scene, self.way, self._of = None, Way(), None
+            self.scene, self.way, self._of = None, Trail(), None
             return
         left, low, right, high = scene.border
-        now: Places = tuple(v for body in scene.bodies for v in body.center)
+        now: Positions = tuple(v for body in scene.bodies for v in body.center)
         known = self._of is not None and self._of[0] is session and self._of[1] is session.world
         if (
             not known
             or session.time < self._time
             or (self.way.places and len(self.way.places[-1]) != len(now))
         ):
-            self.way = Way(fine=FINE * max(right - left, high - low))
+            self.way = Trail(fine=FINE * max(right - left, high - low))
         self._of, self._time = (session, session.world), session.time
         last = self.way.places[-1] if self.way.places else None
         if last is None or any(
@@ -66,6 +66,6 @@ class Track:
             for k in range(0, len(now), 2)
         ):
             if len(self.way.places) >= MOST:
-                self.way = Way(self.way.places[::2], 2 * self.way.fine)
+                self.way = Trail(self.way.places[::2], 2 * self.way.fine)
             self.way.places.append(now)
         self.scene = scene

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from deodar.element import Element
-from deodar.model.paths import Index, Names, display
+from deodar.model.paths import Index, PathNames, display
 
 VERSION = 3
 READS = ("", "previous", "current", "delayed")
@@ -42,7 +42,7 @@ class Entry:
     """
 
     id: str
-    names: Names
+    names: PathNames
     element: Element
     every: int = 1
 
@@ -52,7 +52,7 @@ class Entry:
         return display(self.names)
 
     @property
-    def group(self) -> Names:
+    def group(self) -> PathNames:
         """Names of the groups it stands in."""
         return self.names[:-1]
 
@@ -74,7 +74,7 @@ class Connection:
 
 
 @dc.dataclass(frozen=True)
-class Knob:
+class SharedParameter:
     """A named parameter of the document that drives parameters of elements: (id, path inside the element)."""
 
     name: str
@@ -88,7 +88,7 @@ class Use:
     the template's name.
     """
 
-    group: Names
+    group: PathNames
     template: str
     elements: tuple[tuple[str, str], ...] = ()
 
@@ -106,8 +106,8 @@ class Document:
     name: str
     entries: tuple[Entry, ...] = ()
     connections: tuple[Connection, ...] = ()
-    groups: tuple[Names, ...] = ()
-    knobs: tuple[Knob, ...] = ()
+    groups: tuple[PathNames, ...] = ()
+    knobs: tuple[SharedParameter, ...] = ()
     uses: tuple[Use, ...] = ()
     time_unit: str = "ms"
     dt: float | None = None
@@ -128,7 +128,7 @@ class Document:
         """Entries by id."""
         return self._by_id
 
-    def by_names(self) -> Mapping[Names, Entry]:
+    def by_names(self) -> Mapping[PathNames, Entry]:
         """Entries by path."""
         return self._by_names
 
@@ -152,7 +152,7 @@ class Document:
             out.__dict__["_ends"] = ends
         return out
 
-    def extended(self, new: Sequence[Entry], groups: tuple[Names, ...]) -> Document:
+    def extended(self, new: Sequence[Entry], groups: tuple[PathNames, ...]) -> Document:
         """This document with more entries and these groups.
 
         The mappings of its entries are copied and extended, which is many times quicker than to make them
@@ -183,7 +183,7 @@ class Document:
         return {e.id: e for e in self.entries}
 
     @functools.cached_property
-    def _by_names(self) -> dict[Names, Entry]:
+    def _by_names(self) -> dict[PathNames, Entry]:
         return {e.names: e for e in self.entries}
 
     def links(self) -> dict[tuple[str, str], str]:

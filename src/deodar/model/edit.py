@@ -1,7 +1,7 @@
 """The operations that make a new document from a document. Nothing else does.
 
-Each is a pure function; ids survive rename, grouping and moves, a copy gets its own. `History` adds undo and
-redo.
+Each is a pure function; ids survive rename, grouping and moves, a copy gets its own. `UndoHistory` adds undo
+and redo.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import get, replace
 from deodar.model import find
-from deodar.model.document import READS, Connection, Document, Entry, Knob, Use
-from deodar.model.paths import Names, display, stored_id
+from deodar.model.document import READS, Connection, Document, Entry, SharedParameter, Use
+from deodar.model.paths import PathNames, display, stored_id
 from deodar.parameters import Reference, is_text, parameter, parameters, real, show
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
@@ -29,7 +29,7 @@ MOST_TICKS = 1_000_000
 
 
 def add(
-    doc: Document, element: Element, group: Names = (), every: int = 1, after: Entry | None = None
+    doc: Document, element: Element, group: PathNames = (), every: int = 1, after: Entry | None = None
 ) -> tuple[Document, Entry]:
     """A document with one more element.
 
@@ -44,7 +44,9 @@ def add(
     return doc, entries[0]
 
 
-def add_all(doc: Document, elements: Iterable[tuple[Element, Names, int]]) -> tuple[Document, list[Entry]]:
+def add_all(
+    doc: Document, elements: Iterable[tuple[Element, PathNames, int]]
+) -> tuple[Document, list[Entry]]:
     """A document with more elements, each with its group and its step in ticks; every element has a name."""
     entries: list[Entry] = []
     taken, ids, groups = dict(doc.by_names()), dict(doc.by_id()), set(doc.groups)
@@ -82,14 +84,14 @@ def remove(doc: Document, ids: Iterable[str]) -> Document:
     )
 
 
-def remove_group(doc: Document, group: Names) -> Document:
+def remove_group(doc: Document, group: PathNames) -> Document:
     """A document without a group and everything in it."""
     doc = remove(doc, [e.id for e in doc.entries if e.names[: len(group)] == group])
     uses = tuple(u for u in doc.uses if u.group[: len(group)] != group)
     return dc.replace(doc, groups=tuple(g for g in doc.groups if g[: len(group)] != group), uses=uses)
 
 
-def move(doc: Document, ident: str, names: Names) -> Document:
+def move(doc: Document, ident: str, names: PathNames) -> Document:
     """A document in which an element stands under another path; its id stays."""
     entry = find.entry(doc, ident)
     if names == entry.names:
@@ -101,7 +103,7 @@ def move(doc: Document, ident: str, names: Names) -> Document:
     return dc.replace(doc, entries=tuple(moved if e.id == ident else e for e in doc.entries), groups=groups)
 
 
-def move_group(doc: Document, group: Names, to: Names) -> Document:
+def move_group(doc: Document, group: PathNames, to: PathNames) -> Document:
     """A document in which a group, with everything in it, stands under another path."""
     if to[: len(group)] == group and to != group:
         raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
@@ -124,7 +126,7 @@ def move_group(doc: Document, group: Names, to: Names) -> Document:
     )
 
 
-def ungroup(doc: Document, group: Names) -> Document:
+def ungroup(doc: Document, group: PathNames) -> Document:
     """A document in which a group's contents stand where the group stood."""
     for e in [e for e in doc.entries if e.names[: len(group)] == group]:
         doc = move(doc, e.id, group[:-1] + e.names[len(group) :])
@@ -133,7 +135,7 @@ def ungroup(doc: Document, group: Names) -> Document:
     return dc.replace(doc, groups=_with_groups((), [g for g in groups if g]), uses=uses)
 
 
-def group(doc: Document, names: Names) -> Document:
+def group(doc: Document, names: PathNames) -> Document:
     """A document with an (empty) group; where it stands already, the same document."""
     if names in doc.groups:
         return doc
@@ -141,7 +143,7 @@ def group(doc: Document, names: Names) -> Document:
     return dc.replace(doc, groups=_with_groups(doc.groups, [names]))
 
 
-def copy(doc: Document, ids: Iterable[str], place: Callable[[Names], Names]) -> Document:
+def copy(doc: Document, ids: Iterable[str], place: Callable[[PathNames], PathNames]) -> Document:
     """A document with copies of elements, each under `place(its path)`, and of the connections and links
     among them.
     """
@@ -151,7 +153,7 @@ def copy(doc: Document, ids: Iterable[str], place: Callable[[Names], Names]) -> 
 def insert(
     doc: Document,
     template: Document,
-    place: Callable[[Names], Names],
+    place: Callable[[PathNames], PathNames],
     ids: set[str] | None = None,
     linked: bool = False,
 ) -> Document:
@@ -336,7 +338,7 @@ def knob(doc: Document, name: str, value: float) -> Document:
     links = next((k.links for k in doc.knobs if k.name == name), ())
     for ident, leaf in links:
         doc = _put(doc, ident, leaf, number)
-    new = Knob(name, number, links)
+    new = SharedParameter(name, number, links)
     kept = tuple(new if k.name == name else k for k in doc.knobs)
     return dc.replace(doc, knobs=kept if any(k.name == name for k in doc.knobs) else (*doc.knobs, new))
 
@@ -404,7 +406,7 @@ def arrange(doc: Document, layout: Mapping[str, Any]) -> Document:
     return dc.replace(doc, layout=dict(layout))
 
 
-class History:
+class UndoHistory:
     """Documents one after the other, with undo and redo."""
 
     def __init__(self, document: Document) -> None:
@@ -412,9 +414,9 @@ class History:
         self._future: list[Document] = []
         self.document = document
 
-    def __copy__(self) -> History:
+    def __copy__(self) -> UndoHistory:
         """A history of the same documents, which goes its own way from here."""
-        other = History(self.document)
+        other = UndoHistory(self.document)
         other._past, other._future = list(self._past), list(self._future)
         return other
 
@@ -481,9 +483,9 @@ def _put(doc: Document, ident: str, path: str, value: Any) -> Document:
 
 def _vacant(
     doc: Document,
-    names: Names,
-    taken: Mapping[Names, Entry] | None = None,
-    groups: Collection[Names] | None = None,
+    names: PathNames,
+    taken: Mapping[PathNames, Entry] | None = None,
+    groups: Collection[PathNames] | None = None,
 ) -> None:
     """Refuse a path that an element, a group or a document parameter has, or that leads into an element."""
     taken, groups = doc.by_names() if taken is None else taken, doc.groups if groups is None else groups
@@ -508,7 +510,7 @@ def _vacant(
         )
 
 
-def _unambiguous(doc: Document, names: Names, element: Element) -> None:
+def _unambiguous(doc: Document, names: PathNames, element: Element) -> None:
     """Refuse a place at which a parameter of the element would have the path that a document parameter is
     called by.
     """
@@ -531,7 +533,7 @@ def require_ticks(every: Any, where: str) -> None:
         )
 
 
-def _uses_at(doc: Document, group: Names, to: Names) -> tuple[Use, ...]:
+def _uses_at(doc: Document, group: PathNames, to: PathNames) -> tuple[Use, ...]:
     return tuple(
         dc.replace(u, group=to + u.group[len(group) :]) if u.group[: len(group)] == group else u
         for u in doc.uses
@@ -546,7 +548,7 @@ def _free(base: str, taken: Callable[[str], bool]) -> str:
     return name
 
 
-def _with_groups(groups: Iterable[Names], new: Iterable[Names]) -> tuple[Names, ...]:
+def _with_groups(groups: Iterable[PathNames], new: Iterable[PathNames]) -> tuple[PathNames, ...]:
     out = dict.fromkeys(groups)
     for g in new:
         out |= dict.fromkeys(g[:k] for k in range(1, len(g) + 1))

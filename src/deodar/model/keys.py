@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses as dc
 from typing import Any, cast
 
-Step = str | int
+KeyStep = str | int
 """Key of an object, or position in a list."""
 
 
@@ -32,7 +32,7 @@ class Repeated:
         values: every value that it has, in the order of the text; the last one is in use.
     """
 
-    path: tuple[Step, ...]
+    path: tuple[KeyStep, ...]
     key: str
     values: tuple[Any, ...]
 
@@ -58,9 +58,9 @@ def collect(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 def repeated(data: Any) -> list[Repeated]:
     """All keys that occur more than once, outermost objects first; `data` was read with `collect`."""
     found: list[Repeated] = []
-    level: list[tuple[tuple[Step, ...], Any]] = [((), data)]
+    level: list[tuple[tuple[KeyStep, ...], Any]] = [((), data)]
     while level:
-        below: list[tuple[tuple[Step, ...], Any]] = []
+        below: list[tuple[tuple[KeyStep, ...], Any]] = []
         for path, item in level:
             if isinstance(item, Ambiguous):
                 values: dict[str, list[Any]] = {}

@@ -18,7 +18,7 @@ from deodar.model import edit, files, find, uses
 from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
 from deodar.model.handle import Handle as Handle
-from deodar.model.paths import Names, display, quote, readings, split
+from deodar.model.paths import PathNames, display, quote, readings, split
 from deodar.parameters import show
 
 
@@ -49,7 +49,7 @@ class Model:
             else edit.describe(Document(name), name=name, time_unit=time_unit, dt=dt)
         )
         self._trusted = not doc.foreign if trusted is None else trusted
-        self.history = edit.History(
+        self.history = edit.UndoHistory(
             doc if doc.foreign != self._trusted else dc.replace(doc, foreign=not self._trusted)
         )
         self._doubted: int | None = None
@@ -350,7 +350,7 @@ class Model:
             )
         return self.entry(what.id), what.port
 
-    def _group(self, path: str) -> Names:
+    def _group(self, path: str) -> PathNames:
         names = split(path)
         if names not in self.document.groups:
             raise UnknownName(

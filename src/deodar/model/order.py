@@ -8,8 +8,8 @@ from typing import Literal
 from deodar.errors import Problem
 from deodar.model.resolve import Instant, Node
 
-Role = Literal["output", "advance"]
-Act = tuple[str, Role, Instant]
+NodeRole = Literal["output", "advance"]
+Act = tuple[str, NodeRole, Instant]
 """Element id, what is evaluated, and at which instant: outputs at t (0) or t + dt (1), an advance at t."""
 
 
@@ -47,7 +47,7 @@ class _Walk:
         self.path: list[Act] = []
         self.ahead = {i for n in nodes for slots in n.reads.values() for i, _, instant in slots if instant}
 
-    def visit(self, n: Node, role: Role, instant: Instant) -> int:
+    def visit(self, n: Node, role: NodeRole, instant: Instant) -> int:
         act: Act = (n.id, role, instant)
         if act in self.depth:
             if act in self.path:
@@ -74,7 +74,7 @@ class _Walk:
         self.acts.append(act)
         return depth
 
-    def _needs(self, n: Node, role: Role) -> list[str]:
+    def _needs(self, n: Node, role: NodeRole) -> list[str]:
         if role == "advance":
             return list(n.reads)
         return [p for p in n.reads if any(p in n.passes(out) for out in n.outs)]

@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from deodar.errors import UnknownName
 
-Names = tuple[str, ...]
+PathNames = tuple[str, ...]
 
 
 def quote(name: str) -> str:
@@ -32,7 +32,7 @@ def display(names: Sequence[str]) -> str:
     return ".".join(quote(n) if ("." in n or '"' in n or n == "") else n for n in names)
 
 
-def split(path: str) -> Names:
+def split(path: str) -> PathNames:
     """The names of a path; quoted ones are taken as a whole."""
     names: list[str] = []
     at = 0
@@ -67,23 +67,23 @@ class Index:
         longest: most characters of a text.
     """
 
-    names: Collection[Names]
-    texts: Mapping[str, Sequence[tuple[int, Names]]]
+    names: Collection[PathNames]
+    texts: Mapping[str, Sequence[tuple[int, PathNames]]]
     depth: int
     longest: int
 
     @classmethod
-    def of(cls, names: Collection[Names]) -> Index:
+    def of(cls, names: Collection[PathNames]) -> Index:
         """The index of some names."""
-        texts: dict[str, list[tuple[int, Names]]] = {}
+        texts: dict[str, list[tuple[int, PathNames]]] = {}
         for k, parts in enumerate(names):
             texts.setdefault(".".join(parts), []).append((k, parts))
         return cls(names, texts, max(map(len, names), default=0), max(map(len, texts), default=0))
 
 
-def readings(path: str, known: Index) -> list[tuple[Names, str]]:
+def readings(path: str, known: Index) -> list[tuple[PathNames, str]]:
     """Every way to read `path` as a known name followed by a rest; the quoted reading first."""
-    found: list[tuple[Names, str]] = []
+    found: list[tuple[PathNames, str]] = []
     parts = split(path)
     for k in range(min(len(parts), known.depth), 0, -1):
         if parts[:k] in known.names:

@@ -25,7 +25,7 @@ from deodar.model import edit, find
 from deodar.model.document import KEYS, READS, VERSION, Document, Entry, Use
 from deodar.model.migrations import migrate
 from deodar.model.parts import part_from_json
-from deodar.model.paths import Names, display, split, stored_id
+from deodar.model.paths import PathNames, display, split, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
 
@@ -337,8 +337,8 @@ def _linked(doc: Document, path: str, name: str) -> Document:
     return edit.link(doc, found.entry.id, found.parameter, name)
 
 
-def _groups(groups: Any) -> tuple[Names, ...]:
-    out: list[Names] = []
+def _groups(groups: Any) -> tuple[PathNames, ...]:
+    out: list[PathNames] = []
     for g in groups:
         out += [g[:k] for k in range(1, len(g) + 1) if g[:k] not in out]
     return tuple(out)

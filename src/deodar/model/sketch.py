@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from deodar.diagrams.boxes import number
-from deodar.diagrams.graph import Form, Graph, Item, Wire
+from deodar.diagrams.graph import Graph, Item, ItemForm, Wire
 from deodar.element import Coupling, Element
 from deodar.elements.motor import Motor
 from deodar.elements.placeholder import Placeholder
@@ -29,7 +29,7 @@ def sketch(doc: Document) -> Graph:
     return _Sketch(doc).run()
 
 
-def form_of(element: Element) -> Form:
+def form_of(element: Element) -> ItemForm:
     """The shape that an element is drawn in."""
     if isinstance(element, Sensor):
         return "sensor"

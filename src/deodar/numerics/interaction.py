@@ -21,7 +21,7 @@ from deodar.numerics.choice import Choice, bounds, bucket, choose
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.waves import Waves
 
-Weights = list[Any]
+KernelWeights = list[Any]
 """For each kernel: `spectrum`, or for each of its terms `matrices` (one an axis), `waves` or `spectra` (one
 vector an axis), or `taps`.
 """
@@ -76,7 +76,7 @@ def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str,
 
 def prepare(
     kernels: Sequence[Kernel], axes: Axes, dtype: Any, chosen: Mapping[str, Choice] | None = None
-) -> Weights:
+) -> KernelWeights:
     """What convolution needs and what depends on widths only.
 
     `chosen` are the choices; without them it is exact.
@@ -91,7 +91,7 @@ def prepare(
     ]
 
 
-def mix(kernels: Sequence[Kernel], axes: Axes, weights: Weights) -> Mixture:
+def mix(kernels: Sequence[Kernel], axes: Axes, weights: KernelWeights) -> Mixture:
     """The sum of the kernels, amplitudes included.
 
     Over one axis it is a single matrix, however many kernels there are.

@@ -16,7 +16,7 @@ from starlette.websockets import WebSocket
 
 from deodar.errors import DeodarError
 from deodar.server import gallery
-from deodar.server.connection import Connection
+from deodar.server.connection import PageConnection
 from deodar.server.guard import Guard
 from deodar.server.hub import Hub
 from deodar.worlds._base import World
@@ -117,7 +117,7 @@ class Studio:
 
     async def _socket(self, socket: WebSocket) -> None:
         assert self._hub is not None
-        await Connection(socket, self._hub).run()
+        await PageConnection(socket, self._hub).run()
 
 
 class _Assets(StaticFiles):

@@ -45,7 +45,7 @@ IDLE = 0.25
 """Longest wall time between two clocks while it runs, in seconds."""
 
 
-class Connection:
+class PageConnection:
     """The socket of one page."""
 
     def __init__(self, socket: WebSocket, hub: Hub) -> None:

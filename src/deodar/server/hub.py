@@ -14,7 +14,7 @@ from deodar.server.aside import attempt
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
 from deodar.server.page import Page
-from deodar.server.project import Project
+from deodar.server.project import OpenProject
 from deodar.server.to_page import Clock, Costs, CostView, Gallery, Welcome
 from deodar.server.workspace import Workspace
 from deodar.session.meter import Meter
@@ -38,7 +38,9 @@ class Hub:
         self.keeper = Keeper(state_folder())
         self.embodiment = Embodiment(world)
         self.engine = Engine(self._from_engine)
-        self.project = Project(self.workspace, self.keeper, self.engine, self.embodiment, trust, self.tell)
+        self.project = OpenProject(
+            self.workspace, self.keeper, self.engine, self.embodiment, trust, self.tell
+        )
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),

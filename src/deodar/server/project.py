@@ -42,7 +42,7 @@ class Asks(Exception):
         super().__init__(question)
 
 
-class Project:
+class OpenProject:
     """What is open, if anything.
 
     Whatever changes it is called through `turns`.
@@ -345,7 +345,7 @@ class Project:
         await self._travel(lambda h: h.redo(), lambda h: h.undo())
 
     async def _travel(
-        self, there: Callable[[edit.History], bool], back: Callable[[edit.History], bool]
+        self, there: Callable[[edit.UndoHistory], bool], back: Callable[[edit.UndoHistory], bool]
     ) -> None:
         history = self._require().history
         if not there(history):

@@ -4,7 +4,7 @@ way.
 
 from __future__ import annotations
 
-from deodar.live.track import Track, Way
+from deodar.live.track import Track, Trail
 from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, Scene, SceneView
 from deodar.worlds import _scene
 
@@ -36,7 +36,7 @@ class Follower:
     """What one page knows of the bodies and of their way."""
 
     def __init__(self) -> None:
-        self._way: Way | None = None
+        self._way: Trail | None = None
         self._taken = 0
         self._bodies: list[BodyView] = []
 

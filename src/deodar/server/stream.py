@@ -13,7 +13,7 @@ from deodar.model import find
 from deodar.numerics.axes import Axes, Axis
 from deodar.server import frames, view
 from deodar.server.to_page import Announced, Lost
-from deodar.session.look import Place
+from deodar.session.look import PortKey
 from deodar.session.session import Session
 
 CHANNELS = ("channel", 3)
@@ -23,7 +23,7 @@ CHANNELS = ("channel", 3)
 class Stream:
     """A port of an element under a number of the page's choice. With a `wish` its time course."""
 
-    def __init__(self, number: int, place: Place, most: int = 0, wish: Wish | None = None) -> None:
+    def __init__(self, number: int, place: PortKey, most: int = 0, wish: Wish | None = None) -> None:
         self.number, self.place, self.most, self.wish = number, place, most, wish
         self._said: Announced | Lost | None = None
         self._axes: Axes = ()

@@ -14,15 +14,15 @@ from deodar.leaves import leaves, structure
 from deodar.model.document import Document
 from deodar.parameters import parameters
 
-Changed = tuple[tuple[str, str], Any, str, bool]
+LeafChange = tuple[tuple[str, str], Any, str, bool]
 """A leaf with another value: (id, path), value, cost, and whether that value switches something off."""
 
 
-def changed_leaves(old: Document, new: Document) -> list[Changed] | None:
+def changed_leaves(old: Document, new: Document) -> list[LeafChange] | None:
     """Leaves with another value, and what each costs; None where more than leaves changed."""
     if old.connections != new.connections or len(old.entries) != len(new.entries):
         return None
-    out: list[Changed] = []
+    out: list[LeafChange] = []
     for before, after in zip(old.entries, new.entries, strict=True):
         if before is after:
             continue

@@ -45,7 +45,7 @@ slower.
 
 
 @dc.dataclass(frozen=True)
-class Cost:
+class ElementCost:
     """What one element costs.
 
     Attributes:
@@ -66,7 +66,7 @@ class Cost:
 
 
 @dc.dataclass(frozen=True)
-class Costs:
+class StepCost:
     """What a step costs, element by element.
 
     Attributes:
@@ -74,7 +74,7 @@ class Costs:
         step: microseconds of the whole step, measured as a whole.
     """
 
-    elements: tuple[Cost, ...]
+    elements: tuple[ElementCost, ...]
     step: float
 
     @property
@@ -86,7 +86,7 @@ class Costs:
         """
         return math.fsum(c.us for c in self.elements)
 
-    def share(self, cost: Cost) -> float:
+    def share(self, cost: ElementCost) -> float:
         """Part of the sum that an element takes, 0 to 1."""
         return cost.us / self.sum if self.sum else 0.0
 
@@ -120,7 +120,7 @@ class Costs:
 
 
 @dc.dataclass(frozen=True)
-class Moment:
+class StepInputs:
     """All that a step depends on, at one moment of a run; it does not change when the run goes on."""
 
     program: Executable
@@ -133,15 +133,15 @@ class Moment:
     clock: Tree
 
 
-def moment(run: Run) -> Moment:
+def moment(run: Run) -> StepInputs:
     """The present moment of a run."""
     clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
-    return Moment(
+    return StepInputs(
         run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock
     )
 
 
-def costs(at: Moment, seconds: float = SECONDS) -> Costs:
+def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
     """Measure what a step costs, as a whole and element by element.
 
     Args:
@@ -167,7 +167,7 @@ def costs(at: Moment, seconds: float = SECONDS) -> Costs:
     step = _timed(_together(at), plan.ticks, each)
     by = at.document.by_id()
     found = [
-        Cost(
+        ElementCost(
             n.id,
             by[n.id].path if n.id in by else n.path,
             type(n.element).__name__,
@@ -178,13 +178,13 @@ def costs(at: Moment, seconds: float = SECONDS) -> Costs:
         for g, group in enumerate(plan.groups)
         for n in group.nodes
     ]
-    return Costs(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
+    return StepCost(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
 
 
 # ---------------------------------------------------------------------------------------------- what is timed
 
 
-def _read_ports(at: Moment) -> list[list[Port]]:
+def _read_ports(at: StepInputs) -> list[list[Port]]:
     """For each group the output ports that something reads: others are not computed in a step."""
     plan = at.program.plan
     read = {r.source[:2] for reads in plan.reads.values() for r in reads}
@@ -194,7 +194,7 @@ def _read_ports(at: Moment) -> list[list[Port]]:
     ]
 
 
-def _buffers(at: Moment, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Any]:
+def _buffers(at: StepInputs, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Any]:
     """What those ports hold at this moment."""
     ports = [p for some in used for p in some]
     if not ports:
@@ -212,7 +212,7 @@ def _buffers(at: Moment, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str]
     return {(p.group, p.name): rows for p, rows in zip(ports, seen, strict=True)}
 
 
-def _together(at: Moment) -> Callable[[int], object]:
+def _together(at: StepInputs) -> Callable[[int], object]:
     """The step of the whole model."""
     chunk, _ = at.program.chunk(())
 
@@ -224,7 +224,7 @@ def _together(at: Moment) -> Callable[[int], object]:
 
 
 def _alone(
-    at: Moment, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]
+    at: StepInputs, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]
 ) -> Callable[[int], object]:
     """The step of one group: its inputs stay what they are, its state goes on."""
     plan, precision = at.program.plan, at.program.precision

@@ -26,12 +26,12 @@ from deodar.worlds._pure import PureWorld
 NEVER = 2**62
 """A tick that no run reaches."""
 
-Told = Callable[[Sequence[str]], Sequence[np.ndarray]]
+MotorReader = Callable[[Sequence[str]], Sequence[np.ndarray]]
 """What gives the commands of motors (by id) in the present state of the model."""
 
 
 @dc.dataclass(frozen=True)
-class Moment:
+class ExchangeInstant:
     """When it is: tick, document time, and how many ms a unit of document time lasts."""
 
     tick: int
@@ -40,7 +40,7 @@ class Moment:
 
 
 @dc.dataclass(frozen=True)
-class Kept:
+class WorldState:
     """Where a world stands: what it keeps itself, the ticks of this exchange and the next, the tick from
     which periods count, and what its motors were told at this exchange.
     """
@@ -118,7 +118,9 @@ class Exchange:
             return period - (tick - self._origin) % period
         return self._due - tick
 
-    def read(self, now: Moment, period: int, dt: float, dtype: Any, sensed: dict[str, np.ndarray]) -> None:
+    def read(
+        self, now: ExchangeInstant, period: int, dt: float, dtype: Any, sensed: dict[str, np.ndarray]
+    ) -> None:
         """Bring the world to the present, and what is sensed with it."""
         if self.world is None or not self.live:
             return
@@ -136,7 +138,7 @@ class Exchange:
             sensed[ident] = self._reading(sensor, moment, dtype)
         self.unread = False
 
-    def tell(self, tick: int, period: int, told: Told) -> None:
+    def tell(self, tick: int, period: int, told: MotorReader) -> None:
         """Before steps are taken from the tick of an exchange: take down what the motors are told there."""
         if self.world is None or not self.live or not period or tick != self._last or self._told is not None:
             return
@@ -159,12 +161,14 @@ class Exchange:
         self._last = tick - (tick - self._last) * factor
         self._due = self._origin = tick + math.ceil(max(0, self._due - tick) * factor - 1e-6)
 
-    def keep(self) -> Kept | None:
+    def keep(self) -> WorldState | None:
         """What `put` needs to go back to this moment."""
         return (
             None
             if self.world is None
-            else Kept(type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told)
+            else WorldState(
+                type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told
+            )
         )
 
     def put_now(self, now: Any) -> None:
@@ -174,7 +178,7 @@ class Exchange:
         if self.world is not None:
             self.world.put(jax.tree.map(lambda a: a[:, 0], now))
 
-    def put(self, kept: Kept | None) -> None:
+    def put(self, kept: WorldState | None) -> None:
         """Back to a moment; the sensors are read anew."""
         self.unread = True
         if kept is not None and self.world is not None and isinstance(self.world, kept.kind):

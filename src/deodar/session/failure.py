@@ -10,13 +10,13 @@ import numpy as np
 from deodar.errors import NotFinite
 from deodar.session.clock import Clock
 
-Rows = list[tuple[int, int]]
+RowSpans = list[tuple[int, int]]
 """Groups of a plan and rows in them."""
 
 
 def first_steps(
     bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int, copies: Sequence[Any]
-) -> dict[Any, tuple[int, Rows]]:
+) -> dict[Any, tuple[int, RowSpans]]:
     """For each copy the first step after which a value was not finite, and where: by bisection, which copies
     that fail alike share.
 

@@ -6,10 +6,10 @@ import numpy as np
 
 from deodar.errors import ParameterError
 from deodar.model.model import Model
-from deodar.session.snapshot import Snapshot
+from deodar.session.snapshot import SessionSnapshot
 
 
-def learned(snapshot: Snapshot) -> dict[str, np.ndarray]:
+def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
     """Values that elements have learned (weights, traces, gains), by the id of the element and the parameter
     that takes each as its initial value.
     """
@@ -21,7 +21,7 @@ def learned(snapshot: Snapshot) -> dict[str, np.ndarray]:
     return found
 
 
-def keep(snapshot: Snapshot, model: Model) -> list[str]:
+def keep(snapshot: SessionSnapshot, model: Model) -> list[str]:
     """Write learned values to a model as initial values, in one change, which `undo` takes back; return the
     paths of the parameters.
 

@@ -15,7 +15,7 @@ import numpy as np
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 
-Place = tuple[str, str]
+PortKey = tuple[str, str]
 """An element by its id, and one of its ports."""
 
 
@@ -27,14 +27,14 @@ class Look:
     ports: tuple[Port, ...]
     reader: Any
 
-    def fits(self, places: Iterable[Place]) -> bool:
+    def fits(self, places: Iterable[PortKey]) -> bool:
         """Whether it reads just what these places need."""
         return whole(self.program, places) == set(self.ports)
 
-    def arrays(self, seen: Iterable[Any], places: Iterable[Place]) -> Mapping[Place, np.ndarray]:
+    def arrays(self, seen: Iterable[Any], places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
         """The arrays of places, out of what the reader gave; places it does not cover are left out."""
         by_port = dict(zip(self.ports, seen, strict=True))
-        out: dict[Place, np.ndarray] = {}
+        out: dict[PortKey, np.ndarray] = {}
         for ident, name in places:
             if ident in self.program.plan.row:
                 port = self.program.port(ident, name)
@@ -44,13 +44,13 @@ class Look:
         return out
 
 
-def look(program: Executable, places: Iterable[Place]) -> Look:
+def look(program: Executable, places: Iterable[PortKey]) -> Look:
     """Compile a look at places. It changes nothing of the run, so that another thread may do it meanwhile."""
     ports = tuple(sorted(whole(program, places), key=lambda p: (p.group, p.name)))
     return Look(program, ports, program.new_reader(ports) if ports else None)
 
 
-def whole(program: Executable, places: Iterable[Place]) -> set[Port]:
+def whole(program: Executable, places: Iterable[PortKey]) -> set[Port]:
     """The ports of whole groups in which places lie; what the program does not have is left out."""
     out: set[Port] = set()
     for ident, name in places:

@@ -20,7 +20,7 @@ from deodar.model.document import Document
 from deodar.model.limits import too_long
 from deodar.parameters import real, show
 from deodar.session.clock import Clock
-from deodar.session.exchange import Exchange, Moment
+from deodar.session.exchange import Exchange, ExchangeInstant
 from deodar.session.failure import first_steps, not_finite
 from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
@@ -259,7 +259,7 @@ class Run:
     def sense(self) -> None:
         """Bring the world to the present, and what is sensed with it; a second time it changes nothing."""
         if self.exchange.live:
-            now = Moment(self.clock.tick, self.clock.time, self._unit())
+            now = ExchangeInstant(self.clock.tick, self.clock.time, self._unit())
             self.exchange.read(now, self._period(), self.clock.dt, self.program.program.dtype, self.sensed)
 
     def _commands(self, motors: Sequence[str]) -> list[np.ndarray]:

@@ -23,14 +23,14 @@ from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.session import memory, rearrange
-from deodar.session.changes import Changed, changed_leaves
-from deodar.session.cost import SECONDS, Costs, Moment, costs, moment
+from deodar.session.changes import LeafChange, changed_leaves
+from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
-from deodar.session.look import Look, Place
+from deodar.session.look import Look, PortKey
 from deodar.session.meter import Meter
 from deodar.session.run import Run, require_duration, require_step, whole
 from deodar.session.run_live import run_live
-from deodar.session.snapshot import Snapshot, fill, rows
+from deodar.session.snapshot import SessionSnapshot, fill, rows
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene
 
@@ -125,14 +125,14 @@ class Session:
         """
         return run_live(self, duration, speed, longest_step, between)
 
-    def costs(self, seconds: float = SECONDS) -> Costs:
+    def costs(self, seconds: float = SECONDS) -> StepCost:
         """What each element costs in a step, measured now; see `deodar.session.cost.costs`.
 
         The run is not touched.
         """
         return costs(self.moment(), seconds)
 
-    def moment(self) -> Moment:
+    def moment(self) -> StepInputs:
         """What costs are measured at: it may be handed to another thread."""
         return moment(self._run)
 
@@ -188,7 +188,7 @@ class Session:
 
     # ----------------------------------------------------------------------------------- looking and changing
 
-    def look(self, look: Look, places: Iterable[Place]) -> Mapping[Place, np.ndarray]:
+    def look(self, look: Look, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
         """Many ports now, through a look that was compiled for the program that runs."""
         return look.arrays(self._run.look(look.reader) if look.ports else [], places)
 
@@ -210,7 +210,7 @@ class Session:
         """What going on with another document would cost: live, rebuild or recompile."""
         return self._cost(document, changed_leaves(self.document, document))
 
-    def _cost(self, document: Document, changed: Sequence[Changed] | None) -> str:
+    def _cost(self, document: Document, changed: Sequence[LeafChange] | None) -> str:
         if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
             return "recompile"
         if "rebuild" not in {cost for _, _, cost, _ in changed}:
@@ -259,10 +259,10 @@ class Session:
         self.journal.append(Change(self.tick, "document", document))
         return cost
 
-    def snapshot(self) -> Snapshot:
+    def snapshot(self) -> SessionSnapshot:
         """The whole state, to go back to."""
         run = self._run
-        return Snapshot(
+        return SessionSnapshot(
             self.document,
             rows(run.program, run.state),
             run.clock,
@@ -271,9 +271,9 @@ class Session:
             run.exchange.keep(),
         )
 
-    def restore(self, snapshot: Snapshot) -> None:
+    def restore(self, snapshot: SessionSnapshot) -> None:
         """Back to a snapshot, of this session or of another one of the same model."""
-        if not isinstance(snapshot, Snapshot):
+        if not isinstance(snapshot, SessionSnapshot):
             raise ParameterError(f"{show(snapshot)} is no snapshot", fix="Take one with session.snapshot()")
         if snapshot.precision != self._precision:
             raise ParameterError(
@@ -436,7 +436,7 @@ class Session:
         fill(run, states)
         return "recompile"
 
-    def _change(self, doc: Document, changed: Sequence[Changed]) -> str:
+    def _change(self, doc: Document, changed: Sequence[LeafChange]) -> str:
         """New values of leaves the program has: the vector, and `prepare` where they rebuild."""
         run = self._run
         vector, arrays = run.values["vector"].copy(), dict(run.values["arrays"])

@@ -11,16 +11,16 @@ import numpy as np
 from deodar.compiler.executable import Executable
 from deodar.model.document import Document
 from deodar.session.clock import Clock
-from deodar.session.exchange import Kept
+from deodar.session.exchange import WorldState
 from deodar.session.run import Run, host
 
 Tree = Any
-Row = Mapping[str, np.ndarray]
+StateRow = Mapping[str, np.ndarray]
 """The state of one element: its arrays by name."""
 
 
 @dc.dataclass(frozen=True)
-class Snapshot:
+class SessionSnapshot:
     """The whole state of a session at one moment.
 
     Attributes:
@@ -34,19 +34,19 @@ class Snapshot:
     """
 
     document: Document
-    states: Mapping[str, tuple[Row, Row]]
+    states: Mapping[str, tuple[StateRow, StateRow]]
     clock: Clock
     seed: int
     precision: str
-    world: Kept | None = None
+    world: WorldState | None = None
 
 
-def rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
+def rows(program: Executable, state: Tree) -> dict[str, tuple[StateRow, StateRow]]:
     """The state of every element by id: what is shown, and what is held until it is due (the same where
     nothing is held).
     """
     here = host(state)
-    out: dict[str, tuple[Row, Row]] = {}
+    out: dict[str, tuple[StateRow, StateRow]] = {}
     for ident, (g, r) in program.plan.row.items():
         shown = {name: values[r] for name, values in here["groups"][g].items()}
         held = {name: values[r] for name, values in here["held"].get(str(g), here["groups"][g]).items()}
@@ -54,7 +54,7 @@ def rows(program: Executable, state: Tree) -> dict[str, tuple[Row, Row]]:
     return out
 
 
-def fill(run: Run, states: Mapping[str, tuple[Row, Row]]) -> None:
+def fill(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
     """States by id into the present program, where their shapes are the same; others start anew.
 
     Noise follows from seed and tick.
@@ -71,7 +71,7 @@ def fill(run: Run, states: Mapping[str, tuple[Row, Row]]) -> None:
     run.forget()
 
 
-def _copy_row(source: Row, target: Tree, row: int) -> None:
+def _copy_row(source: StateRow, target: Tree, row: int) -> None:
     for name, values in source.items():
         if name in target and target[name].shape[1:] == values.shape:
             target[name][row] = values

@@ -24,26 +24,26 @@ from deodar.couplings.gain import Gain
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.importers.cosivina.file import Foreign, Simulator, Source
-from deodar.importers.cosivina.names import Names
+from deodar.importers.cosivina.names import FreeNames
 from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes, projection
 from deodar.importers.cosivina.sizes import Dims
 from deodar.importers.report import Line
 from deodar.numerics.axes import Axis, shape
 
-Wire = tuple[str, str, str, str, str]
+SourceWire = tuple[str, str, str, str, str]
 """Source, its port, target, its port, and what the connection reads."""
 
 
-class Wiring:
+class SourceWiring:
     """The connections of a file, and the elements that only they need."""
 
-    def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], names: Names) -> None:
+    def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], names: FreeNames) -> None:
         self.elements = simulator.elements
         self.place = {e.label: e.place for e in simulator.elements}
         self.pieces = pieces
         self.names = names
         self.extra: list[Element] = []
-        self.connections: list[Wire] = []
+        self.connections: list[SourceWire] = []
         self.lines: list[Line] = []
         self.delays: dict[tuple[str, str], str] = {}
         self.feeds: dict[str, set[str]] = {}

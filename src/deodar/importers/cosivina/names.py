@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 
-class Names:
+class FreeNames:
     """The names that are taken; each further one gets a number of its own."""
 
     def __init__(self, taken: Iterable[str]) -> None:

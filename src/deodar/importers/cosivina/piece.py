@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.importers.cosivina.file import Foreign, Simulator
-from deodar.importers.cosivina.names import Names
+from deodar.importers.cosivina.names import FreeNames
 from deodar.importers.cosivina.sizes import Dimensions, Dims, output_size
 from deodar.importers.cosivina.values import Values
 from deodar.importers.report import Verdict
@@ -79,7 +79,7 @@ class Piece:
     why: str = ""
 
 
-class Bench:
+class SourceElement:
     """What translating one element needs to know: its parameters, the axes, the step, who reads it, and what
     was said on the way.
     """
@@ -90,7 +90,7 @@ class Bench:
         dims: Dimensions,
         element: Foreign,
         asked: set[str],
-        names: Names,
+        names: FreeNames,
         bugs: bool,
     ) -> None:
         self.simulator = simulator

@@ -20,7 +20,7 @@ MOST_CELLS = 10_000_000
 """Larger arrays are taken for a broken file (a guess; one would take 80 MB)."""
 
 
-class TooLarge(ValueError):
+class SizeLimit(ValueError):
     """Raised where a size is too large to be meant."""
 
 
@@ -92,7 +92,7 @@ class Dimensions:
         for count in counts:
             total *= count
         if max(counts) > MOST_SAMPLES or total > MOST_CELLS:
-            raise TooLarge(f"its size {list(counts)} is more than {MOST_CELLS} samples")
+            raise SizeLimit(f"its size {list(counts)} is more than {MOST_CELLS} samples")
         return tuple(self.axis(d, n) if n > 1 else None for d, n in enumerate(counts))
 
     def axis(self, d: int, count: int) -> Axis:

@@ -13,13 +13,13 @@ from deodar.importers.cosivina import file
 from deodar.importers.cosivina.classes import CLASSES
 from deodar.importers.cosivina.classes.missing import placeholder
 from deodar.importers.cosivina.components import components
-from deodar.importers.cosivina.connect import Wiring
+from deodar.importers.cosivina.connect import SourceWiring
 from deodar.importers.cosivina.file import Foreign, Simulator
-from deodar.importers.cosivina.names import Names
-from deodar.importers.cosivina.piece import Bench, Piece, Unfit
-from deodar.importers.cosivina.sizes import Dimensions, TooLarge
+from deodar.importers.cosivina.names import FreeNames
+from deodar.importers.cosivina.piece import Piece, SourceElement, Unfit
+from deodar.importers.cosivina.sizes import Dimensions, SizeLimit
 from deodar.importers.imported import Imported
-from deodar.importers.report import Line, Report
+from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.model import Model
@@ -36,7 +36,7 @@ def read(content: bytes, name: str, bugs: bool = False) -> Imported:
     """
     simulator = file.parse(content)
     translation = Translation(simulator, bugs)
-    report = Report("cosivina", name, translation.lines(), translation.met)
+    report = ImportReport("cosivina", name, translation.lines(), translation.met)
     title = PurePath(name).stem
     doc = edit.describe(
         Document(title or "cosivina"),
@@ -64,35 +64,35 @@ class Translation:
         self.dimensions = Dimensions(simulator)
         self.met: list[str] = []
         self.said: list[Line] = []
-        self.names = Names(e.label for e in simulator.elements)
+        self.names = FreeNames(e.label for e in simulator.elements)
         self.asked: dict[str, set[str]] = {}
         for e in simulator.elements:
             for s in e.sources:
                 self.asked.setdefault(s.label, set()).add(s.component)
         self.pieces = {e.label: self.piece(e) for e in simulator.elements}
-        self.wiring = Wiring(simulator, self.pieces, self.names)
+        self.wiring = SourceWiring(simulator, self.pieces, self.names)
         self.wiring.connect_all()
 
     def piece(self, e: Foreign) -> Piece:
         """The counterpart of one element; a placeholder where there is none, or where its parameters do not
         go together.
         """
-        bench = Bench(
+        source = SourceElement(
             self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.names, self.bugs
         )
         try:
             found = (
-                CLASSES[e.kind](bench)
+                CLASSES[e.kind](source)
                 if e.kind in CLASSES
                 else placeholder(e, self.dimensions, list(CLASSES))
             )
-        except (Unfit, TooLarge) as error:
+        except (Unfit, SizeLimit) as error:
             found = placeholder(e, self.dimensions, list(CLASSES), str(error))
         except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
             found = placeholder(
                 e, self.dimensions, list(CLASSES), f"its parameters do not go together ({error})"
             )
-        self.met += bench.met
+        self.met += source.met
         self.said.append(Line(e.label, "element", e.kind, found.verdict, found.why))
         if isinstance(found.elements[0], Placeholder):
             self.said += [
@@ -100,7 +100,7 @@ class Translation:
                 for name in e.values
             ]
         else:
-            self.said += bench.values.rest()
+            self.said += source.values.rest()
             self.said += _shown(e, found)
         return found
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from deodar.analysis.claims import Claim, Kind
+from deodar.analysis.claims import Claim, ClaimKind
 from deodar.papers.saliency.scenes import NEAR, Cue, Found, Outcome
 
 SOURCE = "Sandamirskaya (2014), Front. Neurosci. 7:276, figure 2"
@@ -84,7 +84,7 @@ def totals(results: Sequence[Found]) -> list[Claim]:
     right, silent = sum(o.right for o in present), sum(o.right for o in absent)
     arrived = sum(o.gap is not None and o.converged for o in present)
     enough, all_of = f"at least {LEAST_RIGHT} of {of[0]}", [f"all of {n}" for n in of]
-    rows: list[tuple[str, int, str, bool, Kind, int]] = [
+    rows: list[tuple[str, int, str, bool, ClaimKind, int]] = [
         ("a present colour is selected", right, enough, right >= LEAST_RIGHT, "required", len(present)),
         ("an absent colour selects nothing", silent, all_of[1], silent == of[1], "required", len(absent)),
         (CONVERGES, arrived, all_of[0], arrived == of[0], "reported", len(present)),

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.analysis import statistics
-from deodar.analysis.claims import Claim, Kind, Origin
+from deodar.analysis.claims import Claim, ClaimKind, Origin
 from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
 from deodar.numerics.intervals import Interval
@@ -49,7 +49,7 @@ class Sentence:
     origin: Origin = "ours"
     assumes: str = ""
     inferred: bool = False
-    kind: Kind = "reported"
+    kind: ClaimKind = "reported"
     source: str = ""
 
     def judged(

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from deodar.importers.cosivina.classes import algebra, fields, kernels, shapes, stimuli, weights
-from deodar.importers.cosivina.piece import Bench, Piece
+from deodar.importers.cosivina.piece import Piece, SourceElement
 
-CLASSES: dict[str, Callable[[Bench], Piece]] = {
+CLASSES: dict[str, Callable[[SourceElement], Piece]] = {
     **fields.CLASSES,
     **stimuli.CLASSES,
     **kernels.CLASSES,

@@ -7,12 +7,12 @@ from deodar.couplings.product import Product
 from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.sum import Sum
 from deodar.importers.cosivina.classes.fields import STEEPEST
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 
 
-def sum_inputs(b: Bench) -> Piece:
+def sum_inputs(b: SourceElement) -> Piece:
     """SumInputs."""
     b.values.size()
     dims = b.dims()
@@ -22,23 +22,23 @@ def sum_inputs(b: Bench) -> Piece:
     )
 
 
-def scale_input(b: Bench) -> Piece:
+def scale_input(b: SourceElement) -> Piece:
     """ScaleInput."""
     return _one(b, Gain(b.values.number("amplitude", 0), name=b.label))
 
 
-def half_wave(b: Bench) -> Piece:
+def half_wave(b: SourceElement) -> Piece:
     """HalfWaveRectification."""
     return _one(b, Sigmoid(SemiLinear(1.0, 0.0), name=b.label))
 
 
-def sigmoid(b: Bench) -> Piece:
+def sigmoid(b: SourceElement) -> Piece:
     """Sigmoid."""
     logistic = Logistic(b.values.number("beta", 1, 1e-6, STEEPEST), b.values.number("threshold", 0))
     return _one(b, Sigmoid(logistic, name=b.label))
 
 
-def product(b: Bench) -> Piece:
+def product(b: SourceElement) -> Piece:
     """PointwiseProduct of two inputs, of which one may be smaller."""
     b.values.size()
     dims = b.dims()
@@ -49,7 +49,7 @@ def product(b: Bench) -> Piece:
     return Piece([Product(name=b.label)], ports, {"output": Outlet(b.label, dims)}, needs=2, why="Product")
 
 
-def _one(b: Bench, element: Gain | Sigmoid) -> Piece:
+def _one(b: SourceElement, element: Gain | Sigmoid) -> Piece:
     b.values.size()
     dims = b.dims()
     inlet = Inlet(b.label, dims, whole=True)

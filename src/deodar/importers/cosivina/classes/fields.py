@@ -15,7 +15,7 @@ from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.rate_node import RateNode
 from deodar.elements.sampled_history import SampledHistory
 from deodar.importers.cosivina.components import PHASE_PLOT
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes
 from deodar.importers.cosivina.sizes import Dims
 from deodar.model.paths import display
 from deodar.numerics.axes import Axis, shape
@@ -28,7 +28,7 @@ MOST_COUNTED = 1_000_000
 """Steps up to which cosivina's own counting of time is followed, with its rounding."""
 
 
-def neural_field(b: Bench) -> Piece:
+def neural_field(b: SourceElement) -> Piece:
     """NeuralField: kernels and noise stay elements of their own, as in the file."""
     b.values.size()
     dims = b.dims()
@@ -47,7 +47,7 @@ def neural_field(b: Bench) -> Piece:
     )
 
 
-def single_node(b: Bench) -> Piece:
+def single_node(b: SourceElement) -> Piece:
     """SingleNodeDynamics, without the samples of its phase plot."""
     for name in ("range", "resolution"):
         if name in b.element.values:
@@ -69,11 +69,11 @@ def single_node(b: Bench) -> Piece:
     )
 
 
-def _level(b: Bench) -> str:
+def _level(b: SourceElement) -> str:
     return f"the parameter {display((b.label, 'resting_level'))}"
 
 
-def memory_trace(b: Bench) -> Piece:
+def memory_trace(b: SourceElement) -> Piece:
     """MemoryTrace; its rates are per step, whatever the step is, so that time constants are those of the file
     times its step.
     """
@@ -91,7 +91,7 @@ def memory_trace(b: Bench) -> Piece:
     return Piece([trace], [[Inlet(b.label, dims)]], outlets, needs=1, why="MemoryTrace")
 
 
-def dynamic_variable(b: Bench) -> Piece:
+def dynamic_variable(b: SourceElement) -> Piece:
     """DynamicVariable, a pure integrator."""
     b.values.size()
     dims = b.dims()
@@ -117,7 +117,7 @@ def dynamic_variable(b: Bench) -> Piece:
     )
 
 
-def running_history(b: Bench) -> Piece:
+def running_history(b: SourceElement) -> Piece:
     """RunningHistory: the newest row first."""
     dims = b.of(b.values.size())
     slots, shown = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
@@ -125,7 +125,7 @@ def running_history(b: Bench) -> Piece:
     return _stored(b, history, dims, shown)
 
 
-def history(b: Bench) -> Piece:
+def history(b: SourceElement) -> Piece:
     """History: a row for each moment that is listed."""
     dims = b.of(b.values.size())
     given = b.values.matrix("storingTimes")
@@ -136,7 +136,7 @@ def history(b: Bench) -> Piece:
     return _stored(b, SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b)), dims, shown)
 
 
-def _moments(b: Bench, times: np.ndarray) -> np.ndarray:
+def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
     """The moments at which cosivina stores: those that a step reaches.
 
     The others are moved to where no run comes.
@@ -164,7 +164,7 @@ def _moments(b: Bench, times: np.ndarray) -> np.ndarray:
     return np.where(reached, start + ticks * step, FOR_EVER)
 
 
-def _slots(b: Bench, dims: Dims, count: int) -> tuple[Axis, Dims]:
+def _slots(b: SourceElement, dims: Dims, count: int) -> tuple[Axis, Dims]:
     """The axis of what is stored, and the dimensions of the whole as cosivina has them."""
     kept = b.dims()
     slots = Axis("slot", 0, max(count - 1, 1), count, periodic=count == 1)
@@ -173,14 +173,14 @@ def _slots(b: Bench, dims: Dims, count: int) -> tuple[Axis, Dims]:
     return slots, kept if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
 
 
-def _empty(b: Bench) -> str:
+def _empty(b: SourceElement) -> str:
     """What cosivina shows where nothing is stored yet; where elements read it, it would make them undefined
     for ever.
     """
     return "zero" if b.asked else "nan"
 
 
-def _stored(b: Bench, element: History | SampledHistory, dims: Dims, shown: Dims) -> Piece:
+def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, shown: Dims) -> Piece:
     why = type(element).__name__
     if b.asked:
         why += (
@@ -198,12 +198,12 @@ def _stored(b: Bench, element: History | SampledHistory, dims: Dims, shown: Dims
     )
 
 
-def _tau(b: Bench, name: str, default: float) -> float:
+def _tau(b: SourceElement, name: str, default: float) -> float:
     """A time constant; one below the step diverges or is refused."""
     return b.values.number(name, default, b.step)
 
 
-def _per_step(b: Bench, name: str, default: float) -> float:
+def _per_step(b: SourceElement, name: str, default: float) -> float:
     value = b.values.number(name, default, 1e-6)
     if name in b.element.values and b.step != 1 and b.values.lines[name].verdict == "carried":
         b.values.say(name, "carried", f"times the step {b.step:g}, since cosivina's rate is per step")

@@ -11,7 +11,7 @@ from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.importers.cosivina.classes.stimuli import LETTERS, boundary
 from deodar.importers.cosivina.components import components
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, axes, projection
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, axes, projection
 from deodar.importers.cosivina.sizes import Dims
 from deodar.model.paths import display
 from deodar.numerics.kernels._base import Kernel
@@ -30,7 +30,7 @@ PADDED = 4.0
 
 
 @dc.dataclass(frozen=True)
-class Form:
+class KernelForm:
     """What the kernels of one element share: its dimensions, their boundaries, whether amplitudes are
     integrals, and where they end.
     """
@@ -54,14 +54,14 @@ class Form:
         )
 
 
-def kernel_1d(b: Bench) -> Piece:
+def kernel_1d(b: SourceElement) -> Piece:
     """GaussKernel1D."""
     form = _form(b)
     kernel = form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))
     return _convolve(b, form, [kernel])
 
 
-def kernel_nd(b: Bench) -> Piece:
+def kernel_nd(b: SourceElement) -> Piece:
     """GaussKernel2D and 3D, whose amplitude stands on one axis: the same product."""
     form = _form(b)
     mixed = b.element.kind == "GaussKernel3D" and len(form.ends) == 3 and form.ends[0] != form.ends[1]
@@ -70,7 +70,7 @@ def kernel_nd(b: Bench) -> Piece:
     return _convolve(b, form, [form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))])
 
 
-def difference(b: Bench) -> Piece:
+def difference(b: SourceElement) -> Piece:
     """MexicanHatKernel and LateralInteractions, of one, two and three dimensions, shifted or not: two
     Gaussians, perhaps a constant.
     """
@@ -90,18 +90,18 @@ def difference(b: Bench) -> Piece:
     return _interaction(b, form.dims, Interaction(kernels, inhibition, name=b.label))
 
 
-def discrete(b: Bench) -> Piece:
+def discrete(b: SourceElement) -> Piece:
     """LateralInteractionsDiscrete: every place by itself, and all together."""
     b.values.size()
     dims = b.dims()
-    own = Form(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
+    own = KernelForm(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
     kernel = own.gaussian(b.values.number("amplitudeExc", 0), [1e-6] * len(dims))
     return _interaction(
         b, dims, Interaction([kernel], -b.values.number("amplitudeGlobal", 0) + 0.0, name=b.label)
     )
 
 
-def kernel_fft(b: Bench) -> Piece:
+def kernel_fft(b: SourceElement) -> Piece:
     """KernelFFT, and the inverse half of it: kernels over the whole ring, or over an input padded with
     zeros.
     """
@@ -133,7 +133,7 @@ def kernel_fft(b: Bench) -> Piece:
             not normalized and min(sigmas, default=1.0) < 1
         )  # cosivina samples what the grid does not resolve; Gaussian keeps its integral
         if all(circular) or not long or narrow:
-            form = Form(tuple(long), ends, normalized, WHOLE)
+            form = KernelForm(tuple(long), ends, normalized, WHOLE)
             kernels.append(form.gaussian(amplitude, sigmas[: len(long)]))
         else:
             same = sigmas[0] if len(set(sigmas)) == 1 else sigmas
@@ -148,7 +148,7 @@ def kernel_fft(b: Bench) -> Piece:
     return dc.replace(piece, why=why, verdict=verdict)
 
 
-def fourier(b: Bench) -> Piece:
+def fourier(b: SourceElement) -> Piece:
     """FastFourierTransform: only KernelInverseFFT can read what it gives, so that it hands its input on."""
     b.values.size()
     dims = b.dims()
@@ -161,7 +161,7 @@ def fourier(b: Bench) -> Piece:
     )
 
 
-def sums(b: Bench) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
+def sums(b: SourceElement) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
     """The sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`.
 
     Those that nobody reads cost nothing in a step.
@@ -188,33 +188,35 @@ def sums(b: Bench) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
 # ----------------------------------------------------------------------------------------------------- inside
 
 
-def _form(b: Bench) -> Form:
+def _form(b: SourceElement) -> KernelForm:
     b.values.size()
     dims = b.dims()
-    flags = _flags(b, Form(dims, [], True, 5.0))
+    flags = _flags(b, KernelForm(dims, [], True, 5.0))
     ends = ["periodic" if f else "zero" for f, a in zip(flags, dims, strict=True) if a is not None]
-    return Form(dims, ends, b.values.flag("normalized", True), b.values.number("cutoffFactor", 5, 0, WHOLE))
+    return KernelForm(
+        dims, ends, b.values.flag("normalized", True), b.values.number("cutoffFactor", 5, 0, WHOLE)
+    )
 
 
-def _flags(b: Bench, form: Form) -> list[bool]:
+def _flags(b: SourceElement, form: KernelForm) -> list[bool]:
     if "1D" in b.element.kind:
         return [b.values.flag("circular", True)] * len(form.dims)
     return [b.values.flag(f"circular{letter}", True) for letter, _ in zip(LETTERS, form.dims, strict=False)]
 
 
-def _widths(b: Bench, name: str, form: Form) -> list[float]:
+def _widths(b: SourceElement, name: str, form: KernelForm) -> list[float]:
     if "1D" in b.element.kind:
         return [b.values.width(name)] * len(form.dims)
     return [b.values.width(f"{name}{letter}") for letter, _ in zip(LETTERS, form.dims, strict=False)]
 
 
-def _convolve(b: Bench, form: Form, kernels: Sequence[Kernel]) -> Piece:
+def _convolve(b: SourceElement, form: KernelForm, kernels: Sequence[Kernel]) -> Piece:
     element = Convolve(kernels, name=b.label)
     inlets, outlets = [[Inlet(b.label, form.dims, whole=True)]], {"output": Outlet(b.label, form.dims)}
     return Piece([element], inlets, outlets, elsewhere=_constants(b), needs=1, why="Convolve")
 
 
-def _interaction(b: Bench, dims: Dims, element: Interaction) -> Piece:
+def _interaction(b: SourceElement, dims: Dims, element: Interaction) -> Piece:
     extra, inlets, outlets = sums(b)
     first = {"output": Outlet(b.label, dims)}
     inlets = [[Inlet(b.label, dims, whole=True), *inlets]]
@@ -223,7 +225,7 @@ def _interaction(b: Bench, dims: Dims, element: Interaction) -> Piece:
     )
 
 
-def _constants(b: Bench) -> dict[str, str]:
+def _constants(b: SourceElement) -> dict[str, str]:
     """Components that show what cosivina computes from parameters alone."""
     out: dict[str, str] = {}
     for component in components(b.element.kind):

@@ -6,7 +6,7 @@ from deodar.elements.placeholder import Placeholder
 from deodar.errors import did_you_mean
 from deodar.importers.cosivina.file import Foreign
 from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes
-from deodar.importers.cosivina.sizes import Dimensions, Dims, TooLarge, output_size
+from deodar.importers.cosivina.sizes import Dimensions, Dims, SizeLimit, output_size
 
 MISSING = {
     "AttractorDynamics": "turns a peak into the rate of change of a heading direction",
@@ -39,5 +39,5 @@ def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str =
 def _dims(e: Foreign, dimensions: Dimensions) -> Dims:
     try:
         return dimensions.of(output_size(e))
-    except TooLarge:
+    except SizeLimit:
         return (None, None)

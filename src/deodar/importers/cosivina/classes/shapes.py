@@ -15,7 +15,7 @@ from deodar.element import Element
 from deodar.elements.pattern import Pattern
 from deodar.importers.cosivina.classes.kernels import sums
 from deodar.importers.cosivina.classes.stimuli import boundary
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes, projection
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes, projection
 from deodar.importers.cosivina.sizes import Dims
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.kernels.gaussian import NARROWEST
@@ -23,7 +23,7 @@ from deodar.numerics.kernels.shifted import Shifted
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 
 
-def transpose(b: Bench) -> Piece:
+def transpose(b: SourceElement) -> Piece:
     """Transpose: its size is that of the output."""
     b.values.size()
     dims = b.dims()
@@ -41,7 +41,7 @@ def transpose(b: Bench) -> Piece:
     )
 
 
-def sum_dimension(b: Bench) -> Piece:
+def sum_dimension(b: SourceElement) -> Piece:
     """SumDimension: a projection that adds up, then a gain."""
     b.values.size()
     dims = b.dims()
@@ -75,14 +75,14 @@ def sum_dimension(b: Bench) -> Piece:
     )
 
 
-def sum_all(b: Bench) -> Piece:
+def sum_all(b: SourceElement) -> Piece:
     """SumAllDimensions: one projection for each sum that somebody reads."""
     elements, inlets, outlets = sums(b)
     first = {"fullSum": outlets["fullSum"]}
     return Piece(list(reversed(elements)), [inlets], first | outlets, needs=1, why="Project")
 
 
-def expand_2d(b: Bench) -> Piece:
+def expand_2d(b: SourceElement) -> Piece:
     """ExpandDimension2D: a row or column, whichever way it comes, along one dimension of a plane."""
     b.values.size()
     dims = b.dims()
@@ -92,7 +92,7 @@ def expand_2d(b: Bench) -> Piece:
     return _expand(b, came, dims, [kept] if kept is not None else [])
 
 
-def expand(b: Bench) -> Piece:
+def expand(b: SourceElement) -> Piece:
     """ExpandDimension: each dimension of the input goes where the mapping says, the others are filled with
     copies.
     """
@@ -111,7 +111,7 @@ def expand(b: Bench) -> Piece:
     )
 
 
-def diagonal_sum(b: Bench) -> Piece:
+def diagonal_sum(b: SourceElement) -> Piece:
     """DiagonalSum: a sum along diagonals, then a gain."""
     side = b.values.size("inputSize")[-1]
     came, dims = b.of((side, side)), b.dims()
@@ -137,7 +137,7 @@ def diagonal_sum(b: Bench) -> Piece:
     )
 
 
-def diagonal_expansion(b: Bench) -> Piece:
+def diagonal_expansion(b: SourceElement) -> Piece:
     """DiagonalExpansion. cosivina never applies its amplitude; 0, where nobody gave one, stands for 1."""
     came, dims = b.of(b.values.size("inputSize")), b.dims()
     amplitude = _unused_amplitude(b)
@@ -162,7 +162,7 @@ def diagonal_expansion(b: Bench) -> Piece:
     )
 
 
-def shift_input(b: Bench) -> Piece:
+def shift_input(b: SourceElement) -> Piece:
     """ShiftInput: a kernel of one sample, moved. cosivina never applies its amplitude; 0, where nobody gave
     one, stands for 1.
     """
@@ -216,7 +216,7 @@ def _count(axis: Axis | None) -> int:
     return 1 if axis is None else axis.samples
 
 
-def _expand(b: Bench, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
+def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
     if shape(axes(came)) != shape(places):
         raise Unfit(
             f"its input has {list(shape(axes(came)))} samples, where {list(shape(places))} are expanded"
@@ -231,7 +231,7 @@ def _expand(b: Bench, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
     )
 
 
-def _unused_amplitude(b: Bench) -> float:
+def _unused_amplitude(b: SourceElement) -> float:
     """An amplitude that cosivina stores and never applies."""
     amplitude = b.values.number("amplitude", 1)
     if amplitude in (0, 1):

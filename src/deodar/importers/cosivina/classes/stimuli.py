@@ -17,7 +17,7 @@ from deodar.elements.noise import Noise
 from deodar.elements.pattern import Pattern
 from deodar.elements.time_series import TimeSeries
 from deodar.importers.cosivina.file import empty
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes
 from deodar.importers.cosivina.sizes import Dims
 from deodar.importers.cosivina.values import ticks
 from deodar.model.paths import display
@@ -27,7 +27,7 @@ from deodar.numerics.windows import FOR_EVER, Window
 LETTERS = "YXZ"
 
 
-def gauss_stimulus(b: Bench) -> Piece:
+def gauss_stimulus(b: SourceElement) -> Piece:
     """GaussStimulus1D, 2D and 3D, and their timed forms."""
     b.values.size()
     dims = b.dims()
@@ -60,13 +60,13 @@ def gauss_stimulus(b: Bench) -> Piece:
     return Piece([stimulus], [], {"output": Outlet(b.label, dims, still=not timed)}, why="GaussianStimulus")
 
 
-def boost(b: Bench) -> Piece:
+def boost(b: SourceElement) -> Piece:
     """BoostStimulus."""
     element = Boost(b.label, (), b.values.number("amplitude", 0))
     return Piece([element], [], {"output": Outlet(b.label, (None, None), still=True)}, why="Boost")
 
 
-def timed_boost(b: Bench) -> Piece:
+def timed_boost(b: SourceElement) -> Piece:
     """TimedBoost; with an amplitude for each period one Boost for each, and their sum."""
     periods = b.values.periods()
     given = b.values.matrix("amplitude")
@@ -96,7 +96,7 @@ def timed_boost(b: Bench) -> Piece:
     return Piece(parts, [], outlet, [(part.name, b.label) for part in parts[1:]], why="Sum of Boosts")
 
 
-def custom_stimulus(b: Bench) -> Piece:
+def custom_stimulus(b: SourceElement) -> Piece:
     """CustomStimulus and TimedCustomStimulus: any pattern."""
     own = b.values.size()
     dims = b.dims()
@@ -117,7 +117,7 @@ def custom_stimulus(b: Bench) -> Piece:
     return Piece([element], [], {"output": Outlet(b.label, dims, still=not timed)}, why="Pattern")
 
 
-def sequence(b: Bench) -> Piece:
+def sequence(b: SourceElement) -> Piece:
     """CustomStimulusSequence: one pattern after the other, nothing before the first."""
     given = b.values.matrix("stimulusPatterns")
     if given is None or given.ndim > 3:
@@ -157,7 +157,7 @@ def sequence(b: Bench) -> Piece:
     return Piece([element], [], {"output": Outlet(b.label, dims)}, why="TimeSeries")
 
 
-def scalar_to_gaussian(b: Bench) -> Piece:
+def scalar_to_gaussian(b: SourceElement) -> Piece:
     """ScalarToGaussian: a peak at the place that a number names."""
     columns = b.values.size()[1]
     dims = b.of((1, columns))
@@ -196,7 +196,7 @@ def scalar_to_gaussian(b: Bench) -> Piece:
     return Piece(elements, [inlets], outlets, inner, elsewhere=elsewhere, needs=1, why="SpaceCode")
 
 
-def timed_switch(b: Bench) -> Piece:
+def timed_switch(b: SourceElement) -> Piece:
     """TimedSwitch: a product with a factor that is 1 while the switch is on."""
     b.values.size()
     dims = b.dims()
@@ -212,7 +212,7 @@ def timed_switch(b: Bench) -> Piece:
     )
 
 
-def noise(b: Bench) -> Piece:
+def noise(b: SourceElement) -> Piece:
     """NormalNoise: the step of 1 makes its strength the same here."""
     b.values.size()
     dims = b.dims()
@@ -225,7 +225,7 @@ def noise(b: Bench) -> Piece:
     )
 
 
-def windows(b: Bench) -> list[Window]:
+def windows(b: SourceElement) -> list[Window]:
     """The windows of closed periods: cosivina counts the time first, so that what belongs to t is used in the
     step that leads to t.
     """
@@ -238,7 +238,7 @@ def boundary(dims: Dims, ends: list[str]) -> list[str] | None:
     return None if ends == own else ends
 
 
-def _windows(b: Bench, spans: list[tuple[int, int]]) -> list[Window]:
+def _windows(b: SourceElement, spans: list[tuple[int, int]]) -> list[Window]:
     start, step = b.simulator.start, b.step
     found = [
         Window(start + (a - 1) * step, min(start + z * step, FOR_EVER) if z < 1e14 else FOR_EVER)

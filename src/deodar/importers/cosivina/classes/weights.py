@@ -10,13 +10,13 @@ from deodar.couplings.reward_gate import RewardGate
 from deodar.couplings.weights import Weights
 from deodar.element import Element
 from deodar.importers.cosivina.file import empty
-from deodar.importers.cosivina.piece import Bench, Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes
 from deodar.importers.cosivina.values import LARGEST
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 
 
-def weight_matrix(b: Bench) -> Piece:
+def weight_matrix(b: SourceElement) -> Piece:
     """WeightMatrix: a row times a matrix."""
     rows, columns = b.values.size()[:2]
     weights = b.values.matrix("weights")
@@ -36,7 +36,7 @@ def weight_matrix(b: Bench) -> Piece:
     )
 
 
-def adaptive_weight_matrix(b: Bench) -> Piece:
+def adaptive_weight_matrix(b: SourceElement) -> Piece:
     """AdaptiveWeightMatrix: its rate is per step, and its weights are not in the file; they begin at 0, as in
     cosivina.
     """
@@ -68,7 +68,7 @@ REWARDED = 0.9
 """What a reward must exceed in cosivina."""
 
 
-def hebbian(b: Bench) -> Piece:
+def hebbian(b: SourceElement) -> Piece:
     """HebbianConnection.
 
     Its files hold two of its parameters at most; the others are cosivina's defaults, each of them named.
@@ -134,7 +134,7 @@ def hebbian(b: Bench) -> Piece:
 T = TypeVar("T", float, str)
 
 
-def _default(b: Bench, name: str, value: T) -> T:
+def _default(b: SourceElement, name: str, value: T) -> T:
     """A parameter of the file, or cosivina's default, which the report then names."""
     if name not in b.element.values:
         b.values.say(name, "approximated", f"it is not in the file; cosivina's default {value} is taken")
@@ -146,7 +146,7 @@ def _default(b: Bench, name: str, value: T) -> T:
     return b.values.number(name, value, lower)
 
 
-def _duration(b: Bench, gated: bool) -> float:
+def _duration(b: SourceElement, gated: bool) -> float:
     """How long a reward opens learning; 0: as long as it lasts."""
     if "rewardDuration" not in b.element.values:
         b.values.say(
