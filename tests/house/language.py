@@ -26,7 +26,10 @@ SCRIPT = re.compile(
     r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|`(?:\\.|[^`\\])*`|\'(?:\\.|[^\'\\\n])*\'|>[^<>{}=;]*<', re.DOTALL
 )
 STYLE = re.compile(r"/\*.*?\*/", re.DOTALL)
-FENCE = re.compile(r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of |`[^`\n]*`|\]\([^)\s]*\)", re.M | re.S)
+FENCE = re.compile(
+    r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of |<!-- evidence .*?<!-- end -->|`[^`]*`|\]\([^)\s]*\)",
+    re.M | re.S,
+)
 TAGS = re.compile(r'^\s*(?:#|//|\*)|["\'`]', re.MULTILINE)
 
 

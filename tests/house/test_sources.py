@@ -34,6 +34,7 @@ MUTABLE_CALLS = {
     "ContextVar",
     "local",
 }
+PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
 PAGE = [p for p in texts() if (ROOT / "studio") in p.parents and p.suffix in {".ts", ".tsx", ".css"}]
 CHANGES = {"append", "add", "update", "pop", "clear", "extend", "insert", "remove", "setdefault", "discard"}
 
@@ -166,6 +167,15 @@ def test_lines_of_the_page_have_at_most_110_columns(path: Path) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
     long = [number for number, line in enumerate(lines, 1) if len(line) > 110]
     assert not long, f"run `python studio/build.py format`; split comments and strings by hand: lines {long}"
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_lines_of_the_manual_have_at_most_110_columns(path: Path) -> None:
+    whole = re.compile(r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of ", re.MULTILINE | re.DOTALL)
+    text = whole.sub(lambda code: "\n" * code[0].count("\n"), path.read_text(encoding="utf-8"))
+    lines = re.sub(r"<!-- evidence .*?<!-- end -->|`[^`\n]{60,}`", "", text, flags=re.DOTALL).splitlines()
+    long = [line for line in lines if len(line) > 110 and not line.startswith(("|", "!["))]
+    assert not long, "wrap the prose; code, tables and pictures may be wider"
 
 
 def test_warnings_are_errors() -> None:
