@@ -77,7 +77,8 @@ def prose(name: str, text: str) -> str:
             return _kept(STYLE, text)
         case _:
             if Path(name).name == "CHANGELOG.md":
-                text = text.split("\n## [", 2)[1]
+                head, unreleased = text.split("\n## [", 2)[:2]
+                text = "\n" * (head.count("\n") + 1) + unreleased
             return FENCE.sub(lambda found: _blank(found[0]), text)
 
 
