@@ -12,6 +12,7 @@ import random
 from pathlib import Path
 from typing import Any
 
+from deodar import codec
 from deodar.errors import DeodarError
 from deodar.model import files
 from deodar.model.check import problems
@@ -119,7 +120,7 @@ def attack(count: int, seed: int) -> Outcome:
     for k in range(count):
         text = mutated(random_, random_.choice(small))
         try:
-            document = files.from_data(files.parse(text), {})
+            document = files.from_data(codec.read(text), {})
             problems(document)
             again = files.from_data(json.loads(files.dumps(document)[0]), {})
             if again != document:

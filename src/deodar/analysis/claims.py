@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
+from deodar import codec
 from deodar.errors import AnalysisError
 
 ClaimKind = Literal["required", "reported"]
@@ -75,9 +75,4 @@ def failed(claims: Sequence[Claim]) -> list[Claim]:
 
 def results(claims: Sequence[Claim], settings: Mapping[str, Any]) -> str:
     """The content of `results.json`."""
-    return (
-        json.dumps(
-            {"claims": [asdict(c) for c in claims], "settings": dict(settings)}, indent=2, ensure_ascii=False
-        )
-        + "\n"
-    )
+    return codec.text({"claims": [asdict(c) for c in claims], "settings": dict(settings)}) + "\n"

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
-import json
 import pickle
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from deodar import registry
+from deodar import codec, registry
 from deodar.errors import WorkerError
 from deodar.model import files
 from deodar.model.model import Model
@@ -50,7 +49,7 @@ class PackedModel:
         _require_module([*outside, *([type(world)] if world is not None else [])])
         held = files.pack(arrays) if arrays else b""
         return cls(
-            json.dumps(data),
+            codec.line(data),
             held,
             model.trusted,
             _pickled(outside, "an element"),
@@ -71,7 +70,7 @@ class PackedModel:
 def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
     pickle.loads(kinds)
     held = files.unpack(arrays, "the document") if arrays else {}
-    return Model(document=files.from_data(json.loads(document), held), trusted=trusted)
+    return Model(document=files.from_data(codec.parse(document), held), trusted=trusted)
 
 
 def _outside(data: Mapping[str, Any]) -> list[type]:

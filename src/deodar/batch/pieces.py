@@ -5,13 +5,13 @@ together again.
 from __future__ import annotations
 
 import dataclasses as dc
-import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from deodar import codec
 from deodar.errors import NotFinite, ParameterError
 from deodar.parameters import show
 from deodar.recording.provenance import KEY
@@ -156,14 +156,14 @@ def joined(
         )
     if KEY in data.attrs:
         about = (
-            json.loads(data.attrs[KEY])
+            codec.parse(data.attrs[KEY])
             | settings
             | {
                 "batch": pieces.batch,
                 "complete": len(complete) == len(parts),
             }
         )
-        data.attrs[KEY] = json.dumps(about, ensure_ascii=False)
+        data.attrs[KEY] = codec.line(about)
     return diverged.counted(data)
 
 

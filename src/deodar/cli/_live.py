@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from typing import TYPE_CHECKING
 
+from deodar import codec
 from deodar.cli import _options
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
         if not args.json:
             print(costs)
     if args.json:
-        print(json.dumps(answer, indent=2, ensure_ascii=False))
+        print(codec.text(answer))
     if stopped:
         print(f"deodar run: {_options.paragraph([stopped])}", file=sys.stderr)
     return 1 if stopped else 0

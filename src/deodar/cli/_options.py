@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from deodar import codec
 from deodar.errors import UnknownName
 from deodar.importers import examples
 
@@ -128,7 +128,7 @@ def setting(text: str) -> tuple[str, Any]:
     """`PATH=VALUE`, the value in JSON: a number, true, false, [1, 2]; anything else is text."""
     path, value = pair(text)
     try:
-        return path, json.loads(value)
+        return path, codec.parse(value)
     except ValueError:
         return path, value
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.errors import DocumentError
 
@@ -54,4 +54,4 @@ def run(args: argparse.Namespace) -> int:
 
 def _json(found: Sequence[Problem]) -> str:
     listed = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in found]
-    return json.dumps({"problems": listed}, indent=2, ensure_ascii=False)
+    return codec.text({"problems": listed})

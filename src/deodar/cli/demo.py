@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from deodar import codec
 
 if TYPE_CHECKING:
     from deodar.papers import Demonstration
@@ -99,8 +100,8 @@ def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
     out, why = _written(args, wanted, fill)
     if args.json:
         elsewhere = {"instead_of": str(wanted)} if why else {}
-        told = {"out": str(out), "claims": json.loads(text)["claims"], **elsewhere}
-        print(json.dumps(told, indent=2, ensure_ascii=False))
+        told = {"out": str(out), "claims": codec.parse(text)["claims"], **elsewhere}
+        print(codec.text(told))
     else:
         for c in demo.claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"

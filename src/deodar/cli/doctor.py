@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
+
+from deodar import codec
 
 HELP = (
     "tell what is installed, which devices there are, where compiled programs are kept, and what is missing"
@@ -37,13 +38,13 @@ def run(args: argparse.Namespace) -> int:
     if args.sbom:
         from deodar.cli import _sbom
 
-        print(json.dumps(_sbom.bill(), indent=2, ensure_ascii=False))
+        print(codec.text(_sbom.bill()))
         return 0
     if args.plans:
         return _plans(args.json)
     found = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
     if args.json:
-        print(json.dumps(found, indent=2))
+        print(codec.text(found))
     else:
         print(_page(found))
     return 1 if found["missing"] else 0
@@ -65,7 +66,7 @@ def _plans(as_json: bool) -> int:
     console = Console(stderr=True)
     found = [m for case in track(CASES, "measuring", console=console, transient=True) for m in measure(case)]
     if as_json:
-        print(json.dumps([{**dc.asdict(m), "case": str(m.case)} for m in found], indent=2))
+        print(codec.text([{**dc.asdict(m), "case": str(m.case)} for m in found]))
         return 0
     table = Table(
         "field and kernels",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.recording import places
 
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     width = made.size[0] if args.width is None else args.width
     size = [round(width, 2), round(width * made.size[1] / made.size[0], 2)]
     if args.json:
-        print(json.dumps({"out": str(out), "inches": size}, indent=2, ensure_ascii=False))
+        print(codec.text({"out": str(out), "inches": size}))
     else:
         print(
             f"Drew {_options.shown(args.file)} into {_options.shown(out)}, {size[0]:g} x {size[1]:g} inches"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from deodar import codec
 from deodar.declarations import range_text
 
 if TYPE_CHECKING:  # NumPy is imported with it
@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
                 if issubclass(cls, Part)
                 else {"title": cls.__name__, "description": source}
             )
-            print(json.dumps(found, indent=2, ensure_ascii=False))
+            print(codec.text(found))
         else:
             kind = describe(cls)
             print(f"{kind.name}  ({kind.public_name})\n\n{source}")
@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
         for room, found in listed.items()
     }
     if args.json:
-        print(json.dumps(lines, indent=2))
+        print(codec.text(lines))
         return 0
     width = max(len(name) for found in lines.values() for name in found)
     for room, found in lines.items():

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.importers import examples
 from deodar.model import output
@@ -66,7 +66,7 @@ def _list(args: argparse.Namespace) -> int:
             for kind, names in (("document", examples.names()), ("script", examples.scripts()))
             for n in names
         ]
-        print(json.dumps({"examples": listed}, indent=2, ensure_ascii=False))
+        print(codec.text({"examples": listed}))
         return 0
     # start-up time: only a terminal needs rich
     from rich import box
@@ -100,7 +100,7 @@ def _copy(args: argparse.Namespace) -> int:
     for source, target in zip(sources, targets, strict=True):
         output.write(target, source.read_bytes())
     if args.json:
-        print(json.dumps({"files": [str(t) for t in targets]}, indent=2, ensure_ascii=False))
+        print(codec.text({"files": [str(t) for t in targets]}))
     else:
         next_step = (
             f"deodar studio {_options.shown(targets[0])}"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import dataclasses as dc
-import json
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from deodar import codec
 from deodar.cli import _long, _options
 from deodar.cli._bar import Bar
 from deodar.errors import OutputError
@@ -137,7 +137,7 @@ def _check(args: argparse.Namespace, bench: Any) -> int:
         else "one by one"
     )
     if args.json:
-        print(json.dumps({"trials": sum(pieces), "batched": bench.batched, "pieces": pieces}))
+        print(codec.line({"trials": sum(pieces), "batched": bench.batched, "pieces": pieces}))
     else:
         print(f"{bench.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
     return 0
@@ -159,7 +159,7 @@ def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
             "diverged": lost,
             "files": names,
         }
-        print(json.dumps(told, indent=2, ensure_ascii=False))
+        print(codec.text(told))
         return
     for line in _cells(data):
         print(line)

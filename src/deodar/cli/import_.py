@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.model import output
 
@@ -59,11 +59,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         found = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
         written = str(args.out) if args.out is not None and not failed else None
-        print(
-            json.dumps(
-                {**done.report.data(), "problems": found, "out": written}, indent=2, ensure_ascii=False
-            )
-        )
+        print(codec.text({**done.report.data(), "problems": found, "out": written}))
         return int(failed)
     _show(done.report)
     for severity, title in (

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.errors import DocumentError
 from deodar.model.output import claim
@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
             )
     model.save(loaded, target, args.force)
     if args.json:
-        print(json.dumps({"out": str(target), "bytes": target.stat().st_size}, indent=2, ensure_ascii=False))
+        print(codec.text({"out": str(target), "bytes": target.stat().st_size}))
     else:
         print(f"Wrote {_options.shown(target)}. Open it with: deodar studio {_options.shown(target)}")
     return 0

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from deodar import codec
 from deodar.cli import _options
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         kinds = {view.name: _panels.kind(view, args.kind).__name__.rpartition(".")[2] for view in views}
         film = {} if args.gif is None else {"gif": str(args.gif)}
-        print(json.dumps({"out": str(out), "kinds": kinds, **film}, indent=2, ensure_ascii=False))
+        print(codec.text({"out": str(out), "kinds": kinds, **film}))
     else:
         print(
             f"Drew {', '.join(names)} into {_options.shown(out)}"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.model import output
 
@@ -89,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
     output.claim(target, args.force)
     output.write(target, lambda path: figures.save(figure, path))
     if args.json:
-        print(json.dumps(found.data() | {"figure": str(target)}, indent=2, ensure_ascii=False))
+        print(codec.text(found.data() | {"figure": str(target)}))
     else:
         print(_table(found))
         print(f"\nFigure: {target}")

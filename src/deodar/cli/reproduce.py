@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 import shutil
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from deodar import codec
 from deodar.cli import _options
 from deodar.cli._bar import Bar
 
@@ -154,7 +154,7 @@ def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapp
         out, why = _rescue.elsewhere(error, asked, fill_second, not args.json), str(error)
     if args.json:
         elsewhere = {"instead_of": str(asked)} if why else {}
-        print(json.dumps({"out": str(out), **json.loads(text), **elsewhere}, indent=2, ensure_ascii=False))
+        print(codec.text({"out": str(out), **codec.parse(text), **elsewhere}))
     else:
         for c in report.claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 import sys
 import warnings
 from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from deodar import codec
 from deodar.cli import _live, _long, _options, _rescue
 from deodar.errors import Interrupted, OutputError, OutputExists, RecordError, RunWarning
 from deodar.importers import examples
@@ -324,11 +324,7 @@ def _finish(
         print(f"deodar run: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
         elsewhere = {"instead_of": str(place.given) if place.given else place.name} if failed else {}
-        print(
-            json.dumps(
-                {**_answer(out, record, data, stopped, done), **elsewhere}, indent=2, ensure_ascii=False
-            )
-        )
+        print(codec.text({**_answer(out, record, data, stopped, done), **elsewhere}))
     told = f"Wrote {_contents(data)} to {_options.shown(out)}"
     look = (
         f"Look at it with: deodar plot {_options.shown(out)}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from deodar import codec
 from deodar.batch.pieces import BATCH_BYTES
 from deodar.experiments.actions import Push
 from deodar.experiments.batch import run_batch
@@ -127,7 +127,7 @@ class Bench:
         groups: dict[str, list[int]] = {}
         for k in range(len(self.cells)):
             fixed = {path: value for path, value in self.changes(k).items() if path not in self.swept}
-            groups.setdefault(json.dumps(sorted(fixed.items()), default=str), []).append(k)
+            groups.setdefault(codec.line(sorted(fixed.items()), other=str), []).append(k)
         most, out = self._most(), list[list[int]]()
         for group in groups.values():
             size = math.ceil(len(group) / math.ceil(len(group) / most))

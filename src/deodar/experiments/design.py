@@ -5,12 +5,12 @@ file.
 from __future__ import annotations
 
 import dataclasses as dc
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
+from deodar import codec
 from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
 from deodar.experiments.actions import ACTIONS, Action
 from deodar.experiments.events import EVENTS, Event
@@ -18,7 +18,7 @@ from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.migrations import migrate
 from deodar.experiments.plain import from_data, schema, to_data
-from deodar.model import files, output
+from deodar.model import output
 from deodar.model.model import Model, load, save
 from deodar.parameters import Part, Recompile, show
 from deodar.worlds._base import World
@@ -187,7 +187,7 @@ class Design(Part):
                 where="world",
                 fix="Name it as on the command line: world='arena:blocks'",
             )
-        output.write(path, (json.dumps(data, indent=2, ensure_ascii=False) + "\n").encode())
+        output.write(path, (codec.text(data, finite=True) + "\n").encode())
 
     @classmethod
     def load(cls, path: str | Path, read: Callable[[str], Model] = load) -> Self:
@@ -209,7 +209,7 @@ class Design(Part):
                     else ""
                 )
                 raise DocumentError("there is no such file", fix=near)
-            return cls.from_data(files.parse(path.read_bytes()), path.parent, read)
+            return cls.from_data(codec.read(path.read_bytes()), path.parent, read)
         except DeodarError as error:
             raise DocumentError(
                 [

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from deodar import codec
 from deodar.batch import parcel
 from deodar.experiments.bench import Bench
 from deodar.experiments.design import Design
@@ -34,12 +34,12 @@ class Parcel:
             WorkerError: something of it cannot be handed to another process.
         """
         plain = bench.experiment.to_data() | {"model": "as handed over"}
-        return cls(json.dumps(plain), parcel.PackedModel.of(bench.model, bench.world))
+        return cls(codec.line(plain), parcel.PackedModel.of(bench.model, bench.world))
 
     def open(self) -> Bench:
         """The bench again."""
         model = self.bench.model  # first: it imports what the experiment's model is made of
-        return Bench(Design.from_data(json.loads(self.experiment)), model, self.bench.world())
+        return Bench(Design.from_data(codec.parse(self.experiment)), model, self.bench.world())
 
 
 def work(handed: Parcel, trials: Sequence[int], records: Path | None) -> list[Row]:

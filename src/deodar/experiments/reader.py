@@ -5,13 +5,13 @@ fields.
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
 
+from deodar import codec
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.experiments.view import PLACE, REDUCES, View, mask
 from deodar.model import edit
@@ -52,7 +52,7 @@ class Reader(Coupling):
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
         axes, y = at.ins["input"], inputs["input"]
-        inside = mask(axes, *json.loads(self.near)) if self.near else None
+        inside = mask(axes, *codec.parse(self.near)) if self.near else None
         if self.reduce == PLACE:
             found, there = position(y, axes, self.threshold, inside)
             return {"output": jnp.append(found, there.astype(found.dtype))}
@@ -78,7 +78,7 @@ def with_readers(doc: Document, views: Sequence[View]) -> tuple[Document, dict[V
         if not view.reduce or axes is None or not shape(axes):
             continue
         mask(axes, view.near, view.radius)  # refused here, not inside the step
-        near = json.dumps([list(view.near), view.radius]) if view.near else ""
+        near = codec.line([list(view.near), view.radius]) if view.near else ""
         digest = hashlib.blake2b(repr(view).encode(), digest_size=6).hexdigest()
         doc, entry = edit.add(doc, Reader(view.reduce, near, view.threshold, name=f"look {digest}"))
         doc = edit.connect(doc, source, port, entry, "input")

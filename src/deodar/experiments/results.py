@@ -7,7 +7,6 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
-import json
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from deodar import renamed
+from deodar import codec, renamed
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, RecordError
 from deodar.experiments import parcel
@@ -72,9 +71,7 @@ def _carry(
     if not (out / MODEL).exists():
         documents.save(bench.model.document, out / MODEL)
     if not (out / EXPERIMENT).exists():
-        output.write(
-            out / EXPERIMENT, (json.dumps(_plan(bench), indent=2, ensure_ascii=False) + "\n").encode()
-        )
+        output.write(out / EXPERIMENT, (codec.text(_plan(bench)) + "\n").encode())
     records = (
         out / RECORDS
         if bench.experiment.record or any(type(a).__name__ == "Snapshot" for a in bench.experiment.actions)
@@ -118,19 +115,19 @@ def _digest_in(folder: Path, doc: Document) -> str:
     try:
         if documents.load(folder / MODEL) != doc:
             return ""
-        data = json.loads((folder / MODEL).read_text(encoding="utf-8"))
+        data = codec.parse((folder / MODEL).read_text(encoding="utf-8"))
         arrays = None
         if "arrays" in data:
             arrays = (folder / data["arrays"]["file"]).read_bytes()
             data["arrays"]["file"] = ""
     except (DeodarError, OSError, ValueError):
         return ""
-    return _digest(json.dumps(data, indent=2, ensure_ascii=False) + "\n", arrays)
+    return _digest(codec.text(data) + "\n", arrays)
 
 
 def _plan(bench: Bench) -> dict[str, Any]:
     """The plain data of an experiment whose model stands beside it."""
-    return json.loads(json.dumps({**bench.experiment.to_data(), "model": MODEL}))
+    return codec.parse(codec.line({**bench.experiment.to_data(), "model": MODEL}))
 
 
 # -------------------------------------------------------------------------------------------------- the table
@@ -144,7 +141,7 @@ def load_results(path: str | Path) -> xarray.Dataset:
     """
     folder = output.location(path)
     try:
-        lines = [json.loads(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
+        lines = [codec.parse(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
         return dataset(lines[1:], lines[0][ABOUT])
     except (OSError, ValueError, LookupError, TypeError):
         raise RecordError(
@@ -175,7 +172,7 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
         key: ("trial", np.asarray([r[key] for r in rows], dtype=str)) for key in ("outcome", "awaited")
     }
     reasons = [r.get(DIVERGED, "") for r in rows]
-    attributes = {provenance.KEY: json.dumps(about, ensure_ascii=False), "title": about["name"]}
+    attributes = {provenance.KEY: codec.line(about), "title": about["name"]}
     if any(reasons):
         out[DIVERGED] = ("trial", np.asarray(reasons, dtype=str))
         bad = [text for text in reasons if text]

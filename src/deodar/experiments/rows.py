@@ -5,12 +5,12 @@ or extended.
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from deodar import codec
 from deodar.errors import OutputExists, RecordError
 from deodar.model import output
 from deodar.recording import places
@@ -54,11 +54,11 @@ class Rows:
     ) -> None:
         self.path = path
         self.found: dict[str, Row] = {}
-        told = json.loads(json.dumps({ABOUT: about}))
+        told = codec.parse(codec.line({ABOUT: about}))
         places.require_parent(path)
         lines = self._lines()
         if not lines:
-            self._write(json.dumps(told) + "\n", "w")
+            self._write(codec.line(told, ascii=True) + "\n", "w")
             return
         if not isinstance(lines[0].get(ABOUT), dict):
             raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
@@ -71,15 +71,15 @@ class Rows:
                 fix="Choose another name",
             )
         if made != told[ABOUT]:
-            self._write(json.dumps(told) + "\n", "a")
+            self._write(codec.line(told, ascii=True) + "\n", "a")
         self.found = {row[KEY]: row for row in lines if KEY in row}
 
     def append(self, rows: Iterable[Row]) -> None:
         """Keep rows, on the disk when this returns; those of a key that is there already are left out."""
         new = [row for row in rows if row[KEY] not in self.found]
         if new:
-            self._write("".join(json.dumps(row, allow_nan=False) + "\n" for row in new), "a")
-            self.found |= {row[KEY]: json.loads(json.dumps(row)) for row in new}
+            self._write("".join(codec.line(row, ascii=True, finite=True) + "\n" for row in new), "a")
+            self.found |= {row[KEY]: codec.parse(codec.line(row)) for row in new}
 
     def _lines(self) -> list[Row]:
         if not self.path.exists():
@@ -89,7 +89,7 @@ class Rows:
         lines: list[Row] = []
         for number, line in enumerate(content[:whole].splitlines(), 1):
             try:
-                found = json.loads(line)
+                found = codec.parse(line)
             except ValueError:
                 found = None
             if not isinstance(found, dict) or (

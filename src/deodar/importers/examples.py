@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import ast
 import difflib
-import json
 import re
 from pathlib import Path
 from typing import Any
 
+from deodar import codec
 from deodar.errors import UnknownName, did_you_mean
 
 PREFIX = "example:"
@@ -70,7 +70,7 @@ def parts(name: str) -> list[Path]:
     own = file(name)
     text = own.read_text(encoding="utf-8")
     if own.suffix == ".json":
-        arrays = json.loads(text).get("arrays")
+        arrays = codec.parse(text).get("arrays")
         return [own, own.with_name(arrays["file"])] if arrays else [own]
     read = [n for n in names() if f'"{n}.json"' in text]
     return [own, *(path for n in read for path in parts(n))]
@@ -121,7 +121,7 @@ def about(name: str) -> dict[str, Any]:
     if own.suffix == ".py":
         said = ast.get_docstring(ast.parse(text)) or ""
         return {"title": name.replace("_", " "), "notes": said.partition("\n\n")[0]}
-    data = json.loads(text)
+    data = codec.parse(text)
     return {"title": str(data.get("name") or name.replace("_", " ")), "notes": str(data.get("notes", ""))}
 
 

@@ -7,12 +7,12 @@ and redo.
 from __future__ import annotations
 
 import dataclasses as dc
-import json
 import math
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
+from deodar import codec
 from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import get, replace
@@ -298,7 +298,7 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
     elif value is ...:
         raise ParameterError(
             f"set needs a value for {show(path)}",
-            fix=f"Write: set({json.dumps(path) if isinstance(path, str) else 'path'}, value)",
+            fix=f"Write: set({codec.line(path) if isinstance(path, str) else 'path'}, value)",
         )
     else:
         given = {path: value}

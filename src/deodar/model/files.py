@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-import json
-import math
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -19,11 +17,10 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 import psutil
 
-from deodar import registry
+from deodar import codec, registry
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
-from deodar.model.keys import collect, repeated
 from deodar.model.parts import kinds_in, to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data
@@ -37,8 +34,6 @@ architecture).
 
 ARRAY_SHARE = 0.5
 """Share of the free memory that the arrays of a document may take (a guess that leaves room to run it)."""
-
-DEEPEST = 64
 
 
 # -------------------------------------------------------------------------------------------------------- out
@@ -105,7 +100,7 @@ def dumps(doc: Document, arrays_file: str = "") -> tuple[str, bytes | None]:
         entry = {"file": f"{arrays_file}.{digest[:8]}.npz" if arrays_file else "", "sha256": digest}
         data = {key: value for key, value in (data | {"arrays": entry}).items()}
     ordered = {key: data[key] for key in KEYS if key in data}
-    return json.dumps(ordered, indent=2, ensure_ascii=False) + "\n", packed
+    return codec.text(ordered, finite=True) + "\n", packed
 
 
 def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
@@ -129,16 +124,16 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
     path = output.claim(path, force)
     text, packed = dumps(doc, path.stem)
     if path.suffix.lower() == package.SUFFIX:
-        beside = {json.loads(text)["arrays"]["file"]: packed} if packed is not None else {}
+        beside = {codec.parse(text)["arrays"]["file"]: packed} if packed is not None else {}
         output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
         return
     old = _old_arrays(path) if force else None
     new = None
     if packed is not None:
-        new = path.with_name(json.loads(text)["arrays"]["file"])
+        new = path.with_name(codec.parse(text)["arrays"]["file"])
         if not (
             new.is_file()
-            and hashlib.sha256(new.read_bytes()).hexdigest() == json.loads(text)["arrays"]["sha256"]
+            and hashlib.sha256(new.read_bytes()).hexdigest() == codec.parse(text)["arrays"]["sha256"]
         ):
             output.write(output.claim(new, force), packed)
     output.write(path, text.encode())
@@ -149,7 +144,7 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
 def _old_arrays(path: Path) -> Path | None:
     """The array file of the document that stands at `path`, if it is one of ours."""
     try:
-        name = json.loads(path.read_text())["arrays"]["file"]
+        name = codec.parse(path.read_text())["arrays"]["file"]
         old = path.with_name(name)
         return old if Path(name).name == name and name.startswith(path.stem + ".") and old.is_file() else None
     except (OSError, ValueError, KeyError, TypeError):
@@ -201,7 +196,7 @@ def load(path: str | Path) -> Document:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
-        data = parse(path.read_bytes())
+        data = codec.read(path.read_bytes())
         return from_data(data, _arrays(data, lambda name: _beside(path.parent / name)))
     except DeodarError as error:
         problems = [
@@ -225,13 +220,13 @@ def loads(content: bytes, beside: Callable[[str], bytes | None]) -> Document:
     """
     if package.is_content(content):
         return _load_package(io.BytesIO(content))
-    data = parse(content)
+    data = codec.read(content)
     return from_data(data, _arrays(data, beside))
 
 
 def _load_package(file: Path | BinaryIO) -> Document:
     with package.Package(file, MOST_BYTES, require_room) as packed:
-        data = parse(packed.read(packed.document) or b"")
+        data = codec.read(packed.read(packed.document) or b"")
         arrays = _arrays(data, packed.read)
         packed.require_only(data["arrays"]["file"] if arrays else "")
         return from_data(data, arrays)
@@ -247,70 +242,6 @@ def _beside(path: Path) -> bytes | None:
         return None
     require_room(path.stat().st_size, path.name)
     return path.read_bytes()
-
-
-def parse(text: bytes | str) -> Any:
-    """JSON with finite numbers, unique keys and bounded nesting."""
-
-    def refuse(constant: str) -> Any:
-        raise DocumentError(f"holds the number {constant}, which is not finite")
-
-    def whole(text: str) -> int:
-        if len(text) > 300:
-            raise DocumentError(f"holds a number of {len(text)} digits, {text[:20]}...")
-        return int(text)
-
-    def number(text: str) -> float:
-        value = float(text)
-        if not math.isfinite(value):
-            raise DocumentError(f"holds the number {text[:40]}, which is not finite")
-        return value
-
-    try:
-        data = json.loads(
-            text, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect
-        )
-    except json.JSONDecodeError as error:
-        raise DocumentError(
-            f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}"
-        ) from None
-    except UnicodeDecodeError:
-        raise DocumentError("is not JSON: it is not text in UTF-8") from None
-    except RecursionError:
-        raise DocumentError(f"is nested deeper than {DEEPEST} levels") from None
-    _depth(data)
-    twice = repeated(data) if isinstance(data, (dict, list)) else []
-    if twice:
-        raise DocumentError(
-            [
-                Problem(r.where, f"the key {r.key!r} occurs {_times(len(r.values))}", "Keep one of them")
-                for r in twice
-            ]
-        )
-    try:
-        json.dumps(data, ensure_ascii=False).encode()
-    except UnicodeEncodeError:
-        raise DocumentError("holds half a character (a lone surrogate), which is not text") from None
-    return data
-
-
-def _times(count: int) -> str:
-    return "twice" if count == 2 else f"{count} times"
-
-
-def _depth(data: Any) -> None:
-    level, below = 0, [data]
-    while below:
-        level += 1
-        if level > DEEPEST:
-            raise DocumentError(f"is nested deeper than {DEEPEST} levels")
-        below = [v for item in below for v in _inside(item) if isinstance(v, (dict, list))]
-
-
-def _inside(item: Any) -> list[Any]:
-    if isinstance(item, dict):
-        return list(cast("dict[str, Any]", item).values())
-    return cast("list[Any]", item) if isinstance(item, list) else []
 
 
 def require_room(size: int, name: str) -> None:
@@ -378,7 +309,6 @@ __all__ = [
     "load",
     "loads",
     "pack",
-    "parse",
     "require_room",
     "save",
     "to_data",

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import typing
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, cast
 
-from deodar import registry
+from deodar import codec, registry
 from deodar.declarations import Needed
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import get
@@ -235,7 +234,7 @@ def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
     free = [key for key in axes if key not in like.names]
     keys = [free.pop(0) if len(name) == 1 and name not in axes and free else name for name in like.names]
     undeclared = [key for key in keys if key not in axes]
-    line = f'Write "{p.name}": {json.dumps(keys if p.form == "axes" else keys[0])}'
+    line = f'Write "{p.name}": {codec.line(keys if p.form == "axes" else keys[0])}'
     if undeclared:
         return (
             f'{line}, and declare among the document\'s axes: "{undeclared[0]}": {{"lower": 0, "upper": 100,'

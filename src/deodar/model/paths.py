@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import dataclasses as dc
 import hashlib
-import json
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
+from deodar import codec
 from deodar.errors import UnknownName
 
 PathNames = tuple[str, ...]
@@ -24,7 +24,7 @@ def quote(name: str) -> str:
     >>> quote("u -> u (global)")
     '"u -> u (global)"'
     """
-    return name if name.isidentifier() else json.dumps(name, ensure_ascii=False)
+    return name if name.isidentifier() else codec.line(name)
 
 
 def display(names: Sequence[str]) -> str:
@@ -36,11 +36,10 @@ def split(path: str) -> PathNames:
     """The names of a path; quoted ones are taken as a whole."""
     names: list[str] = []
     at = 0
-    decoder = json.JSONDecoder()
     while at <= len(path):
         if path[at : at + 1] == '"':
             try:
-                name, end = decoder.raw_decode(path, at)
+                name, end = codec.leading(path, at)
             except ValueError:
                 raise UnknownName(f"the path {path!r} opens a quotation mark and never closes it") from None
             if end < len(path) and path[end] != ".":

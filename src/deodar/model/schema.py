@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
-from deodar import registry
+from deodar import codec, registry
 from deodar.element import Element
 from deodar.model.document import READS, VERSION
 from deodar.model.parts import schema
@@ -114,7 +113,7 @@ def document_schema() -> dict[str, Any]:
 
 def text() -> str:
     """The schema as it is shipped."""
-    return json.dumps(document_schema(), indent=1, ensure_ascii=False) + "\n"
+    return codec.text(document_schema(), indent=1) + "\n"
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ array. Other programs can read the file as it is; deodar restores it exactly and
 from __future__ import annotations
 
 import hashlib
-import json
 import re
 import unicodedata
 from collections.abc import Hashable, Mapping
@@ -17,6 +16,7 @@ from typing import Any
 import numpy as np
 import xarray
 
+from deodar import codec
 from deodar.errors import RecordError
 
 KEY = "deodar_layout"
@@ -73,7 +73,7 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
     kept["attributes"] = {k: None if k in shown else v for k, v in attributes.items()}
     kept["coords"] = [names[n] for n in data.coords]
     coords = {names[n]: variables.pop(names[n]) for n in data.coords}
-    return xarray.Dataset(variables, coords, shown | {KEY: json.dumps(kept)})
+    return xarray.Dataset(variables, coords, shown | {KEY: codec.line(kept, ascii=True)})
 
 
 def unpack(stored: xarray.Dataset) -> xarray.Dataset:
@@ -85,7 +85,7 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     text = stored.attrs.get(KEY)
     if text is None:
         return stored
-    kept = json.loads(text)
+    kept = codec.parse(text)
     names: Mapping[str, str] = kept["names"]
     if set(kept["variables"]) != set(map(str, stored.variables)):
         raise RecordError(
@@ -203,8 +203,7 @@ def _json(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     try:
-        json.dumps(value)
-        return value
+        return codec.parse(codec.line(value))
     except (TypeError, ValueError):
         return str(value)
 

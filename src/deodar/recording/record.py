@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray
 
+from deodar import codec
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
 from deodar.recording.provenance import KEY
@@ -58,13 +58,13 @@ def dataset(
         if port == "activation" and isinstance(threshold, float):
             attributes["threshold"] = threshold
         out[f"{entry.path}.{port}"] = ([*lead, *dims], shaped, attributes)
-    return xarray.Dataset(out, coords, {KEY: json.dumps(about, ensure_ascii=False), "title": doc.name})
+    return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
 
 
 def about(data: xarray.Dataset) -> dict[str, Any]:
     """What made a record, as plain data; empty for a Dataset of other origin."""
     text = data.attrs.get(KEY)
-    return json.loads(text) if isinstance(text, str) else {}
+    return codec.parse(text) if isinstance(text, str) else {}
 
 
 def _axis_attributes(axis: Axis) -> dict[str, Any]:

@@ -9,12 +9,13 @@ Metadata Vocabulary for Tabular Data (2015), section 5.
 from __future__ import annotations
 
 import csv
-import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray
+
+from deodar import codec
 
 ROWS = 100_000
 """Rows that are made at a time: memory does not grow with the record."""
@@ -76,7 +77,7 @@ def metadata(data: xarray.Dataset, name: str) -> str:
         "tableSchema": {"columns": columns},
         "notes": [rest],
     }
-    return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
+    return codec.text(found) + "\n"
 
 
 def _blocks(data: xarray.Dataset) -> dict[tuple[str, ...], list[str]]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import json
 import logging
 from collections import deque
 from typing import Any
@@ -18,6 +17,7 @@ from typing import Any
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from deodar import codec
 from deodar.errors import DeodarError
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
@@ -223,7 +223,7 @@ class PageConnection:
 def _request(text: str) -> int:
     """The number of a request that is not understood, as far as it can be told."""
     try:
-        number: Any = json.loads(text)["request"]
+        number: Any = codec.parse(text)["request"]
     except (ValueError, TypeError, KeyError, RecursionError):
         return 0
     return number if isinstance(number, int) and 0 <= number < 2**31 else 0

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import contextlib
 import datetime
-import json
 import os
 import re
 import secrets
@@ -16,6 +15,7 @@ from typing import Any, cast
 import platformdirs
 import psutil
 
+from deodar import codec
 from deodar.errors import DeodarError, UnknownName
 from deodar.model import files
 from deodar.model.document import Document
@@ -59,7 +59,7 @@ class Keeper:
                 "when": now,
                 "process": [os.getpid(), psutil.Process().create_time()],
             }
-            self._note(name).write_text(json.dumps(note), encoding="utf-8")
+            self._note(name).write_text(codec.line(note, ascii=True), encoding="utf-8")
 
     def forget(self, name: str) -> None:
         """Throw kept edits away."""
@@ -105,7 +105,7 @@ class Keeper:
         names = [str(path), *(n for n in self._names() if n != str(path))][:MOST_RECENT]
         with contextlib.suppress(OSError):
             self._recent.parent.mkdir(parents=True, exist_ok=True)
-            self._recent.write_text(json.dumps(names), encoding="utf-8")
+            self._recent.write_text(codec.line(names, ascii=True), encoding="utf-8")
 
     def recent(self) -> list[Path]:
         """Files that were open, the last one first, as far as they are still there."""
@@ -118,7 +118,7 @@ class Keeper:
 
 def _read(path: Path) -> Any:
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return codec.parse(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
 

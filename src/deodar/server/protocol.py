@@ -7,13 +7,13 @@ writes `protocol.schema.json` beside this file and, in a copy of the repository,
 
 from __future__ import annotations
 
-import json
 import textwrap
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
+from deodar import codec
 from deodar.server import to_page, to_server
 from deodar.server.message import union
 
@@ -38,7 +38,7 @@ def schema() -> dict[str, Any]:
 
 def schema_text() -> str:
     """The schema as it is shipped."""
-    return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"
+    return codec.text(schema(), indent=1) + "\n"
 
 
 def _comment(text: str) -> str:
@@ -83,9 +83,9 @@ def _type(form: dict[str, Any]) -> str:
     if "$ref" in form:
         return form["$ref"].rsplit("/", 1)[1]
     if "enum" in form:
-        return " | ".join(json.dumps(v) for v in form["enum"])
+        return " | ".join(codec.line(v) for v in form["enum"])
     if "const" in form:
-        return json.dumps(form["const"])
+        return codec.line(form["const"])
     if "anyOf" in form:
         return " | ".join(dict.fromkeys(_type(f) for f in form["anyOf"]))
     match form.get("type"):

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-import json
 import os
 import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from deodar import codec
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.model import files, output
 from deodar.model.document import Document
@@ -180,7 +180,7 @@ def _is(question: Callable[[], bool]) -> bool:
 def _array_file(folder: OpenFolder, place: Path) -> str:
     """The array file of the document that is replaced, if it is one of ours."""
     try:
-        name = json.loads(folder.read(place.name, MOST_BYTES))["arrays"]["file"]
+        name = codec.parse(folder.read(place.name, MOST_BYTES))["arrays"]["file"]
         return name if Path(name).name == name and name.startswith(f"{place.stem}.") else ""
     except (OSError, DeodarError, ValueError, KeyError, TypeError, RecursionError):
         return ""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray
 
+from deodar import codec
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.registry import register
@@ -138,7 +138,7 @@ class Recording(World):
             "time": ("time", np.arange(20) * 4.0, {"units": "ms"}),
             "x": ("x", x.points, {"lower": 0.0}),
         }
-        about = {"deodar": json.dumps({"document": {"elements": elements}})}
+        about = {"deodar": codec.line({"document": {"elements": elements}}, ascii=True)}
         return cls(xarray.Dataset({"eye.output": (("trial", "time", "x"), shown)}, coords, about))
 
     @staticmethod
@@ -148,7 +148,7 @@ class Recording(World):
 
 def _elements(record: xarray.Dataset, file: str) -> Mapping[str, Mapping[str, Any]]:
     try:
-        return json.loads(record.attrs["deodar"])["document"]["elements"]
+        return codec.parse(record.attrs["deodar"])["document"]["elements"]
     except (KeyError, TypeError, ValueError):
         raise WorldError(
             "does not say what made it, so its sensors are not known", where=file or "the record"

@@ -133,7 +133,8 @@ def test_all_that_is_wrong_is_said_at_once() -> None:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("{", "cannot be read as JSON"),
+        ("{", "is not JSON: .* in line 1, column 2"),
+        ('{"a": 1, "a": 2}', "the key 'a' occurs twice"),
         ("[]", "an arena is an object"),
         ("{}", "holds no arena"),
         ('{"a": 3}', "is 3; an arena is an object"),

@@ -6,19 +6,18 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
-import json
 import math
 from collections.abc import Mapping
 from typing import Any, cast
 
 import numpy as np
 
+from deodar import codec
+from deodar.codec import Repeated, repeated
 from deodar.errors import DocumentError
 from deodar.importers.report import Line
-from deodar.model.keys import Repeated, collect, repeated
 from deodar.parameters import show
 
-DEEPEST = 64
 MOST_ELEMENTS = 4000
 """More elements are taken for a broken file (a guess: ten times the largest that is published)."""
 
@@ -81,7 +80,7 @@ def parse(content: bytes) -> Simulator:
     Raises:
         DocumentError: where it is no JSON, nested too deeply, or holds no simulator.
     """
-    data = _json(content)
+    data = codec.foreign(content)
     root = cast("dict[str, Any]", data) if isinstance(data, dict) else {}
     inside = root.get("simulator", root)
     if not isinstance(inside, dict) or not {"elements", "elementLabels", "nElements"} & set(
@@ -139,30 +138,6 @@ def empty(value: Any) -> bool:
 # ------------------------------------------------------------------------------------------ parts of the file
 
 
-def _json(content: bytes) -> Any:
-    try:
-        try:
-            data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False, object_pairs_hook=collect)
-        except UnicodeDecodeError:
-            data = json.loads(
-                content.decode("latin-1"), strict=False, object_pairs_hook=collect
-            )  # older MATLAB wrote the system's own characters
-    except json.JSONDecodeError as error:
-        raise DocumentError(
-            f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}"
-        ) from None
-    except RecursionError:
-        raise DocumentError(f"is nested deeper than {DEEPEST} levels") from None
-    except ValueError:
-        raise DocumentError("holds a number of thousands of digits") from None
-    level: list[Any] = [data]
-    for _ in range(DEEPEST):
-        level = [v for item in level for v in _inside(item) if isinstance(v, (dict, list))]
-        if not level:
-            return data
-    raise DocumentError(f"is nested deeper than {DEEPEST} levels")
-
-
 def _repeated(data: Any, found: Repeated) -> Line:
     """What became of a key that occurs more than once: where it is inside an element, the element's label
     says so.
@@ -182,10 +157,6 @@ def _repeated(data: Any, found: Repeated) -> Line:
         "approximated",
         f"it occurs {len(found.values)} times, with the values {values}; the last one is taken",
     )
-
-
-def _inside(item: Any) -> list[Any]:
-    return list(item.values()) if isinstance(item, dict) else item if isinstance(item, list) else []
 
 
 def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -11,6 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from deodar import codec
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
 from deodar.batch.simulate import simulate
@@ -176,7 +176,7 @@ def photographs(untuned: bool = False) -> list[Scene]:
     folder = resources.files("deodar.papers.saliency") / "photographs"
     if untuned:
         folder = folder / "untuned"
-    marks: dict[str, Any] = json.loads((folder / "marks.json").read_text())
+    marks: dict[str, Any] = codec.parse((folder / "marks.json").read_text())
     scenes: list[Scene] = []
     for name, entry in marks.items():
         with resources.as_file(folder / entry["picture"]) as path:

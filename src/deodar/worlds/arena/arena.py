@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import hashlib
-import json
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from deodar import codec
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
@@ -433,7 +433,7 @@ class Arena(PureWorld):
             "layout": self.layout.to_data(),
             "things": self.furniture.to_data(),
         }
-        digest = hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+        digest = hashlib.sha256(codec.line(said, ascii=True, sort=True).encode()).hexdigest()
         return {"world": "Arena", "file": self.source, **said, "sha256": digest}
 
     @classmethod

@@ -13,7 +13,6 @@ whatever its height.
 from __future__ import annotations
 
 import difflib
-import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -21,7 +20,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from deodar.errors import Problem, WorldError, did_you_mean
+from deodar import codec
+from deodar.errors import DocumentError, Problem, WorldError, did_you_mean
 from deodar.parameters import real, show
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
@@ -86,7 +86,7 @@ def builtin() -> dict[str, Any]:
     found: dict[str, Any] = {}
     for file in sorted((resources.files("deodar.worlds.arena") / "layouts").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".json"):
-            found |= json.loads(file.read_text(encoding="utf-8"))
+            found |= codec.read(file.read_bytes())
     return found
 
 
@@ -125,11 +125,13 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        data = codec.read(path.read_bytes())
+    except DocumentError as error:
         raise WorldError(
-            f"cannot be read as JSON ({type(error).__name__}: {error})", where=str(path)
+            [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
         ) from None
+    except OSError as error:
+        raise WorldError(f"cannot be read: {error.strerror}", where=str(path)) from None
     if not isinstance(data, dict):
         raise WorldError(f"holds {show(data)}; an arena is an object with walls", where=str(path))
     return data

@@ -1,0 +1,294 @@
+"""JSON: the one reader and the one writer of it.
+
+`read` is for documents, which may come from anywhere: it requires finite numbers, unique keys, bounded
+nesting and UTF-8. `foreign` is for files of other tools, which break these rules. `parse` is for text that
+deodar wrote itself. `text` and `line` write. Numbers get the shortest digits that give the same number again;
+NumPy values are written as numbers and lists, tuples as lists. Keys keep their order.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import json
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, cast
+
+from deodar.errors import DocumentError, OutputError, Problem
+
+DEEPEST = 64
+"""Levels of nesting that are read (a guess, several times that of the deepest known document)."""
+
+MOST_DIGITS = 300
+"""Digits of a whole number; more are beyond the range of a double."""
+
+
+# -------------------------------------------------------------------------------------------------------- out
+
+
+def text(data: object, indent: int = 2, finite: bool = False) -> str:
+    """Write JSON for people: an entry a line, characters as they are; no newline at the end.
+
+    Args:
+        data: what is written.
+        indent: spaces for each level.
+        finite: refuse numbers that are not finite, which JSON has no form for; otherwise they are written as
+            `NaN` and `Infinity`, which Python reads.
+
+    Raises:
+        OutputError: a number is not finite, and `finite` asks for it; the message names its place.
+        TypeError: a value has no form in JSON.
+    """
+    return _written(data, finite, indent=indent, ensure_ascii=False)
+
+
+def line(
+    data: object,
+    ascii: bool = False,
+    sort: bool = False,
+    finite: bool = False,
+    other: Callable[[object], object] | None = None,
+) -> str:
+    """Write JSON in one line.
+
+    Args:
+        data: what is written.
+        ascii: escape characters beyond ASCII.
+        sort: write keys in alphabetical order.
+        finite: as in `text`.
+        other: gives what is written for a value that has no form in JSON; None: it is an error.
+
+    Raises:
+        OutputError, TypeError: as in `text`.
+    """
+    return _written(data, finite, ensure_ascii=ascii, sort_keys=sort, default=other or _plain)
+
+
+def _plain(value: object) -> object:
+    """NumPy's arrays and numbers as lists and numbers."""
+    as_list = getattr(value, "tolist", None)
+    if as_list is None:
+        raise TypeError(f"{type(value).__name__} has no form in JSON")
+    return as_list()
+
+
+def _written(data: object, finite: bool, default: Callable[[object], object] = _plain, **options: Any) -> str:
+    try:
+        return json.dumps(data, allow_nan=not finite, default=default, **options)
+    except ValueError:
+        found = _not_finite(data, ())
+        if found is None:
+            raise
+        path, value = found
+        raise OutputError(
+            f"the number {value} cannot be written: it is not finite", where=".".join(map(str, path))
+        ) from None
+
+
+def _not_finite(data: object, path: tuple[KeyStep, ...]) -> tuple[tuple[KeyStep, ...], float] | None:
+    """The place and value of the first number that is not finite."""
+    if isinstance(data, float):
+        return None if math.isfinite(data) else (path, data)
+    data = _plain(data) if hasattr(data, "tolist") else data
+    inside = (
+        cast("Mapping[Any, object]", data).items()
+        if isinstance(data, Mapping)
+        else enumerate(cast("list[object]", data))
+        if isinstance(data, (list, tuple))
+        else ()
+    )
+    found = (_not_finite(value, (*path, step)) for step, value in inside)
+    return next((each for each in found if each is not None), None)
+
+
+# --------------------------------------------------------------------------------------------------------- in
+
+
+def parse(content: bytes | str) -> Any:
+    """Read JSON that deodar wrote, or a value that a person typed; of a doubled key the last value counts.
+
+    Raises:
+        ValueError: it is not JSON, or nested too deeply.
+    """
+    try:
+        return json.loads(content)
+    except RecursionError:
+        raise ValueError("is nested too deeply") from None
+
+
+def leading(content: str, start: int = 0) -> tuple[Any, int]:
+    """Read the JSON value that begins at a character of a text; returns it and where it ends.
+
+    Raises:
+        ValueError: no value begins there.
+    """
+    return json.JSONDecoder().raw_decode(content, start)
+
+
+def read(content: bytes | str) -> Any:
+    """Read JSON with finite numbers, unique keys and bounded nesting.
+
+    Raises:
+        DocumentError: it is not such JSON; the message has line and column, or every key that is doubled.
+    """
+
+    def refuse(constant: str) -> Any:
+        raise DocumentError(f"holds the number {constant}, which is not finite")
+
+    def whole(digits: str) -> int:
+        if len(digits) > MOST_DIGITS:
+            raise DocumentError(f"holds a number of {len(digits)} digits, {digits[:20]}...")
+        return int(digits)
+
+    def number(digits: str) -> float:
+        value = float(digits)
+        if not math.isfinite(value):
+            raise DocumentError(f"holds the number {digits[:40]}, which is not finite")
+        return value
+
+    try:
+        data = json.loads(
+            content, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect
+        )
+    except json.JSONDecodeError as error:
+        raise _not_json(error) from None
+    except UnicodeDecodeError:
+        raise DocumentError("is not JSON: it is not text in UTF-8") from None
+    except RecursionError:
+        raise _too_deep() from None
+    _require_depth(data)
+    twice = repeated(data) if isinstance(data, (dict, list)) else []
+    if twice:
+        raise DocumentError(
+            [
+                Problem(r.where, f"the key {r.key!r} occurs {_times(len(r.values))}", "Keep one of them")
+                for r in twice
+            ]
+        )
+    try:
+        json.dumps(data, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        raise DocumentError("holds half a character (a lone surrogate), which is not text") from None
+    return data
+
+
+def foreign(content: bytes) -> Any:
+    """Read JSON of another tool: a byte order mark, control characters in strings, Latin-1 text and doubled
+    keys (marked, see `repeated`) are taken, and numbers that are not finite.
+
+    Raises:
+        DocumentError: it is not JSON all the same.
+    """
+    try:
+        try:
+            data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False, object_pairs_hook=collect)
+        except UnicodeDecodeError:
+            data = json.loads(
+                content.decode("latin-1"), strict=False, object_pairs_hook=collect
+            )  # older MATLAB wrote the system's own characters
+    except json.JSONDecodeError as error:
+        raise _not_json(error) from None
+    except RecursionError:
+        raise _too_deep() from None
+    except ValueError:
+        raise DocumentError("holds a number of thousands of digits") from None
+    _require_depth(data)
+    return data
+
+
+def _not_json(error: json.JSONDecodeError) -> DocumentError:
+    return DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}")
+
+
+def _too_deep() -> DocumentError:
+    return DocumentError(f"is nested deeper than {DEEPEST} levels")
+
+
+def _times(count: int) -> str:
+    return "twice" if count == 2 else f"{count} times"
+
+
+def _require_depth(data: object) -> None:
+    level, below = 0, [data]
+    while below:
+        level += 1
+        if level > DEEPEST:
+            raise _too_deep()
+        below = [v for item in below for v in _inside(item) if isinstance(v, (dict, list))]
+
+
+def _inside(item: object) -> list[Any]:
+    if isinstance(item, dict):
+        return list(cast("dict[str, Any]", item).values())
+    return cast("list[Any]", item) if isinstance(item, list) else []
+
+
+# ----------------------------------------------------------------------------------------------- doubled keys
+
+
+KeyStep = str | int
+"""Key of an object, or position in a list."""
+
+
+class Ambiguous(dict[str, Any]):
+    """An object of a JSON text in which keys occur more than once: each key with its last value, as `json`
+    gives it.
+
+    `pairs` holds all keys and values in the order of the text.
+    """
+
+    pairs: list[tuple[str, Any]]
+
+
+@dc.dataclass(frozen=True)
+class Repeated:
+    """A key that occurs more than once.
+
+    Attributes:
+        path: steps from the root to the object that holds it.
+        key: the key.
+        values: every value that it has, in the order of the text; the last one is in use.
+    """
+
+    path: tuple[KeyStep, ...]
+    key: str
+    values: tuple[Any, ...]
+
+    @property
+    def where(self) -> str:
+        """The path of the object as text; "" for the root."""
+        return ".".join(str(step) for step in self.path)
+
+
+def collect(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """The object of a JSON text with these keys and values; marked for `repeated` where keys are doubled."""
+    out = dict(pairs)
+    if len(out) == len(pairs):
+        return out
+    marked = Ambiguous(out)
+    marked.pairs = pairs
+    return marked
+
+
+def repeated(data: Any) -> list[Repeated]:
+    """All keys that occur more than once, outermost objects first; `data` was read with `collect`."""
+    found: list[Repeated] = []
+    level: list[tuple[tuple[KeyStep, ...], Any]] = [((), data)]
+    while level:
+        below: list[tuple[tuple[KeyStep, ...], Any]] = []
+        for path, item in level:
+            if isinstance(item, Ambiguous):
+                values: dict[str, list[Any]] = {}
+                for key, value in item.pairs:
+                    values.setdefault(key, []).append(value)
+                found += [
+                    Repeated(path, key, tuple(several)) for key, several in values.items() if len(several) > 1
+                ]
+            inside = (
+                cast("dict[str, Any]", item).items()
+                if isinstance(item, dict)
+                else enumerate(cast("list[Any]", item))
+            )
+            below += [((*path, step), value) for step, value in inside if isinstance(value, (dict, list))]
+        level = below
+    return found
