@@ -8,8 +8,6 @@ from deodar import errors as errors
 from deodar import figures as figures
 from deodar import papers as papers
 from deodar import worlds as worlds
-from deodar.analysis.figures import phase_figure as phase_figure
-from deodar.analysis.figures import regimes_figure as regimes_figure
 from deodar.analysis.isolated import isolate as isolate
 from deodar.analysis.memory import forgetting as forgetting
 from deodar.analysis.memory import outlives as outlives
@@ -125,6 +123,8 @@ from deodar.figures._files import save_figure as save_figure
 from deodar.figures.path import animate_path as animate_path
 from deodar.figures.path import path_figure as path_figure
 from deodar.figures.projection import projection as projection
+from deodar.figures.regimes import phase_figure as phase_figure
+from deodar.figures.regimes import regimes_figure as regimes_figure
 from deodar.figures.snapshot import snapshot as snapshot
 from deodar.figures.snapshots import snapshots as snapshots
 from deodar.figures.space_time import space_time as space_time

@@ -30,6 +30,8 @@ RENAMED = {
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",
     "deodar.analysis.paths.until": "dd.path_until",
+    "deodar.analysis.phase_figure": "dd.phase_figure",
+    "deodar.analysis.regimes_figure": "dd.regimes_figure",
     "deodar.analysis.shortest.grid": "dd.arena_grid",
     "deodar.analysis.shortest.shortest": "dd.shortest_path",
     "deodar.architectures.cascade.recorded": "dd.architectures.cascade_paths",

@@ -5,7 +5,9 @@ they return. Where a file and its function share a name, the function is what `d
 from the file what else it holds.
 """
 
-from deodar.analysis.figures import phase_figure, regimes_figure
+from typing import TYPE_CHECKING
+
+from deodar import renamed
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.memory import Memory, forgetting, outlives
 from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
@@ -48,13 +50,14 @@ __all__ = [
     "path_until",
     "peaks",
     "phase",
-    "phase_figure",
     "ramp",
     "regimes",
-    "regimes_figure",
     "selects",
     "settle",
     "shortest_path",
     "thresholds",
     "wilson",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
-from deodar.model import output
 
 if TYPE_CHECKING:
     from deodar.analysis.peaks import Peak
@@ -69,11 +68,11 @@ def run(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from rich.console import Console
 
-    from deodar.analysis import figures
     from deodar.analysis.regimes import regimes
+    from deodar.figures import _files
+    from deodar.figures.regimes import regimes_figure
 
-    figures.require_format(target)
-    output.claim(target, args.force)
+    _files.claim(target, args.force)
     sigma = args.sigma[0] if args.sigma is not None and len(args.sigma) == 1 else args.sigma
     with Console(stderr=True).status("compiling") as status:
         found = regimes(
@@ -85,9 +84,7 @@ def run(args: argparse.Namespace) -> int:
             finer=True,
             progress=status.update,
         )
-    figure = figures.regimes_figure(found)
-    output.claim(target, args.force)
-    output.write(target, lambda path: figures.save(figure, path))
+    _files.save_figure(regimes_figure(found), target, args.force)
     if args.json:
         print(codec.text(found.data() | {"figure": str(target)}))
     else:

@@ -10,7 +10,7 @@ from deodar.diagrams.layout import Stretch
 from deodar.diagrams.scene import PathCommand, Point, Shape, circle, polygon
 from deodar.numerics.signs import Sign
 
-COLORS: dict[Sign, str] = {"+": "#333333", "-": "#c1440e", "±": "#6a3d9a"}
+COLORS: dict[Sign, str] = {"+": "#333333", "-": "#d55e00", "±": "#6a3d9a"}
 """Excitation, inhibition, both: colour-blind readers tell them apart, and marks say it in black and white."""
 
 WIDTH = 0.9

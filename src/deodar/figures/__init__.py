@@ -1,24 +1,38 @@
-"""Drawing of records: one file for each kind of figure; the folder is the list of kinds.
+"""Everything that is drawn with matplotlib, in one style: records, regimes, arenas, runs of papers.
 
-A kind is a module with `ACROSS` (whether time runs across), `suits(variable)`, `size(view)`, `fill(place,
-view)`, and a function named as the module that returns a `matplotlib.figure.Figure`: `dd.space_time`,
-`dd.time_course` and so on. Nothing here uses pyplot, so that figures are objects and not global state.
+`COLOR` says what each colour means, and `RC` holds sizes of type and lines, for figures of one's own:
+`matplotlib.rc_context(dd.figures.RC)`.
+
+A kind of figure of a recorded variable is a module with `ACROSS` (whether time runs across),
+`suits(variable)`, `size(view)`, `fill(place, view)`, and a function named as the module that returns a
+`matplotlib.figure.Figure`: `dd.space_time`, `dd.time_course` and so on. Nothing here uses pyplot, so that
+figures are objects and not global state.
 """
 
 from deodar.figures._files import save_figure
+from deodar.figures._style import COLOR, COLORS, DIVERGING, RC, SEQUENTIAL, Palette
 from deodar.figures._view import View
 from deodar.figures.path import animate_path, path_figure
 from deodar.figures.projection import projection
+from deodar.figures.regimes import phase_figure, regimes_figure
 from deodar.figures.snapshot import snapshot
 from deodar.figures.snapshots import snapshots
 from deodar.figures.space_time import space_time
 from deodar.figures.time_course import time_course
 
 __all__ = [
+    "COLOR",
+    "COLORS",
+    "DIVERGING",
+    "RC",
+    "SEQUENTIAL",
+    "Palette",
     "View",
     "animate_path",
     "path_figure",
+    "phase_figure",
     "projection",
+    "regimes_figure",
     "save_figure",
     "snapshot",
     "snapshots",

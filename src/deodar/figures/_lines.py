@@ -49,7 +49,7 @@ def curves(
         if many:
             thin: dict[str, Any] = {
                 "alpha": min(0.5, max(0.12, 4 / len(rows))),
-                "linewidth": 0.5,
+                "linewidth": _style.THIN,
                 "rasterized": len(x) > 5000,
             }
             for row in rows[:MOST_TRIALS]:
@@ -71,7 +71,7 @@ def level(ax: Axes, view: View, across: bool = True) -> None:
     """A line at the threshold, where there is one and the values come near it."""
     if view.threshold is not None:
         draw = ax.axhline if across else ax.axvline
-        draw(view.threshold, color=_style.THRESHOLD, linewidth=0.7, linestyle=(0, (4, 3)), zorder=0.5)
+        draw(view.threshold, **_style.THRESHOLD_LINE)
 
 
 def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...]) -> list[Any]:

@@ -1,10 +1,14 @@
-"""How figures look: sizes of a journal's columns, readable type, colour maps that everyone can read."""
+"""The style of all figures: widths of a journal's columns, sizes of type and lines, meanings of colours.
+
+docs/drawing.md holds the same convention as a table.
+"""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Generator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any, cast
 
 import matplotlib
@@ -23,7 +27,76 @@ DOTS = 300
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 """Colours of lines: Okabe and Ito's set, which colour-blind readers tell apart."""
 
-THRESHOLD = "#555555"
+BLUE, VERMILION, GREEN, _PURPLE, ORANGE, _SKY, BLACK = COLORS
+GREY = "#999999"
+
+
+@dataclass(frozen=True)
+class Palette:
+    """The meaning of colours, in all figures.
+
+    Attributes:
+        activation, output, input: of a field or node, as a line; `input` also shades the times of an input.
+        excitation, inhibition, mixed: signs of couplings, as in pictures of models, and of what they add.
+        falling: a branch or state that is reached from above, where `activation` is reached from below.
+        threshold: the line at the threshold, and reference lines.
+        wall, obstacle, obstacle_edge, start, goal: of an arena.
+        window: times at which something is there, as shading.
+        moment: a line at one time.
+        claim, baseline, interval: a method that is tested, those it is compared with, 95 % intervals.
+    """
+
+    activation: str = BLUE
+    output: str = GREEN
+    input: str = ORANGE
+    excitation: str = "#333333"
+    inhibition: str = VERMILION
+    mixed: str = "#6a3d9a"
+    falling: str = VERMILION
+    threshold: str = "#555555"
+    wall: str = "#bbbbbb"
+    obstacle: str = "#e0c8a0"
+    obstacle_edge: str = "#8a6d3b"
+    start: str = "#222222"
+    goal: str = GREEN
+    window: str = "#dddddd"
+    moment: str = GREY
+    claim: str = BLUE
+    baseline: str = ORANGE
+    interval: str = BLACK
+
+
+COLOR = Palette()
+
+ROUTES = (GREEN, BLUE, VERMILION, GREY)
+"""Colours of alternatives that runs choose from; the last one: none of them."""
+
+THIN, MEDIUM, THICK = 0.5, 0.8, 1.1
+"""Widths of lines in points: one of many trials, one of several, a mean or the only one."""
+
+DOT, CROSS = 2.5, 6.0
+"""Sizes of a start and a goal, in points."""
+
+SMALL = 6.5
+"""Size of type inside a panel, in points."""
+
+THRESHOLD = COLOR.threshold
+THRESHOLD_LINE: dict[str, Any] = {
+    "color": COLOR.threshold,
+    "linewidth": 0.7,
+    "linestyle": (0, (4, 3)),
+    "zorder": 0.5,
+}
+"""The line at a threshold: thin, dashed, below the data."""
+
+OUTLINE: dict[str, Any] = {
+    "facecolor": "none",
+    "edgecolor": BLACK,
+    "linewidth": 0.7,
+    "linestyle": "--",
+    "zorder": 2,
+}
+"""The outline of a thing that comes and goes."""
 
 SEQUENTIAL = "viridis"
 DIVERGING = "RdBu_r"
@@ -45,7 +118,7 @@ RC: dict[str, Any] = {
     "axes.xmargin": 0.0,
     "axes.unicode_minus": True,
     "axes.formatter.useoffset": False,
-    "lines.linewidth": 1.1,
+    "lines.linewidth": THICK,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
     "xtick.major.size": 2.5,

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
 from deodar.architectures.saliency import CUE_AT
-from deodar.figures._style import COLORS, SEQUENTIAL, style
+from deodar.figures._style import COLOR, COLORS, MEDIUM, SEQUENTIAL, SMALL, style
 from deodar.figures._style import figure as sheet
 from deodar.worlds.picture import Picture
 
@@ -113,7 +113,7 @@ def cues_figure(result: DrawnResult) -> Figure:
         bar.set_label("activation (0: threshold)")
         bar.ax.axhline(0, color="white", linewidth=1)
         told = grid[0, 3].text(
-            0.34, 0.92, EXPLAINED, va="top", fontsize=6.5, linespacing=1.6, transform=grid[0, 3].transAxes
+            0.34, 0.92, EXPLAINED, va="top", fontsize=SMALL, linespacing=1.6, transform=grid[0, 3].transAxes
         )
         told.set_in_layout(False)
     return out
@@ -229,8 +229,8 @@ def _motor(axes: Any, result: DrawnResult, k: int, outcome: DrawnOutcome, last: 
         axes.plot(time, values, color=color, label=f"{name} ({words})")
         for peak in outcome.spatial:
             axes.axhline(peak[place], color=color, linewidth=0.7, linestyle=":")
-    axes.axvline(CUE_AT / 1000, color="#888888", linewidth=0.7)
-    axes.text(CUE_AT / 1000 + 0.05, 78, "cue", va="top", color="#555555", fontsize=7)
+    axes.axvline(CUE_AT / 1000, color=COLOR.moment, linewidth=MEDIUM)
+    axes.text(CUE_AT / 1000 + 0.05, 78, "cue", va="top", color=COLOR.threshold, fontsize=SMALL)
     axes.set_ylim(0, 80)
     axes.set_ylabel("scene units")
     if last:

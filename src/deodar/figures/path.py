@@ -11,11 +11,11 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
-from matplotlib.patches import Circle, Rectangle
+from matplotlib.patches import Circle
 
 from deodar import renamed
 from deodar.errors import RecordError
-from deodar.figures import _style
+from deodar.figures import _style, maze
 from deodar.figures._view import View
 from deodar.model import output
 from deodar.session.unit import unit_seconds
@@ -24,7 +24,6 @@ from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.view import FLOOR
 
 ACROSS = False
-START, GOAL = "#222222", "#009e73"
 MOST_FRAMES = 600
 FINER = 3
 """Pixels drawn for one shown, along each side, so that edges look smooth."""
@@ -103,7 +102,7 @@ def animate_path(
             where=looked.name,
             fix="Choose another stride=",
         )
-    left, low, right, high = _borders(here)
+    left, low, right, high = maze.borders(here)
     scale = width * FINER / (right - left)
     height = round((high - low) * scale / FINER)
 
@@ -148,7 +147,7 @@ def animate_path(
 def _size(view: View, arena: World | None) -> tuple[float, float]:
     if arena is None:
         return _style.SINGLE, _style.SINGLE
-    left, low, right, high = _borders(_arena(arena))
+    left, low, right, high = maze.borders(_arena(arena))
     return _style.SINGLE, min(6.0, 0.5 + (_style.SINGLE - 0.5) * (high - low) / (right - left))
 
 
@@ -157,19 +156,19 @@ def _paint(ax: Axes, view: View, arena: World | None) -> None:
         _ground(ax, _arena(arena))
     for k, line in enumerate(_lines(view)):
         colour = _style.COLORS[k % len(_style.COLORS)]
-        ax.plot(line[:, 0], line[:, 1], color=colour, linewidth=1.0)
-        ax.plot(*line[0, :2], "o", color=START, markersize=2.5)
+        ax.plot(line[:, 0], line[:, 1], color=colour, linewidth=_style.THICK)
+        ax.plot(*line[0, :2], "o", color=_style.COLOR.start, markersize=_style.DOT)
         x, y = line[-1, :2]
         if arena is not None:
             here = _arena(arena)
             radius = here.vehicle.radius / here.scale
-            ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=0.8))
+            ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=_style.MEDIUM))
             if line.shape[1] > 2:
                 ax.plot(
                     [x, x + radius * math.cos(line[-1, 2])],
                     [y, y + radius * math.sin(line[-1, 2])],
                     color=colour,
-                    linewidth=0.8,
+                    linewidth=_style.MEDIUM,
                 )
     ax.set_aspect("equal")
     unit = f" ({arena.unit})" if isinstance(arena, Arena) else ""
@@ -180,18 +179,13 @@ def _paint(ax: Axes, view: View, arena: World | None) -> None:
 
 
 def _ground(ax: Axes, arena: Arena) -> None:
-    left, low, right, high = _borders(arena)
     ax.set_facecolor(FLOOR)
     for thing in arena.furniture.standing():
-        x0, y0, x1, y1 = (v / arena.scale for v in thing.box)
-        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor=thing.color, linewidth=0))
+        ax.add_patch(maze.box(arena, thing, facecolor=thing.color, linewidth=0))
     if arena.goals is not None:
         for x, y in arena.goals / arena.scale:
-            ax.plot(x, y, "+", color=GOAL, markersize=7, markeredgewidth=1.5)
-    ax.set_xlim(left, right)
-    ax.set_ylim(low, high)
-    for spine in ax.spines.values():
-        spine.set_visible(True)
+            ax.plot(x, y, "+", color=_style.COLOR.goal, markersize=_style.CROSS, markeredgewidth=1.5)
+    maze.frame(ax, arena)
 
 
 def _lines(view: View) -> list[np.ndarray]:
@@ -212,11 +206,6 @@ def _arena(world: World) -> Arena:
     if not isinstance(world, Arena):
         raise RecordError(f"a path is drawn into an arena, not into a {type(world).__name__}")
     return world
-
-
-def _borders(arena: Arena) -> tuple[float, float, float, float]:
-    left, low, right, high = (v / arena.scale for v in arena.layout.border)
-    return left, low, right, high
 
 
 def _rgb(colour: Sequence[float]) -> tuple[int, int, int]:

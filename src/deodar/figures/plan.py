@@ -10,10 +10,21 @@ from typing import Any, Protocol
 import numpy as np
 import xarray
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from deodar.architectures.spa import DIRECTIONS
-from deodar.figures._style import COLORS, DIVERGING, DOUBLE, THRESHOLD, style
+from deodar.figures import maze
+from deodar.figures._style import (
+    COLOR,
+    COLORS,
+    CROSS,
+    DIVERGING,
+    DOUBLE,
+    MEDIUM,
+    SMALL,
+    THIN,
+    THRESHOLD_LINE,
+    style,
+)
 from deodar.figures._style import figure as sheet
 from deodar.worlds.arena.arena import Arena
 
@@ -72,15 +83,13 @@ def plan_figure(result: DrawnRun) -> Figure:
 
 
 def _path(axes: Any, r: DrawnRun) -> None:
-    _walls(axes, r, "#777777")
+    maze.walls(axes, r.arena, (t for t in r.arena.layout.things))
     for thing in r.arena.furniture.things:
         if r.obstacle_at is not None and thing is not None and thing.name == "obstacle":
-            x0, y0, x1, y1 = (100 * v for v in thing.box)
-            axes.add_patch(
-                Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#e0c8a0", edgecolor="#8a6d3b", linewidth=0.6)
-            )
-            words = f"from\n{r.obstacle_at}"
-            axes.text((x0 + x1) / 2, (y0 + y1) / 2, words, ha="center", va="center", fontsize=6)
+            look = {"facecolor": COLOR.obstacle, "edgecolor": COLOR.obstacle_edge, "linewidth": 0.6}
+            place = maze.box(r.arena, thing, **look)
+            axes.add_patch(place)
+            axes.text(*place.get_center(), f"from\n{r.obstacle_at}", ha="center", va="center", fontsize=SMALL)
     axes.plot(*r.path[:, :2].T, color=COLORS[0])
     axes.plot(*r.path[:: 100 // r.every, :2].T, ".", color=COLORS[0], markersize=4)
     for number, site in enumerate(r.sites, 1):
@@ -94,22 +103,9 @@ def _path(axes: Any, r: DrawnRun) -> None:
             color=COLORS[1],
             fontweight="bold",
         )
-    axes.plot(*r.goal, "+", color=COLORS[2], markersize=9, markeredgewidth=1.8)
+    axes.plot(*r.goal, "+", color=COLOR.goal, markersize=CROSS, markeredgewidth=1.8)
     axes.set_title("path, a dot every 100 steps")
-    axes.set_xlabel("x (cm)")
-    axes.set_ylabel("y (cm)")
-
-
-def _walls(axes: Any, r: DrawnRun, colour: str) -> None:
-    left, low, right, high = (100 * v for v in r.arena.layout.border)
-    for thing in r.arena.layout.things:
-        x0, y0, x1, y1 = (100 * v for v in thing.box)
-        axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor=colour, linewidth=0))
-    axes.set_xlim(left, right)
-    axes.set_ylim(low, high)
-    axes.set_aspect("equal")
-    for spine in axes.spines.values():
-        spine.set_visible(True)
+    maze.labels(axes, r.arena)
 
 
 def _motivation(axes: Any, r: DrawnRun, name: str, step: int | None) -> None:
@@ -129,7 +125,7 @@ def _motivation(axes: Any, r: DrawnRun, name: str, step: int | None) -> None:
         markersize=3.5,
     )
     axes.plot(*r.goal, "+", color="white", markersize=5)
-    left, low, right, high = (100 * v for v in r.arena.layout.border)
+    left, low, right, high = maze.borders(r.arena)
     axes.set_xlim(left, right)
     axes.set_ylim(low, high)
 
@@ -140,12 +136,16 @@ def _courses(place: Any, r: DrawnRun) -> None:
     for number, (axes, (x, y)) in enumerate(zip(rows, r.sites, strict=False), 1):
         for name in DIRECTIONS:
             here = r.record[f"{name}.motivation.activation"].sel(x=x, y=y, method="nearest").values
-            axes.plot(times, here, color=COLOUR[name], linewidth=0.7, label=name)
-        axes.axhline(0, color=THRESHOLD, linewidth=0.5, linestyle=":")
+            axes.plot(times, here, color=COLOUR[name], linewidth=MEDIUM, label=name)
+        axes.axhline(0, **THRESHOLD_LINE)
         axes.set_ylabel(f"location {number}")
     for name in DIRECTIONS:
         rows[-1].plot(
-            times, r.record[f"{name}.strongest.output"].values, color=COLOUR[name], linewidth=0.7, label=name
+            times,
+            r.record[f"{name}.strongest.output"].values,
+            color=COLOUR[name],
+            linewidth=MEDIUM,
+            label=name,
         )
     rows[-1].set_ylabel("intention")
     rows[-1].set_xlabel("time (steps of 64 ms)")
@@ -162,14 +162,14 @@ def _courses(place: Any, r: DrawnRun) -> None:
             (r.arrived, "arrived"),
         ):
             if step is not None:
-                axes.axvline(step, color="#999999", linewidth=0.5)
+                axes.axvline(step, color=COLOR.moment, linewidth=THIN)
                 if axes is rows[-1]:
                     axes.text(
                         step,
                         1.02,
                         f" {words}",
-                        fontsize=6,
-                        color="#555555",
+                        fontsize=SMALL,
+                        color=COLOR.threshold,
                         va="bottom",
                         ha="left",
                         transform=axes.get_xaxis_transform(),

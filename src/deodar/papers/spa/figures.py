@@ -1,27 +1,36 @@
-"""The figures: success and Lp / Lo, example paths, path choice, velocity."""
+"""What the figures show: success and Lp / Lo, example paths, path choice, velocity."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
-from deodar.analysis.statistics import wilson
 from deodar.architectures.spa import maze, place
 from deodar.experiments.rows import Row
-from deodar.figures import _style
+from deodar.figures._style import COLORS, ROUTES
+from deodar.figures.comparison import boxes_figure, shares_figure
+from deodar.figures.routes import (
+    Course,
+    Panel,
+    Speeds,
+    choice_figure,
+    paths_figure,
+    routes_figure,
+    speeds_figure,
+)
 from deodar.papers.spa.cases import OBSTACLES
 from deodar.papers.spa.route import NONE, NORTH, SOUTH, SWITCH
 from deodar.papers.spa.runs import METHODS, Runs, between, count
 from deodar.papers.spa.targets import MAZE
 from deodar.papers.spa.trials import KEPT
 
-ROUTES = {NORTH: "#009e73", SOUTH: "#0072b2", SWITCH: "#d55e00", NONE: "#999999"}
-"""Colours of the routes, as the paper's: green, blue, red."""
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+WAYS: dict[str, str] = dict(zip((NORTH, SOUTH, SWITCH, NONE), ROUTES, strict=True))
+"""Colours of the routes, as the paper's: green, blue, red; grey for none."""
 
 LABELS = ("planner\nlow", "planner\nhigh", "carrot\nnone", "carrot\nlow", "carrot\nhigh")
 EXAMPLES = 6
@@ -34,12 +43,11 @@ MOMENTS = (
     ("early execution", (230, 450)),
     ("late execution", (500, 700)),
 )
-Draw = Callable[[Runs], Figure | None]
 
 
 def draw(runs: Runs) -> dict[str, Figure]:
     """Each figure of which there is something to show, by the name of the paper's."""
-    made: dict[str, Draw] = {
+    made: dict[str, Callable[[Runs], Figure | None]] = {
         "figure-7-success": success,
         "figure-8-divergence": divergence,
         "figure-9-paths": paths,
@@ -48,141 +56,91 @@ def draw(runs: Runs) -> dict[str, Figure]:
         "figure-15-partial": lambda r: choice(r, "partial"),
         "figure-16-full": lambda r: choice(r, "full"),
     }
-    with _style.style():
-        drawn = {name: make(runs) for name, make in made.items()}
+    drawn = {name: make(runs) for name, make in made.items()}
     return {name: figure for name, figure in drawn.items() if figure is not None}
 
 
 def success(runs: Runs) -> Figure | None:
     """Share of successful runs with 95 % intervals, for both mazes."""
     counts = {
-        m: [count(runs.of(f"{m}/{method}/{noise}"), lambda r: r["success"]) for method, noise in METHODS]
-        for m in MAZE
+        title: [count(runs.of(f"{m}/{method}/{noise}"), lambda r: r["success"]) for method, noise in METHODS]
+        for m, title in MAZE.items()
     }
     if not any(n for found in counts.values() for _, n in found):
         return None
-    figure, axes = _two()
-    for ax, (m, found) in zip(axes, counts.items(), strict=True):
-        for k, (hits, n) in enumerate(found):
-            interval = wilson(hits, n)
-            if interval is not None:
-                ax.bar(k, hits / n, color=_style.COLORS[0 if k < 2 else 4], width=0.7)
-                ax.plot([k, k], interval, color="black", linewidth=0.8)
-                ax.text(k, 0.03, f"{hits}/{n}", ha="center", color="white", fontsize=6.5)
-        ax.set_ylim(0, 1.02)
-        _conditions(ax, MAZE[m], "share of runs that succeed")
-    return figure
+    return shares_figure(counts, LABELS, 2, "share of runs that succeed")
 
 
 def divergence(runs: Runs) -> Figure | None:
     """Lp / Lo of all runs that succeed, for both mazes."""
-    values = {m: [runs.divergences(f"{m}/{method}/{noise}") for method, noise in METHODS] for m in MAZE}
+    values = {
+        title: [runs.divergences(f"{m}/{method}/{noise}") for method, noise in METHODS]
+        for m, title in MAZE.items()
+    }
     if not any(len(v) for found in values.values() for v in found):
         return None
-    figure, axes = _two()
-    for ax, (m, found) in zip(axes, values.items(), strict=True):
-        there = [k for k, v in enumerate(found) if len(v)]
-        if there:
-            ax.boxplot(
-                [found[k] for k in there],
-                positions=there,
-                widths=0.6,
-                sym=".",
-                medianprops={"color": "black"},
-            )
-        ax.axhline(1.0, color=_style.THRESHOLD, linewidth=0.6, linestyle=":")
-        _conditions(ax, MAZE[m], "Lp / Lo")
-    return figure
+    return boxes_figure(values, LABELS, 1.0, "Lp / Lo")
 
 
 def paths(runs: Runs) -> Figure | None:
     """Six pairs of the large maze, each with low (full line) and high noise (dashed)."""
     rows = [{r["trial"]: r for r in runs.of(f"large/planner/{noise}")} for noise in ("low", "high")]
     both = [k for k in sorted(rows[0]) if k in rows[1]][:EXAMPLES]
-    if not both:
-        return None
-    figure = _style.figure(_style.SINGLE, _style.SINGLE)
-    ax = figure.subplots()
-    _ground(ax, "large")
-    for n, k in enumerate(both):
-        for found, line in zip(rows, ("-", "--"), strict=True):
-            course = np.asarray(found[k]["path"])
-            ax.plot(
-                course[:, 0], course[:, 1], line, color=_style.COLORS[n % len(_style.COLORS)], linewidth=0.9
-            )
-        ax.plot(*rows[0][k]["path"][0], "o", color=_style.COLORS[n % len(_style.COLORS)], markersize=2.5)
-        ax.plot(*rows[0][k]["goal"], "+", color="black", markersize=5)
-    return figure
+    courses = [
+        Course(np.asarray(found[k]["path"]), COLORS[n % len(COLORS)], dashed, found[k]["goal"])
+        for n, k in enumerate(both)
+        for found, dashed in zip(rows, (False, True), strict=True)
+    ]
+    return paths_figure(maze("large", "none"), courses) if courses else None
 
 
 def routes(runs: Runs) -> Figure | None:
     """All paths of case 3 by the route that they took."""
     if not any(runs.of(f"{o}/planner/{n}") for o in ("partial", "full") for n in ("low", "high")):
         return None
-    figure = _style.figure(_style.DOUBLE, _style.DOUBLE)
-    grid = figure.subplots(2, 2)
-    for across, obstacle in enumerate(("partial", "full")):
-        for down, noise in enumerate(("high", "low")):
-            ax = grid[down, across]
-            _ground(ax, "z")
-            _, middle, (w, h) = OBSTACLES[obstacle]
-            x, y = place(*middle)
-            ax.add_patch(
-                Rectangle(
-                    (x - w / 2, y - h / 2),
-                    w,
-                    h,
-                    facecolor="none",
-                    edgecolor="black",
-                    linewidth=0.7,
-                    linestyle="--",
-                )
-            )
-            rows = runs.kept(obstacle, noise)
-            for way, colour in ROUTES.items():
-                for row in between(rows, route=way):
-                    course = np.asarray(row["path"])
-                    ax.plot(course[:, 0], course[:, 1], color=colour, linewidth=0.4, alpha=0.6)
-            found = [
-                f"{way} {sum(r['route'] == way for r in rows)}"
-                for way in ROUTES
-                if any(r["route"] == way for r in rows)
-            ]
-            ax.set_title(f"{obstacle} obstacle, {noise} noise: {', '.join(found) or 'no runs'}")
-    return figure
+    panels = [_routes(runs, obstacle, noise) for noise in ("high", "low") for obstacle in ("partial", "full")]
+    return routes_figure(maze("z", "none"), panels)
+
+
+def _routes(runs: Runs, obstacle: str, noise: str) -> Panel:
+    rows = runs.kept(obstacle, noise)
+    found = {way: between(rows, route=way) for way in WAYS}
+    counted = ", ".join(f"{way} {len(taken)}" for way, taken in found.items() if taken)
+    courses = [Course(np.asarray(row["path"]), WAYS[way]) for way, taken in found.items() for row in taken]
+    _, middle, size = OBSTACLES[obstacle]
+    title = f"{obstacle} obstacle, {noise} noise: {counted or 'no runs'}"
+    return Panel(title, courses, (*place(*middle), *size))
 
 
 def velocity(runs: Runs) -> Figure | None:
     """Velocity over time of the first run of each obstacle that appears at four moments; grey: while it is
-    there.
+    there; full line: low noise, dashed: high noise.
     """
-    chosen = [
-        (o, words, [_first(runs, o, n, window) for n in ("low", "high")])
+    panels = [
+        _velocity(runs, obstacle, words, window)
         for words, window in MOMENTS
-        for o in ("partial", "full")
+        for obstacle in ("partial", "full")
     ]
-    if not any(row is not None for _, _, rows in chosen for row in rows):
-        return None
-    figure = _style.figure(_style.DOUBLE, 1.25 * len(MOMENTS) + 0.4)
-    grid = figure.subplots(len(MOMENTS), 2, sharex=True, sharey=True)
-    for ax, (obstacle, words, rows) in zip(grid.ravel(), chosen, strict=True):
-        for row, line in zip(rows, ("-", "--"), strict=True):
-            if row is None:
-                continue
-            course = np.asarray(row["path"])
-            over = WINDOW // KEPT
-            speed = np.linalg.norm(course[over:] - course[:-over], axis=1) / WINDOW
-            ax.plot(
-                KEPT * np.arange(over, len(course)), speed, line, color=ROUTES[row["route"]], linewidth=0.8
-            )
-            if line == "-":
-                ax.axvspan(row["onset"], row["onset"] + row["duration"], color="#dddddd", linewidth=0)
-        ax.set_title(f"{obstacle}, {words}", fontsize=7)
-    for ax in grid[-1]:
-        ax.set_xlabel("time (steps of 64 ms)")
-    for ax in grid[:, 0]:
-        ax.set_ylabel("cm a step")
-    return figure
+    return (
+        speeds_figure(panels, "speed (cm a step)", "steps of 64 ms")
+        if any(p.curves for p in panels)
+        else None
+    )
+
+
+def _velocity(runs: Runs, obstacle: str, words: str, window: tuple[int, int]) -> Speeds:
+    low, high = (_first(runs, obstacle, noise, window) for noise in ("low", "high"))
+    curves = [(*_speed(row), WAYS[row["route"]], row is high) for row in (low, high) if row is not None]
+    shaded = None if low is None else (low["onset"], low["onset"] + low["duration"])
+    return Speeds(f"{obstacle}, {words}", curves, shaded)
+
+
+def _speed(row: Row) -> tuple[np.ndarray, np.ndarray]:
+    """Steps and cm a step."""
+    course, over = np.asarray(row["path"]), WINDOW // KEPT
+    return KEPT * np.arange(over, len(course)), np.linalg.norm(
+        course[over:] - course[:-over], axis=1
+    ) / WINDOW
 
 
 def choice(runs: Runs, obstacle: str) -> Figure | None:
@@ -190,57 +148,15 @@ def choice(runs: Runs, obstacle: str) -> Figure | None:
     rows = runs.kept(obstacle, "low")
     if not rows:
         return None
-    figure = _style.figure(_style.SINGLE, 2.8)
-    ax = figure.subplots()
-    for way, colour in ROUTES.items():
-        found = between(rows, route=way)
-        if found:
-            size = [0.1 * r["length"] for r in found]
-            ax.scatter(
-                [r["onset"] for r in found],
-                [r["duration"] for r in found],
-                size,
-                color=colour,
-                linewidth=0,
-                label=f"{way} ({len(found)})",
-            )
-    ax.set_xlim(0, 720)
-    ax.set_ylim(0, 520)
-    ax.set_xlabel("onset (steps)")
-    ax.set_ylabel("duration (steps)")
-    figure.legend(loc="outside upper center", ncols=4)
-    return figure
+    groups = {
+        way: (colour, [(r["onset"], r["duration"], 0.1 * r["length"]) for r in between(rows, route=way)])
+        for way, colour in WAYS.items()
+    }
+    there = {way: group for way, group in groups.items() if group[1]}
+    return choice_figure(there, (720, 520), ("onset (steps)", "duration (steps)"))
 
 
 def _first(runs: Runs, obstacle: str, noise: str, window: tuple[int, int]) -> Row | None:
     """The first run whose obstacle came in the window and lasted for 150 steps or more."""
     found = between(runs.kept(obstacle, noise), window, (150, 1000))
     return found[0] if found else None
-
-
-def _two() -> tuple[Figure, Sequence[Axes]]:
-    figure = _style.figure(_style.DOUBLE, 2.4)
-    axes: Any = figure.subplots(1, 2)
-    return figure, list(axes)
-
-
-def _conditions(ax: Axes, title: str, what: str) -> None:
-    ax.set_xticks(range(len(LABELS)), LABELS)
-    ax.set_xlim(-0.6, len(LABELS) - 0.4)
-    ax.set_title(title)
-    ax.set_ylabel(what)
-
-
-def _ground(ax: Axes, name: str) -> None:
-    arena = maze(name, "none")
-    left, low, right, high = (v / arena.scale for v in arena.layout.border)
-    for thing in arena.furniture.standing():
-        x0, y0, x1, y1 = (v / arena.scale for v in thing.box)
-        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#bbbbbb", linewidth=0))
-    ax.set_xlim(left, right)
-    ax.set_ylim(low, high)
-    ax.set_aspect("equal")
-    ax.set_xlabel("x (cm)")
-    ax.set_ylabel("y (cm)")
-    for spine in ax.spines.values():
-        spine.set_visible(True)

@@ -1,59 +1,27 @@
-"""Figures of what was measured, ready for print."""
+"""The regime of a field: hysteresis over its input, its patterns, and phase plots of nodes."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from deodar.analysis.phase import Phase, phase
-from deodar.analysis.regimes import Regimes
-from deodar.errors import OutputError
+from deodar.figures import _style
+from deodar.figures._style import COLOR
 from deodar.numerics.axes import Axis
 
-# Okabe & Ito's colours, which people of every colour vision can tell apart
-BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, GREY = (
-    "#000000",
-    "#E69F00",
-    "#56B4E9",
-    "#009E73",
-    "#0072B2",
-    "#D55E00",
-    "#999999",
-)
-FORMATS = (".png", ".svg", ".pdf")
-UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
-"""The same figure gives the same file."""
-
-STYLE: Any = {
-    "font.size": 8.0,
-    "axes.titlesize": 8.0,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.linewidth": 0.6,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "lines.linewidth": 1.2,
-    "legend.frameon": False,
-    "legend.fontsize": 7.0,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "deodar",
-}
+if TYPE_CHECKING:
+    from deodar.analysis.phase import Phase
+    from deodar.analysis.regimes import Regimes
 
 
 def regimes_figure(found: Regimes) -> Figure:
     """Two panels: the hysteresis of the field over its input, and its patterns (of a node: its phase
     plots).
     """
-    with rc_context(STYLE):
-        figure = Figure(figsize=(7.0, 2.9), layout="constrained")
-        FigureCanvasAgg(figure)
+    with _style.style():
+        figure = _style.figure(_style.DOUBLE, 2.9)
         left, right = figure.subplots(1, 2)
         _hysteresis(left, found)
         if found.isolated.axes:
@@ -65,32 +33,10 @@ def regimes_figure(found: Regimes) -> Figure:
 
 def phase_figure(shown: Phase, time_unit: str = "ms") -> Figure:
     """The phase plot of a node."""
-    with rc_context(STYLE):
-        figure = Figure(figsize=(3.5, 2.8), layout="constrained")
-        FigureCanvasAgg(figure)
-        _phase_axes(figure.subplots(), [(shown, BLUE, f"input {shown.input:.3g}")], time_unit)
+    with _style.style():
+        figure = _style.figure(_style.SINGLE, 2.8)
+        _phase_axes(figure.subplots(), [(shown, COLOR.activation, f"input {shown.input:.3g}")], time_unit)
         return figure
-
-
-def save(figure: Figure, path: Path) -> None:
-    """Write a figure; the ending of the name decides how.
-
-    Raises:
-        OutputError: if the ending is none of FORMATS.
-    """
-    require_format(path)
-    with rc_context(STYLE):
-        figure.savefig(path, dpi=300, metadata=UNDATED.get(path.suffix.lower()))
-
-
-def require_format(path: Path) -> None:
-    """Refuse a file ending that no figure is written as."""
-    if path.suffix.lower() not in FORMATS:
-        raise OutputError(
-            f"a figure is written as {', '.join(FORMATS)}, not as"
-            f" {path.suffix or 'a file without an ending'}",
-            where=str(path),
-        )
 
 
 # ----------------------------------------------------------------------------------------------------- panels
@@ -98,19 +44,22 @@ def require_format(path: Path) -> None:
 
 def _hysteresis(axes: Any, found: Regimes) -> None:
     swept, threshold = found.ramp, found.isolated.threshold
-    axes.axhline(threshold, color=GREY, linewidth=0.6)
+    axes.axhline(threshold, **_style.THRESHOLD_LINE)
     for branch, color, label, style in (
-        (swept.down, VERMILION, "input falls", "-"),
-        (swept.up, BLUE, "input grows", "--"),
+        (swept.down, COLOR.falling, "input falls", "-"),
+        (swept.up, COLOR.activation, "input grows", "--"),
     ):
         axes.plot(swept.values, branch.activation, style, color=color, label=label)
     axes.margins(x=0.02, y=0.12)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.12 * (top - bottom))
     up, down = found.detection, found.reverse
-    marks = [(up, "detection", BLUE, "center"), (down, "reverse detection", VERMILION, "center")]
+    marks = [
+        (up, "detection", COLOR.activation, "center"),
+        (down, "reverse detection", COLOR.falling, "center"),
+    ]
     if found.graded:  # no instability: one mark, where activation crosses the threshold
-        down, marks = None, [(up, "crosses the threshold", BLUE, "center")]
+        down, marks = None, [(up, "crosses the threshold", COLOR.activation, "center")]
     near = up is not None and down is not None and abs(up - down) < 0.35 * np.ptp(swept.values)
     for value, label, color, align in marks:
         if value is None:
@@ -127,26 +76,26 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
             ha=align,
             va="top",
             color=color,
-            fontsize=7,
+            fontsize=_style.SMALL,
             xytext=({"left": 3, "right": -3}.get(align, 0), 0),
             textcoords="offset points",
             backgroundcolor=(1, 1, 1, 0.8),
         )
     axes.set_xlabel("strength of the localised input" if found.isolated.axes else "input")
     axes.set_ylabel("highest activation" if found.isolated.axes else "activation")
-    axes.set_title("a")
+    axes.set_title("a", loc="left", fontweight="bold")
     axes.legend(loc="lower right")
 
 
 def _profiles(axes: Any, found: Regimes) -> None:
     isolated = found.isolated
     axis = isolated.axes[0]
-    axes.axhline(isolated.threshold, color=GREY, linewidth=0.6)
-    _profile(axes, found, found.rest, BLACK, ":", "at rest")
+    axes.axhline(isolated.threshold, **_style.THRESHOLD_LINE)
+    _profile(axes, found, found.rest, COLOR.interval, ":", "at rest")
     if found.above is not None:
-        _profile(axes, found, found.above, BLUE, "-", "just above detection")
+        _profile(axes, found, found.above, COLOR.activation, "-", "just above detection")
     if found.memory is not None:
-        _profile(axes, found, found.memory.activation, VERMILION, "--", "after the input is gone")
+        _profile(axes, found, found.memory.activation, COLOR.falling, "--", "after the input is gone")
     axes.set_xlabel(_label(axis))
     others = [
         f"{a.name} = {c:g}{' ' + a.unit if a.unit else ''}"
@@ -156,7 +105,7 @@ def _profiles(axes: Any, found: Regimes) -> None:
     axes.margins(x=0.0, y=0.08)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.35 * (top - bottom))
-    axes.set_title("b")
+    axes.set_title("b", loc="left", fontweight="bold")
     axes.legend(loc="upper right")
 
 
@@ -167,10 +116,17 @@ def _profile(axes: Any, found: Regimes, pattern: np.ndarray, color: str, style: 
 
 
 def _phases(axes: Any, found: Regimes) -> None:
+    from deodar.analysis.phase import (
+        phase,  # start-up time: it brings the engine, other figures do not need it
+    )
+
     field = found.isolated.field
-    inputs = [(0.0, BLACK, "no input")]
-    marks = [("detection", found.detection, BLUE), ("reverse detection", found.reverse, VERMILION)]
-    marks = [("the threshold", found.detection, BLUE)] if found.graded else marks
+    inputs = [(0.0, COLOR.interval, "no input")]
+    marks = [
+        ("detection", found.detection, COLOR.activation),
+        ("reverse detection", found.reverse, COLOR.falling),
+    ]
+    marks = [("the threshold", found.detection, COLOR.activation)] if found.graded else marks
     inputs += [
         (value, color, f"at {label}, input {value:.3g}") for label, value, color in marks if value is not None
     ]
@@ -178,11 +134,11 @@ def _phases(axes: Any, found: Regimes) -> None:
     span = (min(p.u[0] for p in each), max(p.u[-1] for p in each))
     plots = [(phase(field, value, span), color, label) for value, color, label in inputs]
     _phase_axes(axes, plots, found.isolated.time_unit)
-    axes.set_title("b")
+    axes.set_title("b", loc="left", fontweight="bold")
 
 
 def _phase_axes(axes: Any, plots: list[tuple[Phase, str, str]], time_unit: str) -> None:
-    axes.axhline(0.0, color=GREY, linewidth=0.6)
+    axes.axhline(0.0, color=COLOR.moment, linewidth=0.6)
     for shown, color, label in plots:
         axes.plot(shown.u, shown.rate, color=color, label=label)
         for p in shown.fixed_points:
@@ -195,8 +151,8 @@ def _phase_axes(axes: Any, plots: list[tuple[Phase, str, str]], time_unit: str) 
                 markerfacecolor=color if p.stable else "white",
                 zorder=3,
             )
-    axes.plot([], [], "o", markersize=4.5, color=GREY, label="stable")
-    axes.plot([], [], "o", markersize=4.5, color=GREY, markerfacecolor="white", label="unstable")
+    axes.plot([], [], "o", markersize=4.5, color=COLOR.moment, label="stable")
+    axes.plot([], [], "o", markersize=4.5, color=COLOR.moment, markerfacecolor="white", label="unstable")
     axes.set_xlabel("activation u")
     axes.set_ylabel(
         f"du/dt (1/{time_unit})"

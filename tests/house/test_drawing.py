@@ -1,0 +1,58 @@
+"""One place draws: matplotlib is imported below figures/ and in diagrams/, in one style."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from deodar.diagrams import wires
+from deodar.figures import _style
+from tests.house.source import MODULES, SRC, module, tree
+
+DIAGRAMS = {"diagrams.paper", "diagrams.text"}
+"""Pictures of architectures: their shapes, and the widths of their names."""
+
+
+def _for_types(path: Path) -> set[int]:
+    """Lines under `if TYPE_CHECKING`."""
+    blocks = [
+        n for n in ast.walk(tree(path)) if isinstance(n, ast.If) and ast.unparse(n.test) == "TYPE_CHECKING"
+    ]
+    return {
+        line for n in blocks for child in n.body for line in range(child.lineno, (child.end_lineno or 0) + 1)
+    }
+
+
+def _matplotlib(path: Path) -> list[int]:
+    found = [
+        node.lineno
+        for node in ast.walk(tree(path))
+        if (isinstance(node, ast.Import) and any(a.name.split(".")[0] == "matplotlib" for a in node.names))
+        or (isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "matplotlib")
+    ]
+    return [line for line in found if line not in _for_types(path)]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
+def test_matplotlib_is_imported_where_figures_are_drawn(path: Path) -> None:
+    name = module(path)
+    if name.split(".")[0] != "figures" and name not in DIAGRAMS:
+        assert not _matplotlib(path), f"{path.name} draws: move it below src/deodar/figures"
+
+
+def test_only_the_style_names_colours() -> None:
+    """A colour that a figure needs has a meaning, and a line in `Palette`."""
+    allowed = {"_style.py", "film.py"}  # the video has a palette of its own, on the floor of the arena
+    for path in sorted((SRC / "figures").glob("*.py")):
+        texts = [
+            n.value for n in ast.walk(tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str)
+        ]
+        named = [t for t in texts if t.startswith("#") and len(t) == 7]
+        assert not named or path.name in allowed, (path.name, named)
+
+
+def test_signs_have_the_colours_of_pictures_of_models() -> None:
+    signs = _style.COLOR.excitation, _style.COLOR.inhibition, _style.COLOR.mixed
+    assert tuple(wires.COLORS[sign] for sign in ("+", "-", "±")) == signs
