@@ -11,7 +11,7 @@ test("a font keeps its source in woff2 alone", () => {
   expect(onlyWoff2(css)).toBe(`src:url(a.woff2) format("woff2");color:red`);
 });
 
-test("a font without woff2 is left alone", () => {
+test("a font without woff2 is unchanged", () => {
   const css = `src: url(a.ttf) format("truetype")`;
   expect(onlyWoff2(css)).toBe(css);
 });

@@ -15,7 +15,7 @@ const {
 } = new URL(process.env["DEODAR_STUDIO"] ?? "http://127.0.0.1:8430");
 const headers = { origin: STUDIO, cookie: `deodar_token_${port}=${searchParams.get("token") ?? ""}` };
 
-/** Libraries that change seldom, one file each: the browser fetches them side by side. */
+/** Libraries that change rarely, one file each: the browser fetches them side by side. */
 const APART = ["react", "@mantine", "@xyflow", "dockview", "@dagrejs", "katex", "uplot"];
 
 export default defineConfig({

@@ -8,7 +8,7 @@ export default defineConfig({
     fileParallelism: false,
     testTimeout: 120_000,
     hookTimeout: 120_000,
-    // a machine that others use too may stand still for a moment: what fails is tried once more, and reported
+    // a machine that others use too may stall for a moment: what fails is tried once more, and reported
     // either way
     retry: 1,
     expect: { poll: { timeout: 60_000, interval: 50 } },

@@ -12,7 +12,7 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
-/** The controls in sight that have no name for those who do not see them. */
+/** The visible controls without an accessible name. */
 async function nameless(page: Page): Promise<string[]> {
   const lines = (await page.locator("body").ariaSnapshot()).split("\n").map((line) => line.trim());
   const roles =

@@ -28,7 +28,7 @@ test("a run that cannot keep up shows its lag; a longest step is accepted or ref
   await expect
     .poll(() => told.innerText())
     .toMatch(/steps in a second\s+Behind by \d+ ms, at most \d+ ms since it was played\s+Fell behind once/);
-  await expect.poll(() => told.innerText()).toMatch(/were given up/);
+  await expect.poll(() => told.innerText()).toMatch(/were skipped/);
   await shot(page, "late");
 
   await beside(page, "Run settings", async (settings) => {
@@ -52,7 +52,7 @@ test("a run that cannot keep up shows its lag; a longest step is accepted or ref
   expect(await factor.locator("[data-late]").count()).toBe(0);
 });
 
-test("what each element costs is measured while the run goes on, and a row selects its element", async () => {
+test("the cost of each element is measured while the model runs, and a row selects its element", async () => {
   const { page } = studio;
   await choose(page, "Open panels and plots", "Costs");
   const costs = panel(page, "Costs");
@@ -60,7 +60,7 @@ test("what each element costs is measured while the run goes on, and a row selec
   await button(page, "Play").click();
   await observer.until(() => observer.running);
   await costs.getByRole("button", { name: "Measure costs" }).click();
-  const table = costs.getByRole("table", { name: "What each element takes of a step" });
+  const table = costs.getByRole("table", { name: "Time that each element takes of a step" });
   await table.waitFor();
   expect(observer.running).toBe(true);
   await costs

@@ -162,7 +162,7 @@ test("the values of a preset file are one undo step, and values without a match 
   expect(observer.value("i1 for vis_f1", "amplitude")).toBe(12);
 });
 
-test("a preset may come from elsewhere, and one that is no document is refused in words", async () => {
+test("a preset may come from another folder, and an invalid document is refused with a reason", async () => {
   const { page, folder } = studio;
   await file(page, /^Take over values/);
   const dialog = page.getByRole("dialog", { name: "Take over the values of a file" });

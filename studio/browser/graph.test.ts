@@ -16,7 +16,7 @@ beforeAll(async () => {
   await observer.runs();
 });
 
-// Nothing selected, everything in sight.
+// Nothing selected, everything visible.
 beforeEach(async () => {
   await button(studio.page, "Show everything").click();
 });
@@ -37,7 +37,7 @@ const zoom = () =>
     .locator(".react-flow__viewport")
     .evaluate((viewport) => new DOMMatrix(getComputedStyle(viewport).transform).a);
 
-test("elements are boxes with name and kind, couplings stand on their edges", async () => {
+test("elements are boxes with name and kind, couplings are drawn on their edges", async () => {
   const { page } = studio;
   for (const path of ["search.intention", "search.satisfied", "lift.intention", "start"])
     await box(page, path).waitFor();
@@ -51,7 +51,7 @@ test("elements are boxes with name and kind, couplings stand on their edges", as
   await shot(page, "graph");
 });
 
-test("a document without anything to plot is in sight as soon as it is opened", async () => {
+test("a document without anything to plot is visible as soon as it is opened", async () => {
   const { page, folder } = studio;
   const spot = { kind: "GaussianStimulus", id: "00000001", axes: ["x"], center: 5, sigma: 2, amplitude: 1 };
   const axes = { x: { name: "x", lower: 0, upper: 10, samples: 11 } };
@@ -66,13 +66,13 @@ test("a document without anything to plot is in sight as soon as it is opened", 
   await reopen(page, observer, "groups.json");
 });
 
-test("edges are told by the elements that they connect", async () => {
+test("the names of edges state the elements that they connect", async () => {
   await canvas()
     .getByRole("img", { name: "search.intention to search.satisfied", exact: true })
     .waitFor({ state: "attached" });
 });
 
-test("a group folds into one box, stays folded when the page is loaded anew, and unfolds", async () => {
+test("a group folds into one box, stays folded when the page is reloaded, and unfolds", async () => {
   const { page } = studio;
   await button(page, "Fold search").click();
   const folded = page.getByRole("group", { name: /^Group search, folded, / });
@@ -90,7 +90,7 @@ test("a box that is dragged stays where it is put, also in the file", async () =
   const { page, folder } = studio;
   await box(page, "start").hover({ trial: true, position: { x: 20, y: 10 } });
   const before = await box(page, "start").boundingBox();
-  if (before === null) throw new Error("The box is not in sight.");
+  if (before === null) throw new Error("The box is not visible.");
   const [x, y] = [before.x + before.width / 3, before.y + 10];
   await page.mouse.move(x, y);
   await page.mouse.down();
@@ -123,7 +123,7 @@ test("search finds an element, selects it and brings it into sight", async () =>
   await field.press("Enter");
   await inspected("satisfied").waitFor();
   await panel(page, "Inspector")
-    .getByRole("navigation", { name: "Where it stands" })
+    .getByRole("navigation", { name: "Path of the element" })
     .getByText("/ lift")
     .waitFor();
   await box(page, "lift.satisfied").waitFor();
@@ -176,7 +176,7 @@ test("the canvas is enlarged, made smaller, and shown whole; a map shows all of 
   expect(await map.locator(".react-flow__minimap-node").count()).toBeGreaterThanOrEqual(13);
 });
 
-test("a live picture stands in each box while it runs", async () => {
+test("each box shows a live picture while the model runs", async () => {
   const { page } = studio;
   await button(page, "Play").click();
   await observer.until(() => observer.max("search.intention", "activation") > 0);

@@ -82,7 +82,7 @@ export const file = (page: Page, item: string | RegExp): Promise<void> => choose
 export async function drag(page: Page, thumb: Locator, share: number): Promise<void> {
   const track = thumb.locator("xpath=ancestor::*[contains(@class, 'Slider-trackContainer')]");
   const [from, along] = [await thumb.boundingBox(), await track.boundingBox()];
-  if (from === null || along === null) throw new Error("The slider is not in sight.");
+  if (from === null || along === null) throw new Error("The slider is not visible.");
   await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
   await page.mouse.down();
   await page.mouse.move(along.x + along.width * share, along.y + along.height / 2, { steps: 8 });

@@ -1,5 +1,5 @@
 /**
- * A second page without a browser, before the same server: it speaks the studio's protocol, so that a test
+ * A second page without a browser, before the same server: it uses the studio's protocol, so that a test
  * reads exact numbers.
  */
 import { decode, type Frame } from "../src/frames";
@@ -40,7 +40,7 @@ export class Observer {
   readonly world = new Live();
   private session = 0;
   private last = 0;
-  /** Whether the clock does not know yet of the newest answer: one ends all that is told at once. */
+  /** Whether the clock is older than the newest answer: a clock ends each group of messages. */
   private late = false;
   private ended = "";
   private streams = new Map<string, Stream>();
@@ -71,7 +71,7 @@ export class Observer {
     this.socket.close();
   }
 
-  /** Wait until something holds. It is looked at after each message, and has to hold within a minute. */
+  /** Wait until something holds. It is evaluated after each message, and has to hold within a minute. */
   until(condition: () => unknown): Promise<void> {
     return new Promise((resolve, reject) => {
       const done = (how: () => void) => {

@@ -102,7 +102,7 @@ test("a package that is dropped is opened", async () => {
   await observer.until(() => observer.document?.title === "binding" && observer.document.file === "");
 });
 
-test("what is no document is refused in words", async () => {
+test("an invalid document is refused with a reason", async () => {
   const { page } = studio;
   await drop(page, "notes.txt", "text/plain", new TextEncoder().encode("hello"));
   const message = page

@@ -117,7 +117,7 @@ test("a field over two dimensions is a heat map with a scale; a sensor shows its
   await shot(page, "plot-heat");
 });
 
-test("the arrangement of panels is kept when the page is loaded anew, and in the file", async () => {
+test("the arrangement of panels is kept when the page is reloaded, and in the file", async () => {
   const { page, folder } = studio;
   const original = readFileSync(join(folder, "selection.json"), "utf8");
   expect(original).not.toContain("panels");
@@ -171,9 +171,9 @@ test("a hand makes a peak while the right button is held, or the key I", async (
   await observer.until(() => observer.max("u", "activation") < 0);
   const over = plot("Curves of u").locator(".u-over");
   const place = await over.boundingBox();
-  if (place === null) throw new Error("The plot is not in sight.");
+  if (place === null) throw new Error("The plot is not visible.");
   const pushing = () => observer.clock?.pushing === observer.element("u").id;
-  // Panels come to rest a moment after a document is opened: as a person would, press again where a press
+  // Panels stop moving a moment after a document is opened: as a person would, press again where a press
   // went beside the plot.
   for (let tries = 0; tries < 20 && !pushing(); tries++) {
     await page.mouse.up({ button: "right" });

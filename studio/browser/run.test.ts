@@ -28,7 +28,7 @@ afterAll(() => studio.stop());
 const timer = () => studio.page.getByRole("timer", { name: "Simulated time" });
 const said = () => timer().innerText();
 
-test("play goes on, pause stands still, and time and factor are in sight", async () => {
+test("play runs, pause stops, and time and factor are visible", async () => {
   const { page } = studio;
   await button(page, "Play").click();
   await button(page, "Pause").waitFor();
@@ -43,7 +43,7 @@ test("play goes on, pause stands still, and time and factor are in sight", async
   await observer.until(() => !observer.running);
   await expect.poll(() => factor.innerText()).toMatch(/^×–/);
   const { time } = observer;
-  // what stands still is shown as often as asked for, and shows the same
+  // a paused model is shown as often as requested, without a change
   await observer.ask({ type: "list_folder" });
   await observer.ask({ type: "list_folder" });
   expect(observer.time).toBe(time);

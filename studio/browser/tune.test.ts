@@ -106,7 +106,7 @@ test("a value that cannot be says why, changes nothing, and goes back", async ()
   expect(observer.document?.unsaved).toBe(false);
 });
 
-test("another kind of sigmoid compiles anew and keeps the state", async () => {
+test("another kind of sigmoid recompiles and keeps the state", async () => {
   const { page } = studio;
   await observer.ask({ type: "step", n: 300 });
   await observer.until(() => observer.clock?.tick === 300 && observer.max("u", "activation") > 1);

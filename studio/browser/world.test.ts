@@ -55,7 +55,7 @@ const robot = () => observer.world.now.bodies[0]?.x ?? Number.NaN;
 /** Where a place in the world is on the page. */
 async function onPage(place: Point): Promise<Point> {
   const area = await canvas().boundingBox();
-  if (area === null) throw new Error("The world is not in sight.");
+  if (area === null) throw new Error("The world is not visible.");
   const { x, y } = toPixels(frameOf([0, 0, 3, 2], area.width, area.height), place);
   return { x: area.x + x, y: area.y + y };
 }
@@ -69,7 +69,7 @@ async function drag(from: Point, to: Point): Promise<void> {
   await mouse.up();
 }
 
-test("the world stands there by itself, and the mouse over a thing tells its name and place", async () => {
+test("the world opens by itself, and a tooltip shows the name and position of an object", async () => {
   await canvas().waitFor();
   await expect.poll(() => colours(canvas())).toBeGreaterThan(4);
   const { x, y } = await onPage({ x: 0.8, y: 1.5 });

@@ -1,4 +1,4 @@
-// The whole page: what stands on it, and what stands before it.
+// The whole page, and the windows in front of it.
 
 import { useEffect } from "react";
 

@@ -1,7 +1,7 @@
 // A slider that is dragged: changes that are one step of undo, at most one on its way to the server, the
 // newest wins.
 
-// Numbers of gestures begin anywhere, so that a page that is loaded anew does not go on with a gesture of the
+// Numbers of gestures begin anywhere, so that a page that is reloaded does not continue a gesture of the
 // one before.
 let last = Math.floor(Math.random() * 2 ** 30);
 
@@ -21,7 +21,7 @@ export class Gesture<T> {
   private held = false;
   private idle: ReturnType<typeof setTimeout> | undefined;
 
-  // `settled` is called when everything was sent and answered, and nothing is held down any more.
+  // `settled` is called when everything was sent and answered, and no button is pressed any more.
   constructor(
     private send: Send<T>,
     private settled: () => void,

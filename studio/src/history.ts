@@ -9,7 +9,7 @@ export class History {
   values: number[] = [];
 
   // Pairs (time since the moment of the frame, value). A time before the last one means that the run began
-  // anew.
+  // again.
   add(frame: Frame): void {
     for (let i = 0; i + 1 < frame.values.length; i += 2) {
       const time = frame.time + (frame.values[i] ?? 0);

@@ -1,4 +1,4 @@
-// A studio that was started anew may have another token. The browser does not say why a socket failed to
+// A studio that was restarted may have another token. The browser does not say why a socket failed to
 // open, but it does of a request.
 
 export async function isRefused(
@@ -7,6 +7,6 @@ export async function isRefused(
   try {
     return (await ask("./", { method: "HEAD", cache: "no-store" })).status === 401;
   } catch {
-    return false; // nobody answers
+    return false; // no answer
   }
 }

@@ -11,7 +11,7 @@ const press = (key: string, held: string = "") => ({
 });
 
 describe("a key press", () => {
-  it("is told from others", () => {
+  it("differs from others", () => {
     expect(isPressed("Ctrl+Z", press("z", "c"))).toBe(true);
     expect(isPressed("Ctrl+Z", press("z", "m"))).toBe(true);
     expect(isPressed("Ctrl+Z", press("Z", "cs"))).toBe(false);

@@ -86,7 +86,7 @@ const PRESSED =
 
 export function useShortcuts(): void {
   useEffect(() => {
-    // A button that was clicked keeps the focus, but nobody sees it there: then Space plays. Asked when the
+    // A button that was clicked keeps the focus, but shows no focus ring: then Space plays. Asked when the
     // focus comes, because the first key makes it visible.
     let focusSeen = false;
     const onFocus = (event: FocusEvent) => {

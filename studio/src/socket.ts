@@ -69,7 +69,7 @@ class Socket {
     const request = ++this.lastRequest;
     if (this.socket?.readyState !== WebSocket.OPEN) {
       return {
-        answer: { type: "answer", request, problems: [{ what: "There is no connection to the studio." }] },
+        answer: { type: "answer", request, problems: [{ what: "The page is not connected to the studio." }] },
         folder: null,
       };
     }

@@ -1,4 +1,4 @@
-// What the server last said, and what the person looks at. Live arrays do not pass through here: see
+// The last messages of the server, and the state of the view. Live arrays do not pass through here: see
 // streams.ts.
 
 import { create } from "zustand";
@@ -17,7 +17,7 @@ import type {
 } from "./protocol";
 import { replaced } from "./values";
 
-// refused: the server was started anew with another token
+// refused: the server was restarted with another token
 export type Connection = "connecting" | "open" | "lost" | "refused";
 
 // What can be done about a notice, by a button.

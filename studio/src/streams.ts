@@ -1,5 +1,5 @@
 // Live arrays on their way from the socket to canvases, past React: each subscriber is called at most once
-// for each picture the browser draws, with the newest frame. Equal wishes share one stream.
+// for each picture the browser draws, with the newest frame. Equal requests share one stream.
 
 import type { Frame } from "./frames";
 import type { Announced, Lost, Trace, Watch } from "./protocol";
@@ -12,7 +12,7 @@ export type Live = {
   form: Announced | null;
   // The newest frame; null until one came. Of a time course use `history`.
   frame: Frame | null;
-  // The time course so far, for wishes of type "trace".
+  // The time course so far, for requests of type "trace".
   history: History;
   lost: Lost | null;
 };

@@ -63,7 +63,7 @@ export const theme = createTheme({
   },
 });
 
-// What Mantine draws and what theme.css draws stand on the same ground.
+// Mantine and theme.css use the same background.
 const COLOURS = {
   "--mantine-color-body": "var(--surface-raised)",
   "--mantine-color-text": "var(--text)",

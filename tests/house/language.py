@@ -25,12 +25,13 @@ PYTHON = re.compile(r'#[^\n]*|"""(?:.*?)"""|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\
 SCRIPT = re.compile(
     r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|`(?:\\.|[^`\\])*`|\'(?:\\.|[^\'\\\n])*\'|>[^<>{}=;]*<', re.DOTALL
 )
+HOLE = re.compile(r"\$\{[^{}]*\}")
 STYLE = re.compile(r"/\*.*?\*/", re.DOTALL)
 FENCE = re.compile(
     r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of |<!-- evidence .*?<!-- end -->|`[^`]*`|\]\([^)\s]*\)",
     re.M | re.S,
 )
-TAGS = re.compile(r'^\s*(?:#|//|\*)|["\'`]', re.MULTILINE)
+TAGS = re.compile(r'^[^\S\n]*(?:#|//|\*)|["\'`]', re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class Word:
     def pattern(self) -> re.Pattern[str]:
         """The phrase as whole words, over the ends of lines."""
         body = r"\s+".join(re.escape(part) for part in self.wrong.split())
-        end = r"\b" if self.wrong[-1].isalnum() else ""
+        end = r"(?![\w-])" if self.wrong[-1].isalnum() else ""
         return re.compile(rf"(?<![\w-]){body}{end}", re.IGNORECASE)
 
 
@@ -72,7 +73,7 @@ def prose(name: str, text: str) -> str:
         case ".py" | ".pyi":
             return TAGS.sub(" ", _kept(PYTHON, text))
         case ".ts" | ".tsx":
-            return TAGS.sub(" ", _kept(SCRIPT, text))
+            return TAGS.sub(" ", HOLE.sub(" ", _kept(SCRIPT, text)))
         case ".css":
             return _kept(STYLE, text)
         case _:

@@ -43,7 +43,7 @@ export const selection = {
   connections: [wire("left", "u"), wire("right", "u")],
 };
 
-/** The same with so many curves of the field in as many plots. */
+/** The same with `count` curves of the field in as many plots. */
 export function curves(count: number): object {
   const plots = Array.from({ length: count }, () => plot("u", "curve", "activation"));
   return {

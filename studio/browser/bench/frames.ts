@@ -7,9 +7,9 @@ import { quantile } from "./figures";
 export interface Smoothness {
   /** Pictures of the browser in a second. */
   rate: number;
-  /** 95 of 100 pictures came after at most so many ms. */
+  /** 95 of 100 pictures came within this time, in ms. */
   p95: number;
-  /** How often the canvas that was drawn least was drawn anew, in a second; 0 where none was. */
+  /** How often a second the least drawn canvas was drawn; 0 where none was. */
   least: number;
   /**
    * Processor time for each picture in ms: the page's own script, the page's process as a whole, and the

@@ -32,7 +32,7 @@ export async function firstPaint(name: string, document: object | null, stands: 
     }
     showLoad();
     show(`first paint of ${name}`, median(first) / 1000, "s", "< 1.5");
-    show(`${name} stands there as a whole`, median(whole) / 1000, "s");
+    show(`${name} is complete`, median(whole) / 1000, "s");
   });
 }
 
@@ -57,7 +57,7 @@ export async function tenPlots(): Promise<void> {
     const found = await smoothness(browser, page, SECONDS, PLOTS);
     showLoad();
     show("ten plots with a field of 200 x 200: pictures of the browser", found.rate, "1/s", ">= 30");
-    show("ten plots: the plot that is drawn anew least often", found.least, "1/s", ">= 30");
+    show("ten plots: the plot that is drawn least often", found.least, "1/s", ">= 30");
     show("ten plots: time between pictures, 95 of 100 below", found.p95, "ms", "<= 50");
     costs("ten plots", found);
     show(
@@ -79,9 +79,9 @@ export async function manyElements(count: number): Promise<void> {
     const still = await smoothness(browser, page, SECONDS, ".graph-live canvas");
     showLoad();
     const shown = await page.locator(".graph-live").count();
-    show(`${count} elements on the canvas: live boxes in sight`, shown, "");
+    show(`${count} elements on the canvas: visible live boxes`, shown, "");
     show(`${count} elements with live boxes: time between pictures, 95 % below`, still.p95, "ms", "<= 50");
-    show(`${count} elements: the live box that is drawn anew least often`, still.least, "1/s");
+    show(`${count} elements: the live box that is drawn least often`, still.least, "1/s");
     costs(`${count} elements`, still);
     const [moved] = await Promise.all([
       smoothness(browser, page, SECONDS, ".none"),

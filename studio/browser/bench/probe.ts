@@ -1,5 +1,5 @@
 /**
- * What runs in the page before the page: it notes when canvases are drawn anew and what comes over the
+ * What runs in the page before the page: it records when canvases are drawn and what arrives over the
  * socket.
  */
 
@@ -9,7 +9,7 @@ export function asScript(probe: () => void): string {
 }
 
 export interface Probe {
-  /** When each canvas was last cleared to be drawn anew, in ms, and how often. */
+  /** When each canvas was last cleared to be drawn, in ms, and how often. */
   drawn: Map<HTMLCanvasElement, { at: number; times: number }>;
   /** How often a picture of pixels was put on a canvas, or one was cleared. */
   draws: number;

@@ -101,7 +101,7 @@ function watch({
       };
       requestAnimationFrame(look);
     }
-    // Noise is measured where the field stands: a frame far from the ones before begins anew.
+    // Noise is measured at rest: a frame far from the ones before starts a new measurement.
     if (pressed === null) {
       means.push(mean);
       if (means.length > former) {

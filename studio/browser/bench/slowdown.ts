@@ -9,7 +9,7 @@ const CLOCKS = 5;
 const PAUSE_MS = 600;
 
 /**
- * Steps a second while nobody watches, and by how many percent less with four plots in a browser, in
+ * Steps a second without an open page, and by how many percent less with four plots in a browser, in
  * alternation.
  */
 export async function slowed(rounds: number): Promise<{ free: number; percent: number }> {
@@ -37,7 +37,7 @@ interface Observer {
 }
 
 /**
- * A page without a screen, which looks at the clock only when it is asked for; the engine runs free from now
+ * A page without a screen, which reads the clock only when it is asked for; the engine runs free from now
  * on.
  */
 async function connected({ server }: Stage): Promise<Observer> {
@@ -79,7 +79,7 @@ async function connected({ server }: Stage): Promise<Observer> {
 async function steps(observer: Observer): Promise<number> {
   await pause(SETTLE_MS);
   const found: number[] = [];
-  await observer.clock(); // one that was put together long ago
+  await observer.clock(); // an old one
   for (let i = 0; i < CLOCKS; i++) {
     await pause(PAUSE_MS);
     found.push(await observer.clock());

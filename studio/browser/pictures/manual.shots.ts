@@ -20,7 +20,7 @@ async function open(colours: "light" | "dark", options: StudioOptions): Promise<
   return studio;
 }
 
-/** Run until the clock shows this much document time, then stand still. */
+/** Run until the clock shows this much document time, then pause. */
 async function run(page: Page, milliseconds: number): Promise<void> {
   await page.getByRole("button", { name: /^play/i }).click();
   await expect.poll(async () => tick(page), { ...PATIENCE, interval: 100 }).toBeGreaterThan(milliseconds);
@@ -99,7 +99,7 @@ for (const colours of COLOURS) {
       .getByRole("img", { name: /^The world from above/ });
     const area = await canvas.boundingBox();
     const border = observer.world.now.scene?.border ?? [0, 0, 1, 1];
-    if (area === null) throw new Error("The world is not in sight.");
+    if (area === null) throw new Error("The world is not visible.");
     const at = (x: number, y: number) =>
       toPixels(frameOf(border as [number, number, number, number], area.width, area.height), { x, y });
     const [from, to] = [at(-0.65, 0.65), at(-0.85, 0.2)];

@@ -41,7 +41,7 @@ export function Costs() {
       ))}
       {again ? (
         <table className="cost-table numbers">
-          <caption>What each element takes of a step</caption>
+          <caption>Time that each element takes of a step</caption>
           <thead>
             <tr>
               <th scope="col">Element</th>

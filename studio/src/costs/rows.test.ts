@@ -35,7 +35,7 @@ it("a row has the name that its element has now, its time, its share and a bar",
   expect(rows[1]).toMatchObject({ element: null, path: "old v", share: "25.0 %" });
   expect(rows[1]?.about).toContain("with 1 of the same structure");
   expect(rows[2]).toMatchObject({ time: "once", share: "", bar: 0 });
-  expect(rows[2]?.about).toContain("Stands still");
+  expect(rows[2]?.about).toContain("Constant");
   expect(new Set(rows.map((row) => row.key)).size).toBe(3);
 });
 

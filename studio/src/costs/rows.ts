@@ -9,7 +9,7 @@ export type CostRow = {
   path: string;
   kind: string;
   us: number;
-  // of the dearest row, 0 to 1: how long its bar is
+  // share of the most expensive row, 0 to 1: the length of its bar
   bar: number;
   share: string;
   time: string;
@@ -46,7 +46,7 @@ export function microsecondsText(us: number): string {
 
 function aboutOf({ once, alike }: CostView): string {
   if (once) {
-    return "Stands still: computed when something is changed and a few times a second, not in every step";
+    return "Constant: computed after a change and a few times a second, not in every step";
   }
   return alike > 1
     ? `Computed together with ${alike - 1} of the same structure; they share the time equally`

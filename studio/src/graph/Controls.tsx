@@ -24,7 +24,7 @@ export function Controls({ onSearch, onTidy }: Props) {
       <Control label="Show everything" onClick={() => void fitView({ ...FIT, duration: glide(GLIDE_MS) })}>
         <IconMaximize size={16} />
       </Control>
-      <Control label="Tidy: lay everything out anew" onClick={onTidy}>
+      <Control label="Tidy: compute a new layout" onClick={onTidy}>
         <IconSitemap size={16} style={{ transform: "rotate(-90deg)" }} />
       </Control>
     </div>

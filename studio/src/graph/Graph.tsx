@@ -102,7 +102,7 @@ function Canvas({ structure }: { structure: Structure }) {
   }, [structure, kinds, flow]);
 
   // While the canvas is moved it is one layer that the browser only shifts: live boxes rest, and nothing is
-  // painted anew.
+  // painted again.
   const move = useCallback(
     (moving: boolean) => {
       useHover.getState().close();
@@ -209,7 +209,7 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
   };
 }
 
-// Until somebody reaches in, everything is in sight, whatever size the panel gets: at first it is seldom its
+// Until a person moves the view, all boxes are visible at any size of the panel: at first it rarely has its
 // own. Gives what to call then.
 function useWhole(around: RefObject<HTMLElement | null>): () => void {
   const { fitView } = useReactFlow();

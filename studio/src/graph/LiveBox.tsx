@@ -1,5 +1,5 @@
 // The live picture of an element, drawn past React and shown by the live layer. It asks for data only while
-// it is mounted, which is while it is in sight.
+// it is mounted, which is while it is visible.
 
 import { useComputedColorScheme } from "@mantine/core";
 import { useContext, useEffect, useRef } from "react";

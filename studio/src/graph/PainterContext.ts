@@ -1,4 +1,4 @@
-// The painter of the canvas that a live box stands on, and the layer on which it is shown.
+// The painter of the canvas that shows a live box, and the layer on which it is shown.
 
 import { createContext } from "react";
 import { LiveLayer } from "./liveLayer";

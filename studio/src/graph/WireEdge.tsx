@@ -1,4 +1,4 @@
-// A connection on the canvas, with the couplings that stand on it.
+// A connection on the canvas, with the couplings that are drawn on it.
 
 import {
   BaseEdge,

@@ -1,4 +1,4 @@
-// Changes of the layout, as the server is told them.
+// Changes of the layout, as messages to the server.
 
 import type { Answer } from "../protocol";
 import { request } from "../socket";
@@ -6,7 +6,7 @@ import { useStudio } from "../store";
 import { readFolded } from "./boxes";
 import type { Point } from "./layout";
 
-// Fold a group, or open it. The way it is looked at is kept, but is no step of undo.
+// Fold a group, or open it. The document keeps it, without a step of undo.
 export function fold(key: string, closed: boolean): void {
   const folded = readFolded(useStudio.getState().document?.layout ?? {}).filter((other) => other !== key);
   void request({ type: "arrange", layout: { folded: closed ? [...folded, key] : folded }, undoable: false });

@@ -26,7 +26,7 @@ export function boxSize(element: ElementView): Size {
   };
 }
 
-// The height at which the n-th of so many ports of one side stands.
+// The height of the n-th of `count` ports of one side.
 export function portHeight(height: number, n: number, of: number): number {
   return Math.round((height * (n + 1)) / (of + 1));
 }

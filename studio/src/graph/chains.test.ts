@@ -26,7 +26,7 @@ test("a connection without couplings is an edge", () => {
   expect(couplings.size).toBe(0);
 });
 
-test("couplings in a chain stand on one edge, in their order", () => {
+test("couplings in a chain are drawn on one edge, in their order", () => {
   const { edges, couplings } = of(["b", "a"], "u a b v");
   expect(edges).toMatchObject([
     { source: "u", source_port: "output", target: "v", target_port: "input", couplings: ["a", "b"] },
@@ -34,7 +34,7 @@ test("couplings in a chain stand on one edge, in their order", () => {
   expect([...couplings].sort()).toEqual(["a", "b"]);
 });
 
-test("a coupling from a node to itself stands on a loop", () => {
+test("a coupling from a node to itself is drawn on a loop", () => {
   expect(of(["a"], "u a u").edges).toMatchObject([{ source: "u", target: "u", couplings: ["a"] }]);
 });
 
@@ -45,7 +45,7 @@ test("a coupling that is not one-in one-out is a node", () => {
   expect(of(["a"], "a v").couplings.size).toBe(0);
 });
 
-test("a chain goes on from a coupling that is a node", () => {
+test("a chain continues from a coupling that is a node", () => {
   const { edges } = of(["a", "b"], "u a", "v a", "a b v");
   expect(edges.map((e) => [e.source, e.target, e.couplings])).toEqual([
     ["u", "a", []],

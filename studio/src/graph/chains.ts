@@ -1,4 +1,4 @@
-// Couplings that are drawn on an edge: those that stand in a chain, with one connection in and one out.
+// Couplings that are drawn on an edge: those in a chain, with one connection in and one out.
 
 import type { ConnectionView, DocumentView, ElementView, Kind } from "../protocol";
 
@@ -17,7 +17,7 @@ export type Chains = { edges: Chain[]; couplings: Set<string> };
 
 type Wired = Pick<DocumentView, "elements" | "connections">;
 
-// The edges of the canvas, and the couplings that stand on them and not beside them.
+// The edges of the canvas, and the couplings that are drawn on them.
 export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   const known = new Set(document.elements.map((e) => e.id));
   const connections = document.connections.filter((c) => known.has(c.source) && known.has(c.target));

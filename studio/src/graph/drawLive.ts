@@ -97,7 +97,7 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
   ctx.fillText(Number.isFinite(value) ? rounded(value) : "not finite", width - 2, middle + 0.5);
 }
 
-// Digits that stand still enough to be read.
+// Digits that change slowly enough to be read.
 function rounded(value: number): string {
   return Math.abs(value) >= 1000 || (value !== 0 && Math.abs(value) < 0.01)
     ? short(Number(value.toPrecision(3)))

@@ -50,7 +50,7 @@ export function short(value: number): string {
   return text.replaceAll("-", "−");
 }
 
-// The value that counts: what a document parameter drives stands at the value of that one.
+// The value that counts: a driven parameter has the value of its document parameter.
 function current(element: ElementView, name: string, { knobs }: Context): unknown {
   const knob = knobs.find((k) =>
     k.links.some((link) => link.element === element.id && link.parameter === name),

@@ -1,4 +1,4 @@
-// Which element the pointer rests on, and where that stands on the screen.
+// Which element the pointer rests on, and its position on the screen.
 
 import { create } from "zustand";
 

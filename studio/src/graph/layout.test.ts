@@ -44,7 +44,7 @@ test("connected elements stand from left to right", () => {
   expect(at("b").x + SIZE.width).toBeLessThan(at("c").x);
 });
 
-test("boxes stay where the document has them, the rest stands beside them", () => {
+test("boxes stay where the document has them, the others are placed beside them", () => {
   const boxes = { a: { x: 1000, y: 500 }, b: { x: 1200, y: 500 } };
   const { at } = laid(
     ["a", "b", "c"],

@@ -66,7 +66,7 @@ test("pictures are shown where their boxes stand, those out of sight are not", (
   expect([canvas.width, canvas.height]).toEqual([400, 300]);
 });
 
-test("a picture that keeps its shape stands in the middle", () => {
+test("a picture that keeps its shape is centred", () => {
   const { layer, drawn } = stage();
   layer.add(slot(10, 20), picture({ objectFit: "contain" }));
   next();
@@ -82,7 +82,7 @@ test("who left is not shown", () => {
   expect(drawn).toEqual([]);
 });
 
-test("while the view is moved the layer moves as it is, and is painted anew when it stands still", () => {
+test("while the view is moved the layer moves as it is, and is painted again when the view rests", () => {
   const { layer, canvas, drawn } = stage();
   layer.add(slot(110, 70), picture());
   layer.move({ x: 0, y: 0, zoom: 1 });
@@ -90,7 +90,7 @@ test("while the view is moved the layer moves as it is, and is painted anew when
   next();
   expect(drawn).toEqual([]);
   expect(canvas.style.transform).toBe("translate(30px, -10px) scale(2)");
-  vi.runAllTimers(); // nobody said that it ended
+  vi.runAllTimers(); // no message said that it ended
   next();
   expect(canvas.style.transform).toBe("");
   expect(drawn).toHaveLength(1);

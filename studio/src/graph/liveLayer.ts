@@ -4,7 +4,7 @@
 
 import type { Viewport } from "@xyflow/react";
 
-// Without a further move for so long the view stands still, whether its end was told or not.
+// Without a further move for this time the view is at rest, with or without a message of its end.
 const STILL_MS = 400;
 
 export class LiveLayer {
@@ -46,8 +46,8 @@ export class LiveLayer {
     }
   }
 
-  // While the view is moved the layer moves with it as it is, which costs a browser nothing; null: it stands
-  // still, and is painted anew.
+  // While the view is moved the layer moves with it as it is, which costs a browser nothing; null: it is at
+  // rest, and is painted again.
   move(view: Viewport | null): void {
     if (this.canvas === null) {
       return;

@@ -5,7 +5,7 @@ import type { Places, Point } from "./layout";
 import { groupNode, type SceneNode } from "./scene";
 import { below, type Tree } from "./tree";
 
-// The boxes of all elements, from the nodes as they stand now; what a folded group hides goes with it.
+// The boxes of all elements, from the present nodes; what a folded group hides goes with it.
 export function moved(nodes: SceneNode[], found: Tree, places: Places): Map<string, Point> {
   const known = new Map(nodes.map((node) => [node.id, node]));
   const at = (node: SceneNode): Point => {

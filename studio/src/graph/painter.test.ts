@@ -12,7 +12,7 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-test("only the last wish of an owner is drawn", () => {
+test("only the last request of an owner is drawn", () => {
   const painter = new Painter();
   const [owner, drawn] = [{}, [] as string[]];
   painter.wish(owner, () => drawn.push("old"));

@@ -22,7 +22,7 @@ export class Painter {
   // `after` runs when something was drawn.
   constructor(private after: () => void = () => undefined) {}
 
-  // Draw when there is time; a later wish of the same owner takes the place of the former.
+  // Draw when there is time; a later request of the same owner replaces the former.
   wish(owner: object, draw: Draw): void {
     this.waiting.set(owner, draw);
     this.ask();

@@ -52,7 +52,7 @@ test("edges back take courses that differ", () => {
   expect(wires.find((w) => w.source === "b" && w.target === "a")?.data?.lane).toBeGreaterThan(0);
 });
 
-test("a layout that nobody could have meant is passed over", () => {
+test("an invalid layout is ignored", () => {
   const odd = { boxes: { s: { x: "left", y: 1 }, t: null }, folded: [3, "g"] };
   expect(scene(fakeDocument(ELEMENTS, WIRES, { layout: odd }), KINDS).nodes).toHaveLength(3);
   expect(

@@ -72,7 +72,7 @@ export function pillsWidth(names: string[]): number {
   );
 }
 
-// Folded groups hide what is in them; an open group is a frame and stands before what is in it, as xyflow
+// Folded groups hide what is in them; an open group is a frame and precedes what is in it, as xyflow
 // wants parents.
 function nodesOf(
   branch: Branch,
@@ -154,7 +154,7 @@ function groupOf(group: Branch, rect: Rect, stand: Stand): FrameNode | FoldedNod
   };
 }
 
-// Handles are told to xyflow beforehand: edges to nodes out of sight are then drawn without mounting those.
+// xyflow receives handles beforehand: edges to invisible nodes are then drawn without mounting those.
 function ports(names: string[], type: "source" | "target", { width, height }: Size): NodeHandle[] {
   const left = type === "target";
   return names.map((id, n) => ({

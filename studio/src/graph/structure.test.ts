@@ -10,7 +10,7 @@ test("values that change leave the structure the same object", () => {
   expect(select({ document: { ...document, unsaved: true, elements } })).toBe(first);
 });
 
-test("everything else makes it anew", () => {
+test("every other change makes it again", () => {
   const select = selector();
   const document = fakeDocument([fakeElement("u")]);
   const first = select({ document });

@@ -1,5 +1,5 @@
 // The part of the document that the canvas is built from. It stays the same object while only values change,
-// so that a slider that is dragged does not build the canvas anew.
+// so that a slider that is dragged does not build the canvas again.
 
 import { useState } from "react";
 import type { ElementView } from "../protocol";

@@ -17,7 +17,7 @@ test("groups nest, also those that only elements name", () => {
   expect(around(found, "arm.hand.u").map((g) => g.key)).toEqual(["arm", "arm/hand"]);
 });
 
-test("what stands on edges is counted but has no place of its own", () => {
+test("couplings on edges are counted but have no box of their own", () => {
   const found = tree(elements, [], [], new Set(["arm.gain"]));
   const arm = found.groups.get("arm");
   expect(arm?.count).toBe(3);

@@ -16,7 +16,7 @@ export type Branch = {
 export type Tree = {
   root: Branch;
   groups: Map<string, Branch>;
-  // The group an element or a group stands in: by element id, or by key.
+  // The group that contains an element or a group: by element id, or by key.
   home: Map<string, string>;
   outer: Map<string, string>;
 };

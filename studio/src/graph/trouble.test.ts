@@ -34,9 +34,9 @@ test("all warnings of an element are said, with what to type, and problems are n
   expect(warningOf("w", { document: null, clock: null })).toBe("");
 });
 
-test("a name made from a connection gives way to the kind", () => {
+test("the kind replaces a name made from a connection", () => {
   expect(labelOf("colour>Convolve", "Convolve", "Convolution")).toBe("Convolution");
   expect(labelOf("colour>Gain2", "Gain", "Gain")).toBe("Gain");
   expect(labelOf("strength", "Gain", "Gain")).toBe("strength");
-  expect(labelOf("u -> v", "Gain", "Gain"), "a name that somebody gave").toBe("u -> v");
+  expect(labelOf("u -> v", "Gain", "Gain"), "a name that a person gave").toBe("u -> v");
 });

@@ -1,4 +1,4 @@
-// The nodes as they stand on the canvas: those of the scene, moved while they are dragged. The selection is
+// The nodes on the canvas: those of the scene, moved while they are dragged. The selection is
 // the store's.
 
 import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";

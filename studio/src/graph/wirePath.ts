@@ -47,7 +47,7 @@ function around(from: Point, to: Point, y: number, lane: number): Course {
   return { path, middle: { x: (from.x + to.x) / 2, y } };
 }
 
-// A height below both ends at which nothing stands in the way.
+// A height below both ends at which nothing is in the way.
 function below(from: Point, to: Point, ends: Rect[], others: Rect[], lane: number): number {
   let y = Math.max(...ends.map((end) => end.y + end.height)) + BELOW;
   const near = others

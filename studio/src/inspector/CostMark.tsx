@@ -8,7 +8,7 @@ import { useBusy } from "./lastChange";
 
 const COSTS = {
   rebuild: { text: "Rebuilds the kernel; takes effect at once", Icon: IconRefresh },
-  recompile: { text: "Compiles anew in the background; the state is kept", Icon: IconSettingsAutomation },
+  recompile: { text: "Recompiles in the background; the state is kept", Icon: IconSettingsAutomation },
 };
 
 export function CostMark({

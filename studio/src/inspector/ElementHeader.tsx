@@ -9,7 +9,7 @@ export function ElementHeader({ element, kind }: { element: ElementView; kind: K
   const select = useStudio((state) => state.select);
   return (
     <header className="inspector-header">
-      <nav className="inspector-path" aria-label="Where it stands">
+      <nav className="inspector-path" aria-label="Path of the element">
         <UnstyledButton className="to-document" onClick={() => select([])}>
           Document
         </UnstyledButton>

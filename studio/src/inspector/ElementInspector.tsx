@@ -29,7 +29,7 @@ export function ElementInspector({ id }: { id: string }) {
     [id, timeUnit, found],
   );
   if (element === undefined) {
-    return <div className="inspector-empty">This element is gone.</div>;
+    return <div className="inspector-empty">This element was removed.</div>;
   }
   return (
     <PlaceContext.Provider value={place}>
@@ -42,7 +42,7 @@ export function ElementInspector({ id }: { id: string }) {
           <Equation lines={kind.equation} reference={kind.reference} />
           <section className="parameters" aria-label="Parameters">
             <PartFields kind={kind.name} values={element.values} />
-            {kind.parameters.length === 0 && <p className="dim">It has no parameters.</p>}
+            {kind.parameters.length === 0 && <p className="dim">This element has no parameters.</p>}
           </section>
           <PortTable element={element} kind={kind} axes={axes} />
         </>

@@ -1,4 +1,4 @@
-// The equation of a kind, typeset, and where it stands in the literature.
+// The equation of a kind, typeset, and its source in the literature.
 
 import { Tex } from "./Tex";
 

@@ -11,7 +11,7 @@ import { useLateFocus } from "./lateFocus";
 import { driver, leavesOf } from "./leaf";
 import { ProblemLine } from "./ProblemLine";
 
-// Of so many parameters no one reads a list: type to find one.
+// Lists longer than this have a search box.
 const MOST_SHOWN = 60;
 
 // Without `name` a new document parameter is made, and its name is asked for.
@@ -58,7 +58,7 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
         limit={MOST_SHOWN}
         data={options}
         value={chosen}
-        aria-label="What it drives"
+        aria-label="Driven parameter"
         placeholder="what it drives"
         nothingFoundMessage="No such parameter"
         comboboxProps={{ shadow: "md" }}

@@ -27,11 +27,11 @@ type RowProps = {
   label?: string;
   // A single number, which can be pinned and linked.
   leaf?: boolean;
-  // The control stands beside the name, not below.
+  // The control is beside the name, not below.
   inline?: boolean;
   // A unit that has no room inside the control.
   unit?: string;
-  // Stands at the end of the first line.
+  // At the end of the first line.
   extra?: ReactNode;
   // Without a control the row is the head of the rows that follow.
   children?: ReactNode;

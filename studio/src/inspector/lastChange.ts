@@ -1,4 +1,4 @@
-// The parameter that was changed last: while something is being made anew, its row says so.
+// The parameter that was changed last: while it is rebuilt or recompiled, its row shows this.
 
 import { create } from "zustand";
 

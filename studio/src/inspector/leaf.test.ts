@@ -101,7 +101,7 @@ test("the numbers that can be driven", () => {
   ]);
 });
 
-test("whole numbers and numbers that compile anew cannot be driven", () => {
+test("whole numbers and numbers that recompile cannot be driven", () => {
   expect(linkable(form("n", "integer"))).toBe(false);
   expect(linkable(form("n", "per_axis", "recompile"))).toBe(false);
   expect(linkable(form("n", "per_axis", "rebuild"))).toBe(true);

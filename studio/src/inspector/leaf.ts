@@ -16,7 +16,7 @@ export function linkable(form: ParameterForm): boolean {
   return NUMBERS.includes(form.form) && form.cost !== "recompile";
 }
 
-// How the parameter at a path is declared; undefined where nothing stands there.
+// How the parameter at a path is declared; undefined without a parameter there.
 export function formAt(kinds: Kinds, kind: string, values: unknown, path: string): ParameterForm | undefined {
   const [head = "", ...rest] = path.split(".");
   const form = kinds.get(kind)?.parameters.find((p) => p.name === head);

@@ -37,7 +37,7 @@ const UNDECLARED: ParameterForm = {
   of: [],
 };
 
-// Undefined where no number stands at that path.
+// Undefined without a number at that path.
 export function lookOf(
   { kinds, axes, timeUnit }: Surroundings,
   element: ElementView | undefined,

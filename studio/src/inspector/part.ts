@@ -5,7 +5,7 @@ import type { Values } from "../values";
 import type { Kinds } from "./leaf";
 import { numberText } from "./number";
 
-// So many numbers are shown in one line.
+// The number of values that are shown in one line.
 const MOST = 3;
 
 export function kindOf(kinds: Kinds, part: unknown): Kind | undefined {

@@ -87,7 +87,7 @@ describe("a range from the size of default and value", () => {
     expect(ends({ unit: "time", default: 0 }, -100)).toEqual([-200, 200]);
   });
 
-  test("for ever is no size", () => {
+  test("infinite durations do not set the range", () => {
     expect(ends({ unit: "time", default: 1e30 }, 600)).toEqual([0, 2000]);
     expect(ends({ unit: "time", default: 1e30 }, 1e30)).toEqual([0, 1000]);
   });
@@ -180,7 +180,7 @@ describe("steps", () => {
     expect(sliderRange(form({ form: "integer", default: 500, lower: 0 }), 500, standing()).step).toBe(5);
   });
 
-  test("a slider stands at round values, inside its range", () => {
+  test("a slider is at round values, inside its range", () => {
     const range = sliderRange(form({ default: 5, lower: 0 }), 5, standing());
     expect(snapped(3.1415, range)).toBe(3.15);
     expect(snapped(99, range)).toBe(10);

@@ -18,9 +18,9 @@ export type Standing = {
   own: boolean;
 };
 
-// Beyond this a number means "for ever" and says nothing about a range.
+// Beyond this a number means infinity and does not set a range.
 const ENDLESS = 1e12;
-// Declared bounds further apart than so many times the value are limits, not a range.
+// Declared bounds whose distance exceeds this multiple of the value are limits, not a range.
 const WIDE = 1e3;
 const STEPS = 200;
 

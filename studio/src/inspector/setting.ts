@@ -21,7 +21,7 @@ export type Setting<T = unknown> = {
   forget: () => void;
 };
 
-// `element` is empty for a document parameter. A value that compiles the program anew is sent when the drag
+// `element` is empty for a document parameter. A value that recompiles the program is sent when the drag
 // ends, not on the way.
 export function useSetting<T>(
   element: string,

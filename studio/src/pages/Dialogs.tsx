@@ -1,4 +1,4 @@
-// The question that stands before the page, as a window of its own.
+// The question in a modal window.
 
 import { Modal } from "@mantine/core";
 

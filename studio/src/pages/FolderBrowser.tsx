@@ -35,7 +35,7 @@ export function FolderBrowser({
   const list = useRef<HTMLUListElement>(null);
   const before = useRef(path);
   useEffect(() => {
-    // The button that led here is gone; the keyboard goes on in the list.
+    // The button that led here was removed; the focus moves to the list.
     if (before.current !== path) {
       before.current = path;
       list.current?.focus();

@@ -49,7 +49,7 @@ describe("leaving a document", () => {
     expect(sent).toEqual([{ type: "open_example", name: "selection" }]);
   });
 
-  it("goes on without the unsaved edits", async () => {
+  it("continues without the unsaved edits", async () => {
     given({});
     server({ ask: "unsaved" }, {});
     const questions = person("discard");
@@ -162,7 +162,7 @@ describe("saving", () => {
     expect(sent[1]).toEqual({ type: "save", path: "b.json", replace: false });
   });
 
-  it("proposes the title where there is no file", async () => {
+  it("proposes the title without a file", async () => {
     given({});
     server({});
     const questions = person("selection.json");

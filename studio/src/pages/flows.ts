@@ -116,7 +116,7 @@ async function showPicture(picture: string | File): Promise<boolean> {
   const world = [...kinds.values()].find((kind) => kind.room === "worlds");
   if (clock?.senses !== true || world === undefined) {
     return refuse({
-      what: "Nothing here reads a picture.",
+      what: "This document has no sensor for a picture.",
       fix: "Open a document with a sensor first, for example one from the gallery.",
     });
   }

@@ -1,4 +1,4 @@
-// Whether the gallery stands before a document that is open.
+// Whether the gallery covers an open document.
 
 import { create } from "zustand";
 

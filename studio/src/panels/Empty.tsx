@@ -1,4 +1,4 @@
-// What stands where all panels were closed.
+// What the page shows after all panels were closed.
 
 import { PanelMenu } from "./PanelMenu";
 

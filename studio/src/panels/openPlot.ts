@@ -1,4 +1,4 @@
-// Adding panels to the dock from anywhere: the dock tells its interface when it stands.
+// Adding panels to the dock from anywhere: the dock passes on its interface when it is ready.
 
 import type { DockviewApi, IDockviewPanel } from "dockview-react";
 import { mainPort, type PlotKind, plotKinds, portAxes } from "../plots/kinds";

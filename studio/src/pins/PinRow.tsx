@@ -127,7 +127,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
         </span>
       </div>
       {gone || look === undefined ? (
-        <p className="pin-gone">There is no such number in the document any more.</p>
+        <p className="pin-gone">This parameter is no longer in the document.</p>
       ) : (
         <NumberControl
           label={pin.label ?? path}
@@ -152,7 +152,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
   );
 }
 
-// The end of a path says most: what is before it gives way.
+// The end of a path says most: what is before it is cut first.
 function PinName({ pin, path }: { pin: Pin; path: string }) {
   if (pin.label !== undefined) {
     return <span className="one-line pin-label">{pin.label}</span>;

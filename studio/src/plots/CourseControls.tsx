@@ -51,7 +51,7 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
         <SegmentedControl
           size="xs"
           fullWidth
-          aria-label="Length of the time that is shown"
+          aria-label="Displayed duration"
           data={WINDOWS.map((length) => ({
             value: String(length),
             label: length === null ? "all" : String(length),
@@ -88,7 +88,7 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
           <SegmentedControl
             size="xs"
             fullWidth
-            aria-label="What is taken of the array"
+            aria-label="Reduction of the array"
             data={[
               { value: "max", label: "maximum" },
               { value: "mean", label: "mean" },

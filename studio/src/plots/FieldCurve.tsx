@@ -95,7 +95,7 @@ export function FieldCurve(props: PlotProps) {
     ],
     hooks: { draw: [(self) => drawLevels(self, lines(), look)] },
   });
-  // What is drawn of the axis, not the axis: a chart made anew when its first values come would end what a
+  // What is drawn of the axis, not the axis: a new chart at the first values would end what a
   // hand holds.
   const key = JSON.stringify([
     element.id,

@@ -57,7 +57,7 @@ export function HeatMap(props: PlotProps) {
   const [x = UNKNOWN, y = UNKNOWN] = form?.axes ?? [];
   const down = useStudio((state) => state.document !== null && runsDown(state.document, y));
 
-  // The colours change only with the range: then the bar is drawn anew.
+  // The colours change only with the range: then the bar is drawn again.
   const follow = (values: Float32Array) => {
     const middle = twoSided ? (thresholdOf(levels.current) ?? 0) : null;
     const range =

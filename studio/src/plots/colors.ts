@@ -102,7 +102,7 @@ export function shade(): Shade {
   return document.documentElement.dataset["mantineColorScheme"] === "dark" ? "dark" : "light";
 }
 
-// The piece of a two-sided scale that belongs to a range: its middle stands at `middle`, and equal steps are
+// The piece of a two-sided scale that belongs to a range: its middle is at `middle`, and equal steps are
 // equal changes of colour on both sides of it.
 export function centred(table: Scale, lower: number, upper: number, middle: number): Scale {
   const reach = Math.max(upper - middle, middle - lower);

@@ -1,4 +1,4 @@
-// A plot as a PNG: drawn anew at twice its size in the colours of paper, with its title and legend.
+// A plot as a PNG: drawn again at twice its size in the colours of paper, with its title and legend.
 
 import uPlot from "uplot";
 import { font, type Look, paperLook } from "./look";

@@ -33,7 +33,7 @@ export function paintGhost(
   }
 }
 
-// The shape only, half as high as the plot: its amplitude seldom fits the scale. Downwards where it inhibits.
+// The shape only, half as high as the plot: its amplitude rarely fits the scale. Downwards where it inhibits.
 function hill(
   ctx: CanvasRenderingContext2D,
   chart: uPlot,

@@ -1,4 +1,4 @@
-// How charts look on the page and on paper: colours and sizes for uPlot, which draws onto canvases and knows
+// How charts look on the page and on paper: colours and sizes for uPlot, which draws onto canvases and reads
 // no style sheets.
 
 import type uPlot from "uplot";

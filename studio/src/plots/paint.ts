@@ -1,4 +1,4 @@
-// Drawing arrays onto canvases: nothing here knows of React, sockets or elements.
+// Drawing arrays onto canvases: nothing here depends on React, sockets or elements.
 
 import type { Scale } from "./colors";
 

@@ -1,4 +1,4 @@
-// An input that a person adds to an element while a button is held: told to the server at most once for each
+// An input that a person adds to an element while a button is held: sent to the server at most once for each
 // picture of the browser.
 
 import type { Push, Release } from "../protocol";
@@ -16,7 +16,7 @@ export class Pusher {
     return this.held !== null;
   }
 
-  // Begin, or go on at another place.
+  // Begin, or continue at another place.
   push(element: string, { center, sigma, amplitude }: Spot): void {
     const first = this.held === null;
     this.held = element;

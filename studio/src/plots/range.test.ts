@@ -24,7 +24,7 @@ describe("ranges", () => {
     expect(calm.next([0, 1], [], 3200)).toEqual([0, 3]);
   });
 
-  it("start waiting anew when large values come back", () => {
+  it("restart the wait when large values return", () => {
     const calm = new CalmRange();
     calm.next([0, 10], [], 0);
     calm.next([0, 1], [], 100);
@@ -61,7 +61,7 @@ describe("numbers", () => {
     expect(short(0.123456)).toBe("0.1235");
   });
 
-  it("stand at round places", () => {
+  it("are at round places", () => {
     expect(ticks([-5, 4], 4)).toEqual({ places: [-5, 0], step: 5 });
     expect(ticks([0, 1], 5).places).toEqual([0, 0.2, 0.4, 0.6, 0.8, 1]);
     expect(ticks([2, 2], 5).places).toEqual([2]);

@@ -28,8 +28,8 @@ export class CalmRange {
   // `room`: how much of the range stays free on both sides.
   constructor(private room = 0) {}
 
-  // The range for values in `extent` (null: none) and for levels that have to be seen, at a moment on the
-  // wall in ms.
+  // The range for values in `extent` (null: none) and for levels that have to be seen, at a moment of the
+  // wall clock in ms.
   next(extent: Range | null, include: number[], now: number): Range {
     let target = extent;
     for (const level of include) {

@@ -64,7 +64,7 @@ function merged(parts: { times: number[]; values: number[] }[]): Traces {
 }
 
 // The times that are shown: the newest `window` time units, or all. While less than that has passed, the axis
-// stands still.
+// is at rest.
 export function timeRange(first: number, last: number, window: number | null): [number, number] {
   if (window === null) {
     return last > first ? [first, last] : [first, first + 1];

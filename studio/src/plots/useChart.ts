@@ -1,4 +1,4 @@
-// A uPlot that fills its place, follows the size and the colours of the page, and tells what lies under the
+// A uPlot that fills its place, follows the size and the colours of the page, and reports what lies under the
 // cursor.
 
 import { useComputedColorScheme } from "@mantine/core";
@@ -13,7 +13,7 @@ export type ChartOptions = Omit<uPlot.Options, "width" | "height"> & {
 };
 
 export type Chart = {
-  // Made anew when the key or the colours change.
+  // Made again when the key or the colours change.
   options: (look: Look) => ChartOptions;
   // What is drawn at first; afterwards it is set from outside.
   data: () => uPlot.AlignedData;
@@ -28,7 +28,7 @@ export type Chart = {
 export type ChartRefs = {
   host: RefObject<HTMLDivElement | null>;
   chart: RefObject<uPlot | null>;
-  // Say anew what lies at the cursor: the values under it changed.
+  // Report what lies at the cursor: the values under it changed.
   reread: () => void;
 };
 

@@ -1,4 +1,4 @@
-// Simulated time and the ratio to real time, always in sight: numbers that count without moving.
+// Simulated time and the ratio to real time, always visible: numbers that count without moving.
 
 import { Tooltip } from "@mantine/core";
 

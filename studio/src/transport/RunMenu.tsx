@@ -1,4 +1,4 @@
-// What is set seldom: the seed, the time step, how many steps at a time.
+// Rarely changed settings: the seed, the time step, how many steps at a time.
 
 import { ActionIcon, Button, Group, NumberInput, Popover, Stack, Tooltip } from "@mantine/core";
 import { IconAdjustmentsHorizontal, IconDice5 } from "@tabler/icons-react";
@@ -115,7 +115,7 @@ function TimeStep() {
         onKeyDown={(event) => event.key === "Enter" && void send()}
         suffix={unit === "" ? "" : ` ${unit}`}
       />
-      <Hint>Small beside every time constant. The state is kept.</Hint>
+      <Hint>Must be small compared with every time constant. The state is kept.</Hint>
     </div>
   );
 }
@@ -148,7 +148,7 @@ function LongestStep() {
         onKeyDown={(event) => event.key === "Enter" && void send()}
         suffix={unit === "" ? "" : ` ${unit}`}
       />
-      <Hint>Empty: steps stay as they are, and a slow computer falls behind.</Hint>
+      <Hint>Empty: the step is constant, and a slow computer falls behind.</Hint>
     </div>
   );
 }

@@ -30,11 +30,11 @@ it("a run that is too slow says by how much, how often, and what was given up", 
   expect(lateText(late)).toBe("250 ms late");
   const lines = meterLines("Pace", late, "ms");
   expect(lines[2]).toBe("Behind by 250 ms, at most 260 ms since it was played");
-  expect(lines.slice(3)).toEqual(["Fell behind 3 times", "12 s were given up and will not be caught up"]);
+  expect(lines.slice(3)).toEqual(["Fell behind 3 times", "12 s were skipped and will not be caught up"]);
   expect(meterLines("Pace", { ...late, overruns: 1 }, "ms")[3]).toBe("Fell behind once");
 });
 
-it("steps that were lengthened are told", () => {
+it("lengthened steps are reported", () => {
   expect(meterLines("Pace", { ...good, lengthened: 12_000, dt: 3 }, "ms").at(-1)).toBe(
     "12\u2009000 steps were lengthened; now they are 3 ms",
   );
@@ -50,7 +50,7 @@ it("as fast as possible, and standing still, nothing is late", () => {
   expect(meterLines("Pace", { ...good, running: false }, "ms")).toEqual(["Pace"]);
 });
 
-it("times on the wall are short", () => {
+it("wall times are short", () => {
   expect([0, 9.94, 9.96, 250.4, 9999, 10_000, 3_600_000].map(millisecondsText)).toEqual([
     "0.0 ms",
     "9.9 ms",

@@ -18,7 +18,7 @@ export function lateText(clock: Kept): string {
     : "";
 }
 
-// Line by line what there is to say; `pace` says what the factor is.
+// The lines of the tooltip; `pace` describes the factor.
 export function meterLines(pace: string, clock: Kept, unit: string): string[] {
   if (!clock.running) {
     return [pace];
@@ -36,7 +36,7 @@ export function meterLines(pace: string, clock: Kept, unit: string): string[] {
     );
   }
   if (clock.lost > 0) {
-    lines.push(`${millisecondsText(clock.lost)} were given up and will not be caught up`);
+    lines.push(`${millisecondsText(clock.lost)} were skipped and will not be caught up`);
   }
   if (clock.lengthened > 0) {
     const length = `${Number(clock.dt.toPrecision(6))} ${unitText(unit)}`.trimEnd();
@@ -45,7 +45,7 @@ export function meterLines(pace: string, clock: Kept, unit: string): string[] {
   return lines;
 }
 
-// A time on the wall: milliseconds below ten seconds, seconds above.
+// A wall time: milliseconds below ten seconds, seconds above.
 export function millisecondsText(milliseconds: number): string {
   return milliseconds < 9999.5
     ? `${milliseconds < 9.95 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`

@@ -38,7 +38,7 @@ it("holds on until the last place was answered", async () => {
   expect(carrier.held).toBeNull();
 });
 
-it("tells why a place was refused until one is taken", async () => {
+it("reports why a position was refused until one is accepted", async () => {
   const { asked, carrier } = carried();
   carrier.carry("crate", { x: 1, y: 0 });
   await asked[0]?.answer([{ what: "lies inside 'wall'", where: "crate" }]);

@@ -35,7 +35,7 @@ export class Carrier {
     this.settle();
   }
 
-  // What was refused before is told no longer.
+  // An earlier refusal is no longer shown.
   forgive(): void {
     this.refused = "";
     this.told();

@@ -1,4 +1,4 @@
-// Draws a world from above: floor, axes, what stands there, the way of the bodies, marks, bodies.
+// Draws a world from above: floor, axes, objects, the paths of the bodies, marks, bodies.
 
 import type { BodyView, BoxView, MarkView } from "../protocol";
 import { font, type Look } from "../plots/look";

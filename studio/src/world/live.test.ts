@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 
 import { Live } from "./live";
 
-it("the way grows, begins anew where the server says so, and React hears only of what stands still", () => {
+it("the path grows, restarts on a message of the server, and React renders only static parts", () => {
   const live = new Live();
   let told = 0;
   const end = live.listen(() => told++);

@@ -1,5 +1,5 @@
-// The world as the server showed it last: what stands in it, where its bodies are, and the way they came.
-// Many pictures a second pass through here, so that React is told only of what stands still.
+// The world as the server showed it last: its objects, the positions of its bodies, and their paths.
+// Many pictures a second pass through here, so that React renders only static parts.
 
 import type { Bodies, BodyView, Scene, SceneView } from "../protocol";
 
@@ -13,7 +13,7 @@ export class Live {
     return this.seen;
   }
 
-  // What stands still, as React asks for it: the same object until it changes.
+  // The static parts, as React reads them: the same object until it changes.
   readonly scene = (): SceneView | null => this.seen.scene;
 
   readonly listen = (listener: () => void): (() => void) => {

@@ -58,7 +58,7 @@ it("axes are marked in steps of 1, 2 or 5, each with the digits that it needs", 
   expect(ticks(0, 120, 4, 50)).toEqual({ values: [0, 20, 40, 60, 80, 100, 120], digits: 0 });
 });
 
-it("places are told to a thousandth of the longer side", () => {
+it("positions are shown to a thousandth of the longer side", () => {
   expect(placeText({ x: 0.12345, y: 1 }, [0, 0, 1.2, 0.8], "m")).toBe("0.12, 1.00 m");
   expect(placeText({ x: 12.345, y: 1 }, [0, 0, 120, 80], "cm")).toBe("12, 1 cm");
   expect(placeText({ x: 1, y: 1 }, [0, 0, 5000, 80], "")).toBe("1, 1");

@@ -10,7 +10,7 @@ import { useSetting } from "../setting";
 import { unitText } from "../unit";
 import type { FormProps } from "./props";
 
-// Longer units stand beside the name.
+// Longer units are beside the name.
 const MOST_UNIT = 5;
 
 type NumberRowProps = Omit<FormProps, "value"> & { value: number | null; label?: string; extra?: ReactNode };

@@ -21,7 +21,7 @@ export function PartFields({ kind, values, prefix = "" }: PartFieldsProps) {
   ));
 }
 
-// Only what changed is drawn anew: values that stay are the same objects.
+// Only changed values are drawn again: unchanged values are the same objects.
 const Parameter = memo(function Parameter(props: FormProps) {
   const Form = FORMS[props.form.form];
   return <Form {...props} />;
