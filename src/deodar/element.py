@@ -54,6 +54,11 @@ class Time:
     step: Exact
     ticks: int = 1
 
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise renamed.no_member(self, name)
+
     @classmethod
     def at(cls, now: float, dt: float, dtype: Any) -> Time:
         """A time given by numbers of the host."""

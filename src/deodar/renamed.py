@@ -25,6 +25,7 @@ RENAMED = {
     "dd.Setting.choices": "dd.Setting.convolve",
     "dd.Setting.shared": "dd.Setting.convolve",
     "dd.Setting.waves": "dd.Setting.convolve",
+    "dd.Time.every": "dd.Time.ticks",
     "dd.animate_path(every=...)": "dd.animate_path(stride=...)",
     "dd.demos": "dd.papers",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
