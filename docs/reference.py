@@ -81,6 +81,7 @@ CLASSES = [
         "Time",
         "Action",
         "Event",
+        "BaseMeasure",
     ),
     *("register", "needed", "euler"),
 ]
@@ -110,7 +111,7 @@ MEASURES = [
         "dd.analysis.Phase",
         "dd.analysis.FixedPoint",
         "dd.ramp",
-        "dd.analysis.Ramp",
+        "dd.analysis.SettledRamp",
         "dd.analysis.Branch",
     ),
     *(
@@ -145,14 +146,14 @@ MEASURES = [
     *(
         "deodar.session.run_live.run_live",
         "deodar.session.meter.Meter",
-        "deodar.session.cost.Costs",
-        "deodar.session.cost.Cost",
+        "deodar.session.cost.StepCost",
+        "deodar.session.cost.ElementCost",
     ),
     *(
         "deodar.model.diagram.Diagram",
         "dd.read",
         "dd.apply_preset",
-        "deodar.importers.report.Report",
+        "deodar.importers.report.ImportReport",
         "deodar.importers.report.Line",
     ),
 ]

@@ -115,6 +115,7 @@ from deodar.experiments.experiment import Experiment as Experiment
 from deodar.experiments.factor import Factor as Factor
 from deodar.experiments.jobs import Job as Job
 from deodar.experiments.jobs import carry_out as carry_out
+from deodar.experiments.measures import BaseMeasure as BaseMeasure
 from deodar.experiments.measures import Measure as Measure
 from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows

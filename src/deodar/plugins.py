@@ -20,6 +20,8 @@ from typing import Any
 GROUPS = {
     "kinds": "elements, couplings, kernels and sigmoids, by the name of their class",
     "worlds": "worlds, by the name of their class",
+    "measures": "measures of experiments: classes derived from dd.BaseMeasure, by their names",
+    "figures": "modules with ACROSS, size and fill; with paint where ACROSS is true",
     "importers": "modules with NAME, sniff and read",
     "commands": "modules with HELP, arguments and run",
     "papers": "modules with HELP, about, jobs, report and so on",

@@ -16,7 +16,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "errors plugins docstring declarations",
-        "registry renamed part_type family codec",
+        "registry extensions renamed part_type family codec",
         "parameters",
         "leaves",
         "numerics",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 import deodar as dd
@@ -130,3 +132,114 @@ def test_a_paper_and_an_importer_of_a_package_are_found(install: Install) -> Non
     tool = opening.tool_for(b"TOOL 1")
     assert tool is not None and tool.__name__ == "extra"
     assert "study" in papers.names() and papers.paper("study").NAME == "tool"
+
+
+MEASURE = """
+from dataclasses import dataclass
+import deodar as dd
+
+@dataclass(frozen=True)
+class {name}(dd.BaseMeasure):
+    name: str
+    of: str
+    when: str = ""
+"""
+
+FIGURE = """
+ACROSS = False
+def size(view): return 3, 2
+def fill(place, view): place.subplots()
+"""
+
+RAISES = "raise RuntimeError('no licence')"
+
+GROUPS = {
+    "deodar.kinds": (KIND.format(name="Odd"), "odd:Odd", "Odd", "Field"),
+    "deodar.worlds": ("", "odd:Odd", "Odd", "Arena"),
+    "deodar.measures": (MEASURE.format(name="Odd"), "odd:Odd", "Odd", "Measure"),
+    "deodar.figures": (FIGURE, "odd", "odd", "snapshot"),
+    "deodar.importers": ("", "odd", "odd", "cosivina"),
+    "deodar.commands": ("", "odd", "odd", "run"),
+    "deodar.papers": ("", "odd", "odd", "spa"),
+}
+"""For each group a module, the value of its entry point, its name, and a name of deodar."""
+
+
+def _doctor(capsys: pytest.CaptureFixture[str]) -> list[str]:
+    assert main(["doctor"]) == 0
+    return [line for line in capsys.readouterr().out.splitlines() if line.startswith("plug-in")]
+
+
+def test_a_module_of_any_group_that_raises_is_a_line_of_doctor(
+    install: Install, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for group, (text, value, name, _) in GROUPS.items():
+        package = group.replace(".", "-")
+        module = package.replace("-", "_")
+        install(package, {module: text + RAISES}, {group: {name: value.replace("odd", module, 1)}})
+    found = _doctor(capsys)
+    assert sorted(found) == sorted(
+        f"plug-in    {group.replace('.', '-')} 0.1.0: PROBLEM: {name} raises RuntimeError when it is"
+        " imported: no licence"
+        for group, (_, _, name, _) in GROUPS.items()
+    )
+
+
+def test_a_name_of_deodar_that_any_group_takes_is_a_line_of_doctor(
+    install: Install, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for group, (_, _, _, taken) in GROUPS.items():
+        install(group.replace(".", "-"), {}, {group: {taken: "nowhere"}})
+    assert sorted(_doctor(capsys)) == sorted(
+        f"plug-in    {group.replace('.', '-')} 0.1.0: PROBLEM: {taken} takes the name {taken!r}, which deodar"
+        " has"
+        for group, (_, _, _, taken) in GROUPS.items()
+    )
+
+
+@pytest.mark.parametrize(
+    ("group", "text", "problem"),
+    [
+        (
+            "measures",
+            MEASURE.format(name="Even") + "Odd = Even",
+            "names odd:Odd as 'Odd', which is no class of that name",
+        ),
+        ("measures", "class Odd: pass", "names odd:Odd as 'Odd', which does not derive from dd.BaseMeasure"),
+        ("figures", "ACROSS = True\ndef size(view): return 3, 2", "has no fill, paint"),
+    ],
+    ids=["another name", "no measure", "no figure"],
+)
+def test_what_is_no_measure_or_figure_is_a_line_of_doctor(
+    group: str, text: str, problem: str, install: Install, capsys: pytest.CaptureFixture[str]
+) -> None:
+    value = "odd:Odd" if group == "measures" else "odd"
+    install("odd", {"odd": text}, {f"deodar.{group}": {"Odd": value}})
+    assert _doctor(capsys) == [f"plug-in    odd 0.1.0: PROBLEM: Odd {problem}"]
+
+
+def test_a_broken_measure_is_an_error_of_the_experiments_that_name_it_alone(install: Install) -> None:
+    install("odd", {"odd": MEASURE.format(name="Odd") + RAISES}, {"deodar.measures": {"Odd": "odd:Odd"}})
+    data = {"experiment": 2, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
+    assert [m.name for m in dd.Experiment.from_data(data).measures] == ["u"]
+    assert "Odd" not in str(dd.Experiment.schema())
+    data["measures"] = {"u": {"kind": "Odd", "of": "u"}}
+    with pytest.raises(dd.errors.DocumentError) as caught:
+        dd.Experiment.from_data(data)
+    assert str(caught.value) == (
+        "measures.u.kind: 'Odd' cannot be used: the package odd 0.1.0 raises RuntimeError when it is"
+        " imported: no licence. Type: deodar doctor"
+    )
+
+
+def test_a_broken_figure_is_an_error_of_the_plot_that_asks_for_it_alone(
+    install: Install, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    install("odd", {"odd": RAISES}, {"deodar.figures": {"odd": "odd"}})
+    model = dd.Model("m")
+    model.add(dd.Boost("b"))
+    dd.save_record(dd.simulate(model, 3, record=["b.output"]), tmp_path / "r.zarr")
+    given = ["plot", str(tmp_path / "r.zarr"), "--out", str(tmp_path / "r.svg")]
+    assert main(given) == 0
+    assert main([*given, "--force", "--kind", "odd"]) == 1
+    assert "'odd' cannot be used: the package odd 0.1.0 raises RuntimeError" in capsys.readouterr().err

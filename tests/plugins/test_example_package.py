@@ -4,6 +4,7 @@ flag.
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import sys
 from pathlib import Path
@@ -66,11 +67,106 @@ def test_check_and_run_know_the_kind_and_the_world(
     assert record["eye.output"].values[[50, 150]].tolist() == [0.0, 10.0]
 
 
-def test_an_experiment_knows_the_kind(file: Path) -> None:
-    experiment = dd.Experiment(
-        "step", str(file), 20, conditions=[dd.Crosses("answered", "change.output", 0.5)], world="lamp:100"
+@pytest.fixture
+def experiment(tmp_path: Path) -> Path:
+    """An experiment whose model and measures name what the package brings: a field behind the detector."""
+    x = {"x": {"name": "x", "lower": 0.0, "upper": 20.0, "samples": 41}}
+    elements = {
+        "step": {"kind": "GaussianStimulus", "axes": ["x"], "center": 10.0, "sigma": 2.0, "amplitude": 20.0},
+        "change": {"kind": "Change", "axes": ["x"], "tau": 50.0},
+        "field": {"kind": "Field", "axes": ["x"], "tau": 5.0},
+        "eye": {"kind": "Sensor", "sensor": "light"},
+    }
+    connections = [{"source": "step", "target": "change"}, {"source": "change", "target": "field"}]
+    model = {"deodar": 3, "dt": 1.0, "axes": x, "elements": elements, "connections": connections}
+    (tmp_path / "model.json").write_text(json.dumps(model))
+    data = {
+        "experiment": 2,
+        "name": "step",
+        "model": "model.json",
+        "limit": 30.0,
+        "world": "lamp:10",
+        "conditions": {"lit": {"kind": "Crosses", "of": "eye.output", "level": 5.0, "ends": False}},
+        "measures": {
+            "first": {"kind": "Width", "of": "field", "when": "lit", "threshold": 5.0},
+            "width": {"kind": "Width", "of": "field", "threshold": 5.0},
+            "none": {"kind": "Width", "of": "field", "threshold": 1000.0},
+            "highest": {"of": "field"},
+        },
+    }
+    path = tmp_path / "step.experiment.json"
+    path.write_text(json.dumps(data))
+    return path
+
+
+def test_an_experiment_with_the_kind_the_world_and_the_measure_runs(
+    experiment: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["experiment", str(experiment), "--out", str(tmp_path / "out"), "--no-progress"]) == 0, (
+        capsys.readouterr().err
     )
-    assert experiment.check() == []
+    results = dd.load_results(tmp_path / "out")
+    trial = dd.run_trial(
+        dd.load(tmp_path / "model.json"), 30, watch=["field"], world=registry.kind("Lamp")(10), dt=1
+    )
+    u = trial.values["field"]
+    for name, look in (("first", int(results["lit"][0])), ("width", 30)):
+        assert results[name].values.tolist() == [0.5 * (u[look] > 5).sum()]
+    assert results["first"] != results["width"] and results["width"] > 0
+    assert np.isnan(results["none"].values).all()
+    np.testing.assert_allclose(results["highest"].values, [u[30].max()])
+
+
+def test_an_experiment_with_a_measure_of_a_package_is_written_and_batched(
+    experiment: Path, tmp_path: Path
+) -> None:
+    loaded = dd.Experiment.load(experiment)
+    loaded.save(tmp_path / "again.json")
+    assert (
+        json.loads((tmp_path / "again.json").read_text())["measures"]
+        == (json.loads(experiment.read_text())["measures"])
+    )
+    assert "Width" in json.dumps(dd.Experiment.schema()["properties"]["measures"])
+    together = dataclasses.replace(loaded, world="", conditions=(), trials=2, measures=loaded.measures[1:])
+    together = dataclasses.replace(together, model=_without_eye(tmp_path))
+    assert together.bench().batched
+    alone = dd.run_trial(together.model, 30, measures=together.measures)
+    assert together.run()["width"].values.tolist() == [alone.measures["width"]] * 2
+
+
+def _without_eye(folder: Path) -> dd.Model:
+    model = dd.load(folder / "model.json")
+    model.remove("eye")
+    return model
+
+
+def test_a_misspelt_measure_suggests_that_of_the_package(experiment: Path) -> None:
+    experiment.write_text(experiment.read_text().replace("Width", "Widht"))
+    with pytest.raises(dd.errors.DocumentError, match=r"Did you mean 'Width'\?"):
+        dd.Experiment.load(experiment)
+
+
+def test_its_figure_is_a_kind_of_plot(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    record = tmp_path / "run.zarr"
+    run = dd.simulate(
+        dd.load(file), 20, record=["change.output", "step.output"], world=registry.kind("Lamp")()
+    )
+    dd.save_record(run, record)
+    out = tmp_path / "plot.svg"
+    drawn = ["--out", str(out), "--json"]
+    assert main(["plot", str(record), "change.output", "--kind", "histogram", *drawn]) == 0
+    assert json.loads(capsys.readouterr().out)["kinds"] == {"change.output": "histogram"}
+    assert "number of values" in out.read_text()
+    assert main(["plot", str(record), "--kind", "histogram", "--out", str(tmp_path / "both.svg")]) == 0
+    assert main(["plot", str(record), "--kind", "histogran", "--out", str(tmp_path / "no.svg")]) == 1
+    assert "Did you mean 'histogram'?" in capsys.readouterr().err
+
+
+def test_a_figure_of_a_package_is_drawn_only_where_it_is_asked_for() -> None:
+    from deodar.figures import _panels
+
+    assert "histogram" not in _panels.kinds()
+    assert not [name for name in sys.modules if name.startswith("deodar_change")]
 
 
 def test_the_studio_knows_the_kind_and_the_world() -> None:
@@ -98,5 +194,11 @@ def test_doctor_lists_what_it_brings(capsys: pytest.CaptureFixture[str]) -> None
     found = [line for line in page if line.startswith("plug-in")]
     assert found == [
         f"plug-in    deodar-change 0.1.0: {what}"
-        for what in ("kinds Change", "worlds Lamp", "commands change")
+        for what in (
+            "kinds Change",
+            "worlds Lamp",
+            "measures Width",
+            "figures histogram",
+            "commands change",
+        )
     ]

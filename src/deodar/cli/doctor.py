@@ -168,10 +168,14 @@ def _needs(path: str) -> dict[str, Any]:
 def _plugins() -> list[dict[str, str]]:
     """What installed packages add, each with what is wrong with it; "" where nothing is."""
     from deodar import cli, papers, registry
+    from deodar.experiments.measures import MEASURES
+    from deodar.figures import _panels
     from deodar.importers import opening
 
     registry.kinds()  # names that deodar itself has
     listed = [(p, registry.take(p)) for p in registry.packaged()]
+    listed += [(p, MEASURES.problem(p)) for p in MEASURES.packaged()]
+    listed += [(p, _panels.KINDS.problem(p)) for p in _panels.KINDS.packaged()]
     listed += [(p, p.load()[1]) for p in (*opening.packaged(), *cli.packaged(), *papers.packaged())]
     return [
         {"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem}

@@ -37,7 +37,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="paths of variables, for example u.activation (default: all)",
     )
     parser.add_argument(
-        "--kind", metavar="K", help="time_course, space_time, snapshot, snapshots, projection or path"
+        "--kind",
+        metavar="K",
+        help="time_course, space_time, snapshot, snapshots, projection, path, or one of a package",
     )
     parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
     parser.add_argument(

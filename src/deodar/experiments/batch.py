@@ -16,7 +16,7 @@ from deodar.compiler.plan import Leaf
 from deodar.errors import NotFinite, ParameterError, RunWarning, TimeError, WorldError
 from deodar.experiments.course import Course
 from deodar.experiments.events import Event
-from deodar.experiments.measures import Measure
+from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.reader import Place, with_readers
 from deodar.experiments.tally import DIVERGED, Tally
 from deodar.experiments.view import View
@@ -60,7 +60,7 @@ def run_batch(
     precision: str = "float32",
     between: Callable[[int], None] | None = None,
     values: Mapping[str, Sequence[float]] | None = None,
-    measures: Sequence[Measure] = (),
+    measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
 ) -> list[Course]:
     """Run trials all at once; the course of each is that of `run_trial` but for rounding.
@@ -178,7 +178,7 @@ def run_batch(
                 whole_,
                 tally.events_of(row),
                 tally.outcome[row],
-                tally.measures_of(row),
+                tally.measures_of(row, {view: axes[p] for view, p in places.items()}),
                 found,
                 error=error,
             )

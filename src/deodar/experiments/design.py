@@ -15,7 +15,7 @@ from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, d
 from deodar.experiments.actions import ACTIONS, Action
 from deodar.experiments.events import EVENTS, Event
 from deodar.experiments.factor import DESIGNS, Factor, assign
-from deodar.experiments.measures import Measure
+from deodar.experiments.measures import MEASURES, BaseMeasure
 from deodar.experiments.migrations import migrate
 from deodar.experiments.plain import from_data, schema, to_data
 from deodar.model import output
@@ -28,9 +28,12 @@ KINDS: Mapping[str, Mapping[str, type[Part]]] = {
     "conditions": EVENTS,
     "actions": ACTIONS,
     "factors": {"Factor": Factor},
-    "measures": {"Measure": Measure},
+    "measures": MEASURES,
 }
 """What may stand under each key of a file."""
+
+USUAL = {"factors": "Factor", "measures": "Measure"}
+"""The kind that a file need not write, by key."""
 
 OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 """Names of columns that every table has."""
@@ -49,7 +52,7 @@ class Design(Part):
     conditions: Annotated[Sequence[Event], Recompile(meaning="what may happen")] = ()
     actions: Annotated[Sequence[Action], Recompile(meaning="what is done to each trial, and when")] = ()
     factors: Annotated[Sequence[Factor], Recompile(meaning="what trials differ in")] = ()
-    measures: Annotated[Sequence[Measure], Recompile(meaning="what is measured of each trial")] = ()
+    measures: Annotated[Sequence[BaseMeasure], Recompile(meaning="what is measured of each trial")] = ()
     design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(
         default="crossed", kw_only=True
     )
@@ -111,7 +114,7 @@ class Design(Part):
         out |= to_data(self, False, ("name", "model", "world", *KINDS))
         for key in KINDS:
             parts = cast("Sequence[Any]", getattr(self, key))
-            plain = [to_data(part, key in ("conditions", "actions")) for part in parts]
+            plain = [to_data(part, type(part).__name__ != USUAL.get(key)) for part in parts]
             if plain:
                 out[key] = (
                     plain
@@ -153,7 +156,7 @@ class Design(Part):
                 )
                 continue
             pairs = list(enumerate(rows)) if isinstance(rows, list) else list(rows.items())
-            kind = "" if len(kinds) > 1 else next(iter(kinds))
+            kind = USUAL.get(key, "")
             given[key] = [
                 from_data(v, f"{key}.{k}", kinds, {} if key == "actions" else {"name": k}, problems, kind)
                 for k, v in pairs
@@ -233,8 +236,9 @@ class Design(Part):
         }
         for key, kinds in KINDS.items():
             parts = schema(kinds, named=key != "actions")
-            if len(kinds) == 1:
-                parts["oneOf"][0]["required"].remove("kind")
+            for part in parts["oneOf"]:
+                if part["title"] == USUAL.get(key):
+                    part["required"].remove("kind")
             own[key] = (
                 {"type": "array", "items": parts}
                 if key == "actions"

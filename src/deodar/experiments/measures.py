@@ -6,12 +6,52 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
+import numpy as np
+
 from deodar.experiments.view import PLACE, REDUCES, View
+from deodar.extensions import Extensions
+from deodar.numerics.axes import Axes
 from deodar.parameters import Part, PerAxis, Recompile
+from deodar.plugins import Plugin
+
+
+class BaseMeasure(Part):
+    """Base of measures: one number of a trial, or several.
+
+    A measure of your own is a frozen dataclass that declares `name`, `of` and, where it may be taken at an
+    event, `when`, and that overrides `value`. All samples of what it reads are copied each time the trial is
+    sampled, and kept at the time of the measure.
+
+    Attributes:
+        name: name of its column in the results.
+        of: path of a port, or name of a sensor of the world; the path of a field alone means its activation.
+        when: the event at whose time it is taken; empty: when the trial ends.
+    """
+
+    name: str
+    of: str
+    when: str = ""
+
+    @property
+    def view(self) -> View:
+        """What is sampled: all samples of `of`."""
+        return View(self.of)
+
+    def value(self, samples: np.ndarray, axes: Axes | None) -> float | Sequence[float] | np.ndarray | None:
+        """Return the measure.
+
+        Args:
+            samples: what the view shows at the time of the measure.
+            axes: the axes of the port; None for a sensor.
+
+        Returns:
+            A number, several numbers, or None where there is nothing to measure (NaN in the table).
+        """
+        return samples
 
 
 @dataclass(frozen=True)
-class Measure(Part):
+class Measure(BaseMeasure):
     """One number of a trial, or one for each axis.
 
     Attributes:
@@ -55,3 +95,23 @@ class Measure(Part):
             yield "radius", "is 0, and a place alone holds no sample; say how far around it"
         if self.reduce != PLACE and self.threshold:
             yield "threshold", f"is {self.threshold:g}, and only reduce='place' has a threshold"
+
+    def value(self, samples: np.ndarray, axes: Axes | None) -> np.ndarray | None:
+        """The sampled reduction; None where it is the position of a peak and there is no peak."""
+        return None if self.reduce == PLACE and bool(np.isnan(samples).any()) else samples
+
+
+def _own() -> dict[str, type[BaseMeasure]]:
+    return {"Measure": Measure}
+
+
+def _problem(plugin: Plugin, found: object) -> str:
+    """What is wrong with what a package names as a measure."""
+    named = f"names {plugin.entry.value} as {plugin.name!r}, which "
+    if not isinstance(found, type) or found.__name__ != plugin.name:
+        return f"{named}is no class of that name"
+    return "" if issubclass(found, BaseMeasure) else f"{named}does not derive from dd.BaseMeasure"
+
+
+MEASURES: Extensions[type[BaseMeasure]] = Extensions("measures", "measure", _own, _problem)
+"""The kinds of measures, those of installed packages included."""

@@ -56,7 +56,12 @@ def from_data(
         what = f"there is no {show(name)} here" if name else "has no kind"
         problems.append(Problem(f"{where}.kind", what, did_you_mean(str(name), kinds)))
         return None
-    known = [p.name for p in parameters(kinds[name]) if p.name not in given]
+    try:
+        cls = kinds[name]
+    except UnknownName as error:  # of a package that cannot be used
+        problems += [Problem(f"{where}.kind", p.what, p.fix) for p in error.problems]
+        return None
+    known = [p.name for p in parameters(cls) if p.name not in given]
     strange = [key for key in values if key != "kind" and key not in known]
     problems += [
         Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, known))
@@ -64,14 +69,14 @@ def from_data(
     ]
     missing = [
         p.name
-        for p in parameters(kinds[name])
-        if p.name in known and p.name not in values and p.name not in _defaults(kinds[name])
+        for p in parameters(cls)
+        if p.name in known and p.name not in values and p.name not in _defaults(cls)
     ]
     problems += [Problem(where, f"{an(name)} needs {key!r}") for key in missing]
     if strange or missing:
         return None
     try:
-        return kinds[name](**given, **{key: value for key, value in values.items() if key != "kind"})
+        return cls(**given, **{key: value for key, value in values.items() if key != "kind"})
     except (ParameterError, UnknownName) as error:
         problems += [Problem(f"{where}{p.where.removeprefix(name)}", p.what, p.fix) for p in error.problems]
         return None

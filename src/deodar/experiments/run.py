@@ -16,7 +16,7 @@ from deodar.experiments.actions import Action, Record, Reset, targets
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.course import Course
 from deodar.experiments.events import Event
-from deodar.experiments.measures import Measure
+from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.pushes import with_pushes
 from deodar.experiments.stage import Stage
 from deodar.experiments.tally import DIVERGED, Tally
@@ -46,7 +46,7 @@ def run_trial(
     dt: float | None = None,
     precision: str = "float32",
     between: Callable[[], None] | None = None,
-    measures: Sequence[Measure] = (),
+    measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
 ) -> Course:
     """Run one trial and return its course.
@@ -134,7 +134,7 @@ def run_trial(
         else np.zeros((0, *(values[name].shape if name in values else ())))
         for name in watch
     }
-    events_, measures_ = tally.events_of(0), tally.measures_of(0)
+    events_, measures_ = tally.events_of(0), tally.measures_of(0, eye.axes())
     return Course(
         np.asarray(times),
         stacked,
@@ -241,6 +241,10 @@ class _Eye:
             if not good.all():
                 clock = Clock(session.tick, session.time, session.tick, session.dt)
                 raise not_finite([f"{entry.path}.{port}"], clock, session.document.time_unit)
+
+    def axes(self) -> dict[View, Axes | None]:
+        """For each view the axes of what it samples; None for a sensor."""
+        return {view: None if view.of in self.sensors else self._axes(view) for view in self.views}
 
     def _axes(self, view: View) -> Axes:
         program = self.session.program

@@ -8,8 +8,9 @@ import numpy as np
 
 from deodar.errors import ParameterError, UnknownName, did_you_mean
 from deodar.experiments.events import Event, Looks
-from deodar.experiments.measures import Measure
-from deodar.experiments.view import PLACE, View
+from deodar.experiments.measures import BaseMeasure
+from deodar.experiments.view import View
+from deodar.numerics.axes import Axes
 
 TIME = "time"
 """Outcome of a trial that was ended by nothing but its limit."""
@@ -25,10 +26,10 @@ class Tally:
         outcome: for each trial the event that ended it, or `time`; empty while it runs.
         found: for each event (by its number) and trial the document time at which it happened; NaN: it did
             not.
-        measured: for each measure and trial its value; None: it was not taken.
+        measured: for each measure and trial what its view showed; None: it was not taken.
     """
 
-    def __init__(self, events: Sequence[Event], measures: Sequence[Measure], trials: int) -> None:
+    def __init__(self, events: Sequence[Event], measures: Sequence[BaseMeasure], trials: int) -> None:
         require(events, measures)
         self.events, self.measures = tuple(events), tuple(measures)
         self._order = _order(events)
@@ -121,28 +122,31 @@ class Tally:
             for e, t in zip(self.events, self.found[:, row], strict=True)
         }
 
-    def measures_of(self, row: int) -> dict[str, float | list[float] | None]:
-        """Each measure of a trial; None: it was not taken, there was no peak whose position could be
-        measured, or the trial diverged.
+    def measures_of(
+        self, row: int, axes: Mapping[View, Axes | None]
+    ) -> dict[str, float | list[float] | None]:
+        """Return each measure of a trial; None: it was not taken, there was nothing to measure, or the trial
+        diverged.
+
+        Args:
+            row: the trial.
+            axes: for each view the axes of what it samples.
         """
         if self.outcome[row] == DIVERGED:
             return {m.name: None for m in self.measures}
-        found = [values[row] for values in self.measured]
-        absent = [
-            v is None or (m.reduce == PLACE and bool(np.isnan(v).any()))
-            for m, v in zip(self.measures, found, strict=True)
-        ]
-        return {
-            m.name: None if no or v is None else v.astype(float).tolist()
-            for m, v, no in zip(self.measures, found, absent, strict=True)
-        }
+        out: dict[str, float | list[float] | None] = {}
+        for m, values in zip(self.measures, self.measured, strict=True):
+            samples = values[row]
+            found = None if samples is None else m.value(samples, axes[m.view])
+            out[m.name] = None if found is None else np.asarray(found).astype(float).tolist()
+        return out
 
     def _end(self, rows: Sequence[int], which: np.ndarray, name: str) -> None:
         for i in np.flatnonzero(which).tolist():
             self.outcome[rows[i]] = name
 
 
-def require(events: Sequence[Event], measures: Sequence[Measure] = ()) -> None:
+def require(events: Sequence[Event], measures: Sequence[BaseMeasure] = ()) -> None:
     """Refuse events and measures that rows could not tell apart, and those made of events that are not
     there.
     """

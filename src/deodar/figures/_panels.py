@@ -11,9 +11,11 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from deodar import figures
-from deodar.errors import RecordError, UnknownName, did_you_mean
+from deodar.errors import RecordError
+from deodar.extensions import Extensions
 from deodar.figures import _style
 from deodar.figures._view import View
+from deodar.plugins import Plugin
 
 MOST_PANELS = 12
 
@@ -23,6 +25,25 @@ def kinds() -> dict[str, ModuleType]:
     names = sorted(m.name for m in pkgutil.iter_modules(figures.__path__) if not m.name.startswith("_"))
     found = {name: importlib.import_module(f"deodar.figures.{name}") for name in names}
     return {name: module for name, module in found.items() if hasattr(module, "suits")}
+
+
+REQUIRED = ("ACROSS", "size", "fill")
+"""What the module of a kind has; where ACROSS is true, `paint` too."""
+
+
+def _problem(plugin: Plugin, found: object) -> str:
+    """What is wrong with what a package names as a kind of figure."""
+    needed = [*REQUIRED, *(["paint"] if getattr(found, "ACROSS", False) else [])]
+    missing = [name for name in needed if not hasattr(found, name)]
+    return f"has no {', '.join(missing)}" if missing else ""
+
+
+KINDS: Extensions[ModuleType] = Extensions("figures", "kind of figure", kinds, _problem)
+"""The kinds of figures, those of installed packages included.
+
+A figure of a package is drawn on request alone: which kind suits a variable does not depend on what is
+installed.
+"""
 
 
 def choose(view: View) -> str:
@@ -40,11 +61,7 @@ def choose(view: View) -> str:
 
 def kind(view: View, name: str | None = None) -> ModuleType:
     """The kind that was asked for, or the one that suits."""
-    known = kinds()
-    name = (name or choose(view)).replace("-", "_")
-    if name not in known:
-        raise UnknownName(f"there is no kind of figure called {name!r}", fix=did_you_mean(name, known))
-    return known[name]
+    return KINDS[(name or choose(view)).replace("-", "_")]
 
 
 def draw(views: Sequence[View], name: str | None = None) -> Figure:

@@ -1,0 +1,31 @@
+"""A measure: how wide the part of a field above a threshold is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+
+import deodar as dd
+
+
+@dataclass(frozen=True)
+class Width(dd.BaseMeasure):
+    """Extent of the part of a field above a threshold: a length, an area or a volume.
+
+    Attributes:
+        name: name of its column in the results.
+        of: path of a field.
+        when: the event at whose time it is taken; empty: when the trial ends.
+        threshold: samples above it count.
+    """
+
+    name: Annotated[str, dd.Recompile(meaning="name of its column in the results")]
+    of: Annotated[str, dd.Recompile(meaning="path of a field")]
+    when: Annotated[str, dd.Recompile(meaning="the event at whose time it is taken; empty: at the end")] = ""
+    threshold: Annotated[float, dd.Recompile("activation", meaning="samples above it count")] = 0.0
+
+    def value(self, samples: np.ndarray, axes: dd.Axes | None) -> float | None:
+        above = int((samples > self.threshold).sum())
+        return above * float(np.prod([axis.step for axis in axes or ()])) if above else None

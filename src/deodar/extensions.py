@@ -1,0 +1,76 @@
+"""The members of a group by name: those of deodar, and those that installed packages name.
+
+Measures and figures are such groups (`plugins.GROUPS`). Kinds and worlds, which documents store, are in
+`registry.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Generic, TypeVar
+
+from deodar import plugins
+from deodar.errors import UnknownName, did_you_mean
+from deodar.plugins import Plugin
+
+T = TypeVar("T")
+
+
+class Extensions(Mapping[str, T], Generic[T]):
+    """The members of a group. A lookup imports one package; iteration imports all and skips the broken ones.
+
+    Args:
+        group: a key of `plugins.GROUPS`.
+        what: what a member is called in messages, for example "measure".
+        own: the members that come with deodar.
+        problem: what is wrong with an object that a package names, from its entry point and the object; ""
+            where nothing is.
+    """
+
+    def __init__(
+        self, group: str, what: str, own: Callable[[], Mapping[str, T]], problem: Callable[[Plugin, Any], str]
+    ) -> None:
+        self._group, self._what, self._own, self._problem = group, what, own, problem
+
+    def packaged(self) -> list[Plugin]:
+        """The members that installed packages name, without importing them."""
+        return plugins.found(self._group, list(self._own()))
+
+    def problem(self, plugin: Plugin) -> str:
+        """Import a member of a package and return what is wrong with it; "" where nothing is."""
+        found, problem = plugin.load()
+        return problem or self._problem(plugin, found)
+
+    def __getitem__(self, name: str) -> T:
+        """Return a member.
+
+        Raises:
+            UnknownName: no member has that name (the nearest is suggested), or its package cannot be used.
+        """
+        own = self._own()
+        if name in own:
+            return own[name]
+        outside = {p.name: p for p in reversed(self.packaged()) if p.name not in own}
+        if name not in outside:
+            raise UnknownName(
+                f"there is no {self._what} called {name!r}", fix=did_you_mean(name, [*own, *outside])
+            )
+        plugin = outside[name]
+        problem = self.problem(plugin)
+        if problem:
+            raise UnknownName(
+                f"{name!r} cannot be used: the package {plugin.package} {plugin.version} {problem}",
+                fix="Type: deodar doctor",
+            )
+        return plugin.load()[0]
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a member has that name, also one that cannot be used; nothing is imported."""
+        return name in self._own() or name in [p.name for p in self.packaged()]
+
+    def __iter__(self) -> Iterator[str]:
+        own = self._own()
+        return iter([*own, *(p.name for p in self.packaged() if p.name not in own and not self.problem(p))])
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
