@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +16,7 @@ from deodar.errors import OutputError
 from deodar.experiments.rows import Rows
 from deodar.model import output
 from deodar.recording import files
+from deodar.server.open_folder import OpenFolder
 from tests.recording.models import record
 
 SMALL = """
@@ -24,6 +26,7 @@ sys.path[:0] = {path!r}
 import deodar as dd
 from deodar.errors import OutputError
 from deodar.recording import files
+from deodar.server.open_folder import OpenFolder
 from tests.recording.models import record
 data = record(trials=3)
 before = data.copy(deep=True)
@@ -139,3 +142,51 @@ def test_rows_that_could_not_be_written_whole_are_taken_back(
     assert (tmp_path / "rows.jsonl").read_bytes() == before and set(rows.found) == {"1"}
     rows.append([{"key": "2"}])
     assert set(Rows(tmp_path / "rows.jsonl", {"name": "e"}).found) == {"1", "2"}
+
+
+def test_rows_are_on_the_disk_when_they_are_kept_and_a_new_file_has_its_name_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    events: list[tuple[str, int]] = []
+    path, fsync = tmp_path / "rows.jsonl", os.fsync
+
+    def watched(handle: int) -> None:
+        kind = "folder" if stat.S_ISDIR(os.fstat(handle).st_mode) else "file"
+        events.append((kind, path.read_bytes().count(b"\n")))
+        fsync(handle)
+
+    monkeypatch.setattr(os, "fsync", watched)
+    rows = Rows(path, {"name": "e"})
+    rows.append([{"key": "1"}, {"key": "2"}])
+    assert events == [("file", 1), ("folder", 1), ("file", 3)]
+
+
+def test_the_studio_waits_for_the_disk_before_a_file_gets_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waited: list[list[str]] = []
+    monkeypatch.setattr(os, "fsync", lambda handle: waited.append(sorted(p.name for p in tmp_path.iterdir())))
+    with OpenFolder(tmp_path) as folder:
+        folder.write("a.json", b"1")
+    assert len(waited) == 2 and waited[0][0].startswith(".a.json.") and waited[1] == ["a.json"]
+
+
+def test_a_file_of_the_studio_survives_a_write_that_fails(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with OpenFolder(tmp_path) as folder:
+        folder.write("a.json", b"1")
+        full(monkeypatch)
+        with pytest.raises(OutputError, match=r"a\.json: cannot be written: No space left.*in memory"):
+            folder.write("a.json", b"2")
+    assert [(p.name, p.read_bytes()) for p in tmp_path.iterdir()] == [("a.json", b"1")]
+
+
+def test_a_file_that_can_be_made_again_is_not_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    full(monkeypatch)
+    output.write(tmp_path / "a", b"1", durable=False, private=True)
+    assert (tmp_path / "a").read_bytes() == b"1"
+    if os.name == "posix":
+        assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o600

@@ -89,13 +89,14 @@ def _run(args: argparse.Namespace) -> Demonstration:
 def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
     from deodar.analysis.claims import failed, results
     from deodar.cli._options import paragraph, shown
+    from deodar.model import output
 
     settings: Mapping[str, Any] = {"demo": args.name, "seed": args.seed, **demo.settings}
     text = results(demo.claims, settings)
 
     def fill(folder: Path) -> None:
         demo.fill(folder)
-        (folder / "results.json").write_text(text)
+        output.write(folder / "results.json", text.encode())
 
     out, why = _written(args, wanted, fill)
     if args.json:

@@ -10,7 +10,6 @@ import contextlib
 import hashlib
 import os
 import platform
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,8 @@ import jax
 import jaxlib.version
 import platformdirs
 from jax.experimental import serialize_executable
+
+from deodar.model import output
 
 MOST_BYTES = 512 * 2**20
 LISTED = 16
@@ -108,10 +109,7 @@ def _write(path: Path, compiled: Any) -> None:
     try:
         payload = serialize_executable.serialize(compiled)[0]
         path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        handle, name = tempfile.mkstemp(dir=path.parent)
-        with os.fdopen(handle, "wb") as file:
-            file.write(payload)
-        Path(name).replace(path)
+        output.write(path, payload, durable=False, private=True)
         if int(path.name[:8], 16) % LISTED == 0:  # the name is a hash: no process has to count
             _prune(path.parent)
     except (

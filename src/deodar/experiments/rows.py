@@ -4,8 +4,6 @@ or extended.
 
 from __future__ import annotations
 
-import contextlib
-import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -58,7 +56,7 @@ class Rows:
         places.require_parent(path)
         lines = self._lines()
         if not lines:
-            self._write(codec.line(told, ascii=True) + "\n", "w")
+            output.append(path, (codec.line(told, ascii=True) + "\n").encode())
             return
         if not isinstance(lines[0].get(ABOUT), dict):
             raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
@@ -71,14 +69,15 @@ class Rows:
                 fix="Choose another name",
             )
         if made != told[ABOUT]:
-            self._write(codec.line(told, ascii=True) + "\n", "a")
+            output.append(path, (codec.line(told, ascii=True) + "\n").encode())
         self.found = {row[KEY]: row for row in lines if KEY in row}
 
     def append(self, rows: Iterable[Row]) -> None:
         """Keep rows, on the disk when this returns; those of a key that is there already are left out."""
         new = [row for row in rows if row[KEY] not in self.found]
         if new:
-            self._write("".join(codec.line(row, ascii=True, finite=True) + "\n" for row in new), "a")
+            text = "".join(codec.line(row, ascii=True, finite=True) + "\n" for row in new)
+            output.append(self.path, text.encode())
             self.found |= {row[KEY]: codec.parse(codec.line(row)) for row in new}
 
     def _lines(self) -> list[Row]:
@@ -109,18 +108,6 @@ class Rows:
             with self.path.open("r+b") as file:
                 file.truncate(whole)
         return lines
-
-    def _write(self, text: str, mode: str) -> None:
-        size = self.path.stat().st_size if mode == "a" else 0
-        try:
-            with self.path.open(mode, encoding="utf-8", newline="\n") as file:
-                file.write(text)
-                file.flush()
-                os.fsync(file.fileno())
-        except OSError as error:
-            with contextlib.suppress(OSError):
-                os.truncate(self.path, size)  # no half of a line, which the next row would continue
-            raise output.failed(self.path, error) from None
 
 
 def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:

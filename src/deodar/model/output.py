@@ -1,9 +1,10 @@
-"""Writing files so that nothing is lost: beside, on the disk and then renamed, and never over what this run
-did not write.
+"""The one writer of files. A file is written beside its final place, waited for until it is on the disk, and
+renamed; lines are appended whole or not at all. A file that exists is replaced only where the caller says so.
 """
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import tempfile
@@ -57,9 +58,20 @@ def claim(path: str | Path, force: bool = False) -> Path:
     return path
 
 
-def write(path: Path, content: bytes | Callable[[Path], None]) -> None:
+def write(
+    path: Path, content: bytes | Callable[[Path], None], durable: bool = True, private: bool = False
+) -> None:
     """Write beside the final place, wait until it is on the disk, and rename: the file is there whole, or not
     at all.
+
+    Args:
+        path: the file; `claim` has said that it may be written.
+        content: its bytes, or what writes them into the path that it is given.
+        durable: wait for the disk; False is for files that can be made again, such as a cache.
+        private: only this user may read the file; otherwise it gets the permissions of a new file.
+
+    Raises:
+        OutputError: the system refused; a file that was there is as before.
     """
     try:
         handle, name = tempfile.mkstemp(prefix=f".{path.name[:40]}.", suffix=path.suffix, dir=path.parent)
@@ -72,14 +84,38 @@ def write(path: Path, content: bytes | Callable[[Path], None]) -> None:
             content(beside)
         else:
             beside.write_bytes(content)
-        beside.chmod(0o666 & ~_umask())
-        sync(beside)
+        if not private:
+            beside.chmod(0o666 & ~_umask())
+        if durable:
+            sync(beside)
         beside.replace(path)
-        sync_folder(path.parent)
+        if durable:
+            sync_folder(path.parent)
     except OSError as error:
         raise failed(path, error) from None
     finally:
         beside.unlink(missing_ok=True)
+
+
+def append(path: Path, content: bytes) -> None:
+    """Append to a file, or make it; the content is on the disk when this returns.
+
+    Raises:
+        OutputError: the system refused; the file ends where it ended before.
+    """
+    new = not path.exists()
+    size = 0 if new else path.stat().st_size
+    try:
+        with path.open("ab") as file:
+            file.write(content)
+            file.flush()
+            sync_open(file.fileno())
+        if new:
+            sync_folder(path.parent)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            os.truncate(path, size)  # no half of a line, which the next one would continue
+        raise failed(path, error) from None
 
 
 def failed(path: Path, error: OSError) -> OutputError:
@@ -114,13 +150,23 @@ def sync_tree(path: Path) -> None:
         list(pool.map(sync_folder, [Path(folder) for folder, _, _ in found]))
 
 
-def _sync(path: Path, mode: int) -> None:
-    handle = os.open(path, mode)
+def sync_open(handle: int) -> None:
+    """Wait until what an open file or folder holds is on the disk, where the file system can tell.
+
+    Raises:
+        OSError: the disk is full or broken.
+    """
     try:
         os.fsync(handle)
     except OSError as error:
         if error.errno not in UNSUPPORTED:
             raise
+
+
+def _sync(path: Path, mode: int) -> None:
+    handle = os.open(path, mode)
+    try:
+        sync_open(handle)
     finally:
         os.close(handle)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from deodar import codec, registry
 from deodar.element import Element
+from deodar.model import output
 from deodar.model.document import READS, VERSION
 from deodar.model.parts import schema
 from deodar.parameters import Part
@@ -117,4 +118,4 @@ def text() -> str:
 
 
 if __name__ == "__main__":
-    SHIPPED.write_text(text())
+    output.write(SHIPPED, text().encode())

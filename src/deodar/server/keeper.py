@@ -16,8 +16,8 @@ import platformdirs
 import psutil
 
 from deodar import codec
-from deodar.errors import DeodarError, UnknownName
-from deodar.model import files
+from deodar.errors import DeodarError, OutputError, UnknownName
+from deodar.model import files, output
 from deodar.model.document import Document
 from deodar.server.to_page import Recovery
 
@@ -59,7 +59,7 @@ class Keeper:
                 "when": now,
                 "process": [os.getpid(), psutil.Process().create_time()],
             }
-            self._note(name).write_text(codec.line(note, ascii=True), encoding="utf-8")
+            output.write(self._note(name), codec.line(note, ascii=True).encode())
 
     def forget(self, name: str) -> None:
         """Throw kept edits away."""
@@ -103,9 +103,9 @@ class Keeper:
     def opened(self, path: Path) -> None:
         """Remember a file that was opened or written."""
         names = [str(path), *(n for n in self._names() if n != str(path))][:MOST_RECENT]
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, OutputError):
             self._recent.parent.mkdir(parents=True, exist_ok=True)
-            self._recent.write_text(codec.line(names, ascii=True), encoding="utf-8")
+            output.write(self._recent, codec.line(names, ascii=True).encode())
 
     def recent(self) -> list[Path]:
         """Files that were open, the last one first, as far as they are still there."""

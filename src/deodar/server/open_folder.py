@@ -11,7 +11,8 @@ from io import BufferedReader
 from pathlib import Path
 from types import TracebackType
 
-from deodar.errors import DocumentError, OutputError
+from deodar.errors import DocumentError
+from deodar.model import output
 
 BY_DESCRIPTOR = hasattr(os, "O_NOFOLLOW") and {os.open, os.unlink, os.rename} <= os.supports_dir_fd
 """Whether this system opens files relative to an open folder.
@@ -106,7 +107,8 @@ class OpenFolder:
             return content
 
     def write(self, name: str, content: bytes) -> None:
-        """Write a file beside its final name and rename it: it is there whole, or not at all.
+        """Write a file beside its final name, wait until it is on the disk, and rename it, as `output.write`
+        does: it is there whole, or not at all.
 
         A link of that name is replaced, never followed.
         """
@@ -116,12 +118,15 @@ class OpenFolder:
             try:
                 with os.fdopen(descriptor, "wb") as file:
                     file.write(content)
+                    file.flush()
+                    output.sync_open(file.fileno())
                 self._rename(beside, name)
+                self._sync()
             except BaseException:
                 self.remove(beside)
                 raise
         except OSError as error:
-            raise OutputError(f"cannot be written: {error.strerror}", where=name) from None
+            raise output.failed(Path(name), error) from None
 
     def remove(self, name: str) -> None:
         """Remove a file, if it is there."""
@@ -135,6 +140,12 @@ class OpenFolder:
         if self._descriptor is None:
             return os.open(self.path / name, flags, 0o666)
         return os.open(name, flags, 0o666, dir_fd=self._descriptor)
+
+    def _sync(self) -> None:
+        if self._descriptor is None:
+            output.sync_folder(self.path)
+        else:
+            output.sync_open(self._descriptor)
 
     def _rename(self, old: str, new: str) -> None:
         if self._descriptor is None:

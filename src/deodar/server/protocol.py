@@ -14,6 +14,7 @@ from typing import Any
 import msgspec
 
 from deodar import codec
+from deodar.model import output
 from deodar.server import to_page, to_server
 from deodar.server.message import union
 
@@ -109,9 +110,9 @@ def _type(form: dict[str, Any]) -> str:
 
 def write() -> None:
     """Write both files anew."""
-    SCHEMA.write_text(schema_text(), encoding="utf-8", newline="\n")
+    output.write(SCHEMA, schema_text().encode())
     if TYPESCRIPT.parent.is_dir():
-        TYPESCRIPT.write_text(typescript(), encoding="utf-8", newline="\n")
+        output.write(TYPESCRIPT, typescript().encode())
 
 
 if __name__ == "__main__":
