@@ -185,6 +185,9 @@ class Element(Part):
         inputs: names of the input ports.
         direct: for each output port that passes inputs on in the same instant, which; ports not named show
             the state.
+        follows: for an input port that takes the axes of another one, which.
+        external: input that no connection reaches, of the axes of `output`; its value comes from outside the
+            model: from the world for a `Sensor` and classes derived from it, else it is 0. "": none.
         stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
         reads_own_output: output ports that `advance` finds among its inputs, as they were in the same step.
         linear: whether the default output is linear in the one input.
@@ -198,6 +201,8 @@ class Element(Part):
 
     inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    follows: ClassVar[Mapping[str, str]] = {}
+    external: ClassVar[str] = ""
     stateful: ClassVar[bool] = False
     reads_own_output: ClassVar[tuple[str, ...]] = ()
     linear: ClassVar[bool] = False

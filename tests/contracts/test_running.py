@@ -8,7 +8,7 @@ import jax
 import numpy as np
 import pytest
 
-from deodar.compiler.functions import Functions, Step
+from deodar.compiler.functions import Functions, StepArguments
 from deodar.element import Setting, Time
 from deodar.leaves import leaves
 from deodar.model import find
@@ -66,14 +66,15 @@ def test_one_copy_gives_just_what_it_declares(kind, precision):
     at = Setting(here.ins, here.outs, np.dtype(precision))
     with jax.enable_x64(precision == "float64"):
         zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
-        zeros["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
+        if element.external:
+            zeros[element.external] = np.zeros(shape(here.outs["output"]), at.dtype)
         zeros |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
         noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
         time = Time.at(0.0, 1.0, at.dtype)
         state = element.init(at)
         functions = Functions(here, {})
         constants = functions.settle(element, at, functions.prepare(element, at))
-        read = Step(state, zeros, constants, noise)
+        read = StepArguments(state, zeros, constants, noise)
         out = jax.eval_shape(lambda: functions.output(element, at, read, time))
         assert {port: np.shape(v) for port, v in out.items()} == {
             port: shape(axes) for port, axes in here.outs.items()

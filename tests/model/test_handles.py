@@ -12,6 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.couplings.weights import Weights
+from deodar.element import Coupling, Element
 from deodar.elements.noise import Noise
 from deodar.errors import DeodarError, ParameterError, UnknownName
 from deodar.model.handle import Handle
@@ -257,6 +258,12 @@ def test_handles_are_equal_by_model_and_element(model: dd.Model, u: Handle) -> N
 def test_no_parameter_has_the_name_of_an_attribute_of_handles(model: dd.Model, kind: str) -> None:
     own = {name for name in {*vars(Handle), *vars(model["v"])} if not name.startswith("__")}
     assert not own & {p.name for p in parameters(KINDS[kind])}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_parameter_has_the_name_of_what_elements_declare(kind: str) -> None:
+    declared = {name for name in {*vars(Element), *vars(Coupling)} if not name.startswith("__")} - {"name"}
+    assert not declared & {p.name for p in parameters(KINDS[kind])}
 
 
 @pytest.mark.parametrize("kind", PARTS)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.functions import Functions, Step
+from deodar.compiler.functions import Functions, StepArguments
 from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.reward_gate import RewardGate
 from deodar.element import Element, Setting, Time
@@ -224,7 +224,8 @@ def reads_time(kind: str) -> bool:
     here = node(around(element))
     at = Setting(here.ins, here.outs, np.dtype("float32"))
     inputs = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
-    inputs["sensed"] = np.zeros(shape(next(iter(here.outs.values()))), at.dtype)
+    if element.external:
+        inputs[element.external] = np.zeros(shape(here.outs["output"]), at.dtype)
     inputs |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
     noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
     time = Watched.at(0.0, 1.0, at.dtype)
@@ -232,7 +233,7 @@ def reads_time(kind: str) -> bool:
     def step() -> object:
         state, functions = element.init(at), Functions(here, {})
         constants = functions.settle(element, at, functions.prepare(element, at))
-        read = Step(state, inputs, constants, noise)
+        read = StepArguments(state, inputs, constants, noise)
         return functions.output(element, at, read, time), functions.advance(element, at, read, time)
 
     Watched.read.clear()

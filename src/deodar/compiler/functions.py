@@ -27,7 +27,7 @@ class Constants(NamedTuple):
     own: Any
 
 
-class Step(NamedTuple):
+class StepArguments(NamedTuple):
     """What an element reads in one step; a JAX PyTree.
 
     Attributes:
@@ -69,11 +69,11 @@ class Functions:
             return Constants((), own)
         return Constants(interaction.mix(element.kernels(), self.axes, constants.kernels), own)
 
-    def output(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         """Every output port at time t."""
         return run_output(element, self.convolving(at, read.constants), read, time)
 
-    def advance(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         """The state at t + dt."""
         return run_advance(element, self.convolving(at, read.constants), read, time)
 
@@ -91,11 +91,11 @@ def convolved_axes(node: Node) -> Axes:
     return node.axes(convolution.of) if convolution is not None else ()
 
 
-def run_output(element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+def run_output(element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
     """Call `output` of an element."""
     return element.output(at, read.state, read.inputs, read.constants.own, time, read.noise)
 
 
-def run_advance(element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+def run_advance(element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
     """Call `advance` of an element."""
     return element.advance(at, read.state, read.inputs, read.constants.own, time, read.noise)

@@ -15,7 +15,6 @@ import numpy as np
 
 from deodar.compiler.sharing import shared
 from deodar.compiler.ways import EXACT, Strategy, ways
-from deodar.elements.sensor import Sensor
 from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure
 from deodar.model.document import Document
@@ -173,9 +172,9 @@ class Plan:
 def by_structure(node: Node, still: bool, neutral: frozenset[str], way: Strategy) -> Hashable:
     """Rows that share one group: equal level, rate, structure, axes and way.
 
-    A sensor stands alone: a world feeds it by name.
+    An element with an external input is alone in its group: a world feeds it by its id.
     """
-    alone = node.id if isinstance(node.element, Sensor) else ""
+    alone = node.id if node.element.external else ""
     ins, outs = tuple(sorted(node.ins.items())), tuple(node.outs.items())
     return (node.level, node.every, still, structure(node.element, neutral), ins, outs, way, alone)
 
@@ -218,8 +217,7 @@ def plan(
         for port in group.like.reads
     }
     sensors = {
-        n.id: k
-        for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if isinstance(n.element, Sensor))
+        n.id: k for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if n.element.external)
     }
     return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
 
@@ -243,7 +241,7 @@ def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:
         if n.id not in known:
             known[n.id] = False
             alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
-            alone = alone and not (embodied and isinstance(n.element, Sensor))
+            alone = alone and not (embodied and bool(n.element.external))
             known[n.id] = alone and all(still(by[s[0]]) for slots in n.reads.values() for s in slots)
         return known[n.id]
 

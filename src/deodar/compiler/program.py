@@ -18,7 +18,7 @@ import numpy as np
 from jax import Array, lax
 
 from deodar.compiler.body import Body
-from deodar.compiler.functions import Step
+from deodar.compiler.functions import StepArguments
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.element import Setting, Time
@@ -253,14 +253,14 @@ class Program:
         g, group = call.group, self.plan.groups[call.group]
         passed = {port for out in group.like.outs for port in group.like.passes(out)}
         inputs = self._inputs(g, buffers, passed, now)
-        if group.like.id in self.plan.sensors:
-            inputs = {"sensed": jnp.asarray(sensed[group.like.id], self.dtype)[None]}
+        if port := group.like.element.external:
+            inputs[port] = jnp.asarray(sensed[group.like.id], self.dtype)[None]
         noise = None if group.like.element.stateful else self._noise(g, keys, tick)
         out = self._each(
             g,
             lambda e, at, read: self.functions[g].output(e, at, read, time),
             values,
-            Step(shown, inputs, constants[g], noise),
+            StepArguments(shown, inputs, constants[g], noise),
         )
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
@@ -274,7 +274,7 @@ class Program:
             g,
             lambda e, at, read: self.functions[g].advance(e, at, read, time),
             values,
-            Step(state, inputs, constants[g], noise),
+            StepArguments(state, inputs, constants[g], noise),
         )
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, state)
 

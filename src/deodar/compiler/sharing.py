@@ -2,9 +2,9 @@
 
 `ways` decides which nodes share. `shared` adds ports to them: what ends in `WAVES` holds the coefficients of
 a port, and what ends in `REST` the part of an input that does not come as coefficients. `functions` wraps the
-elements, which see neither: a `Source` gives its output as coefficients and takes those that arrive into the
-convolution of its dynamics, and a `Filter` applies its own function to coefficients, where a convolution is a
-product.
+elements, which see neither: a `SharingSource` gives its output as coefficients and takes those that arrive
+into the convolution of its dynamics, and a `SharingFilter` applies its own function to coefficients, where a
+convolution is a product.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import dataclasses as dc
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
-from deodar.compiler.functions import Functions, Step, run_advance, run_output
+from deodar.compiler.functions import Functions, StepArguments, run_advance, run_output
 from deodar.compiler.ways import EXACT, Strategy, acted_axes, role
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
@@ -121,7 +121,7 @@ def functions(node: Node, way: Strategy) -> Functions:
     """The functions of a group whose rows are like the node."""
     if not way.shared:
         return Functions(node, dict(way.choices))
-    return (Source if role(node) == "source" else Filter)(node, way)
+    return (SharingSource if role(node) == "source" else SharingFilter)(node, way)
 
 
 class _Sharing(Functions):
@@ -130,16 +130,16 @@ class _Sharing(Functions):
         self.key, self.waves = way.shared, dict(way.choices)[way.shared].waves
 
 
-class Source(_Sharing):
+class SharingSource(_Sharing):
     """Elements whose dynamics convolve their output: it is transformed once for all readers, and what arrives
     as waves is added before the one way back.
     """
 
-    def output(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         out = super().output(element, at, read, time)
         return out | {"output" + WAVES: interaction.to_waves(self.waves, out["output"])}
 
-    def advance(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         given, calls = read.inputs, list[Any]()
 
         def convolve(y: Any) -> Any:
@@ -160,12 +160,12 @@ class Source(_Sharing):
         return new
 
 
-class Filter(_Sharing):
+class SharingFilter(_Sharing):
     """Elements that are linear and translation invariant: their own function is applied to waves, where the
     convolution is a product.
     """
 
-    def output(self, element: Element, at: Setting, read: Step, time: Time) -> Arrays:
+    def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         arriving = read.inputs["input" + WAVES]
         if self.convolves:
             arriving = arriving + interaction.to_waves(self.waves, read.inputs["input" + REST])

@@ -41,13 +41,13 @@ EXACT = Strategy()
 WORTH = 1.1
 """How much more a step may cost for a program with fewer groups: it compiles sooner."""
 
-Part = Literal["", "source", "filter", "gain"]
+SharingRole = Literal["", "source", "filter", "gain"]
 
 Circle = tuple[list[Node], str, Choice]
 """Nodes, the kind of boundaries, and the waves that they share."""
 
 
-def role(n: Node) -> Part:
+def role(n: Node) -> SharingRole:
     """How an element can take part in a sum in Fourier space, from what it declares: as a `source` of waves
     whose dynamics take others in, as a `filter`, or as a `gain`.
     """
@@ -55,7 +55,7 @@ def role(n: Node) -> Part:
 
 
 @functools.cache
-def _role(cls: type[Element]) -> Part:
+def _role(cls: type[Element]) -> SharingRole:
     """The facts of a class are those of its functions: one that overrides a function declares them anew."""
     convolution = cls.convolution if _holds(cls, "convolution") else None
     if convolution is None:

@@ -35,6 +35,7 @@ class Product(Coupling):
     """
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "factor")
+    follows: ClassVar[Mapping[str, str]] = {"factor": "input"}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "factor")}
 
     def bounds(

@@ -40,6 +40,7 @@ class Sensor(Element):
     sensor: Annotated[str, Recompile(meaning="name of the world's sensor")] = "picture"
 
     inputs: ClassVar[tuple[str, ...]] = ()
+    external: ClassVar[str] = "reading"
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
@@ -48,4 +49,4 @@ class Sensor(Element):
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
     ) -> Arrays:
-        return {"output": inputs["sensed"]}
+        return {"output": inputs["reading"]}

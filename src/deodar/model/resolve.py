@@ -266,8 +266,9 @@ class _Resolver:
             want = node.ins[port]  # a port that takes what comes took the axes of its first connection
         if want is None:
             want = axes
-        if port == "factor" and "input" in node.ins:
-            want = node.ins["input"]
+        other = type(node.element).follows.get(port, "")
+        if other in node.ins:
+            want = node.ins[other]
             if {a.name for a in axes} > {a.name for a in want}:
                 ends = (
                     f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port}"
@@ -276,7 +277,7 @@ class _Resolver:
                 self.problem(
                     node.id,
                     f"{ends}: it has more axes",
-                    "Write: let the two change places; the port 'input' takes the larger one",
+                    f"Write: let the two change places; the port {other!r} takes the larger one",
                 )
                 return
         node.ins[port] = want

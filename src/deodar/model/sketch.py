@@ -52,7 +52,7 @@ def is_coupling(element: Element) -> bool:
 def caption(element: Element) -> str:
     """A coupling in a few words: what it is, and the number that it is known by."""
     value = _main(element)
-    if hasattr(element, "factor") and element.linear:
+    if element.scaled_by:
         return f"× {value}"
     if element.kernels():
         return value

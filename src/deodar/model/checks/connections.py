@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from deodar.couplings.gain import Gain
 from deodar.elements.motor import Motor
 from deodar.elements.placeholder import Placeholder
-from deodar.elements.sensor import Sensor
 from deodar.errors import Problem
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
@@ -60,7 +59,7 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
             f"Connect it: model.connect(..., {n.path!r}); or remove it",
         )
     if (
-        not e.ports() and not isinstance(e, Sensor) and not wiring.readers[n.id]
+        not e.ports() and not e.external and not wiring.readers[n.id]
     ):  # what a sensor reads may be wanted for the record alone
         yield warning(n, "nothing reads it", f"Connect it: model.connect({n.path!r}, ...); or remove it")
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
