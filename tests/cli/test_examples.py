@@ -157,14 +157,14 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(
     given: list[Any] = []
     monkeypatch.setattr("deodar.server.serve.serve", lambda *args: given.extend(args))
     assert main(["studio", "example:node", "--no-browser"]) == 0
-    file, root = given[:2]
-    assert root == here
+    service = given[0]
+    assert service.root == here
 
     async def scene(p: Page) -> None:
         await p.runs()
         assert p.document["title"] == "node" and p.document["file"] == ""
 
-    with studio(root, file) as address:
+    with studio(service.root, service.file) as address:
         play(address, scene)
 
 

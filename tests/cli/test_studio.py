@@ -19,6 +19,7 @@ import pytest
 
 from deodar.cli import main
 from deodar.server import app, serve
+from deodar.server.service import Service
 from tests.server.page import play, studio
 
 
@@ -99,7 +100,7 @@ def opened_at(
     said: list[str] = []
     monkeypatch.setattr(serve.webbrowser, "open", opens)
     monkeypatch.setattr(serve, "prepare", lambda *given: (FakeServer(address, *given[-2:]), None))
-    serve.serve(None, folder, "127.0.0.1", 0, browser, False, None, True, said.append)
+    serve.serve(Service(folder, port=0), browser, said.append)
     return said
 
 

@@ -16,6 +16,7 @@ import websockets
 
 from deodar.server import frames
 from deodar.server.serve import prepare
+from deodar.server.service import Service
 
 WAIT = 600.0
 """Longest time anything may take here; a failure, not a measure."""
@@ -39,7 +40,7 @@ def studio(
         up.append(address)
         ready.set()
 
-    server, bound = prepare(file, root, host, port, trust, world, token, say)
+    server, bound = prepare(Service(root, file, trust, world, host, port, token), say)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [bound]})
     thread.start()
     try:

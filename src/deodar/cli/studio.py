@@ -60,21 +60,13 @@ def run(args: argparse.Namespace) -> int:
         opening.require(file)
     # start-up time: these bring JAX
     from deodar.server.serve import serve
+    from deodar.server.service import Service
 
     _options.use_cores(args.cores)
 
     def say(address: str) -> None:
         print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
 
-    serve(
-        file,
-        root,
-        args.host,
-        args.port,
-        not args.no_browser,
-        args.trust,
-        _options.world(args.world),
-        not args.no_token,
-        say,
-    )
+    world, token = _options.world(args.world), not args.no_token
+    serve(Service(root, file, args.trust, world, args.host, args.port, token), not args.no_browser, say)
     return 0

@@ -19,7 +19,7 @@ from deodar.server import gallery
 from deodar.server.connection import PageConnection
 from deodar.server.guard import Guard
 from deodar.server.hub import Hub
-from deodar.worlds._base import World
+from deodar.server.service import Service
 
 STATIC = Path(__file__).with_name("static")
 NOT_BUILT = """The page of the studio has not been built.
@@ -39,35 +39,22 @@ class Studio:
     """What is served, and for whom.
 
     Args:
-        root: the folder below which files are read and written.
-        file: the document to open first.
-        trust: whether functions that documents name may be run.
-        world: what sensors read.
-        host, port, token: see `Guard`.
+        service: what is served.
+        port: the port that it listens at.
+        secret: the token that requests need; empty: none (see `Guard`).
         ready: called once everything is up.
         ended: called once everything is closed.
     """
 
     def __init__(
         self,
-        root: Path,
-        file: Path | None,
-        trust: bool,
-        world: World | None,
-        host: str,
+        service: Service,
         port: int,
-        token: str,
+        secret: str,
         ready: Callable[[], None],
         ended: Callable[[], None] = lambda: None,
     ) -> None:
-        self._root, self._file, self._trust, self._world, self._ready, self._ended = (
-            root,
-            file,
-            trust,
-            world,
-            ready,
-            ended,
-        )
+        self._service, self._ready, self._ended = service, ready, ended
         self._hub: Hub | None = None
         routes = [
             Route("/", self._page),
@@ -78,12 +65,13 @@ class Studio:
         ]
         star = Starlette(routes=routes, lifespan=self._life)
         star.router.redirect_slashes = False  # a path such as //host would become an address of another host
-        self.app: ASGIApp = Guard(star, host, port, token)
+        self.app: ASGIApp = Guard(star, service.host, port, secret)
 
     @contextlib.asynccontextmanager
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
-        self._hub = Hub(self._root, self._trust, self._world)
-        project, file = self._hub.project, self._file
+        service = self._service
+        self._hub = Hub(service.root, service.trust, service.world)
+        project, file = self._hub.project, service.file
         if file is not None:
             await project.turns.take(lambda: project.open_file(file.resolve(), True))
         try:

@@ -8,7 +8,6 @@ import os
 import socket
 import webbrowser
 from collections.abc import Callable
-from pathlib import Path
 from urllib.parse import urlsplit
 
 import uvicorn
@@ -19,7 +18,7 @@ from deodar.server.app import Studio
 from deodar.server.guard import is_local
 from deodar.server.keeper import state_folder
 from deodar.server.redirect_file import RedirectFile
-from deodar.worlds._base import World
+from deodar.server.service import Service
 
 PORT = 8430
 """First port that is tried; where it is taken, the next free one."""
@@ -29,23 +28,11 @@ MOST_MESSAGE = 64 * 2**20
 """Longest message from a page, in bytes: a dropped document, or a picture as base64."""
 
 
-def serve(
-    file: Path | None,
-    root: Path,
-    host: str,
-    port: int | None,
-    browser: bool,
-    trust: bool,
-    world: World | None,
-    token: bool,
-    say: Callable[[str], None],
-) -> None:
-    """Serve until Ctrl-C.
+def serve(service: Service, browser: bool, say: Callable[[str], None]) -> None:
+    """Serve until Ctrl-C, and open the page in the browser where `browser` is true.
 
-    `say` gets the address once it answers; without `token` everybody who can connect may use the studio.
-
-    An address with a token reaches the browser through a file of this user, which is removed when the studio
-    ends.
+    `say` gets the address once it answers. An address with a token reaches the browser through a file of this
+    user, which is removed when the studio ends.
     """
     redirects: list[RedirectFile] = []
 
@@ -69,19 +56,13 @@ def serve(
         for redirect in redirects:
             redirect.remove()
 
-    server, bound = prepare(file, root, host, port, trust, world, token, ready, ended)
+    server, bound = prepare(service, ready, ended)
     with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends, once everything is put away
         server.run(sockets=[bound])
 
 
 def prepare(
-    file: Path | None,
-    root: Path,
-    host: str,
-    port: int | None,
-    trust: bool,
-    world: World | None,
-    token: bool,
+    service: Service,
     ready: Callable[[str], None],
     ended: Callable[[], None] = lambda: None,
 ) -> tuple[uvicorn.Server, socket.socket]:
@@ -90,14 +71,16 @@ def prepare(
     `ready` gets the address once everything is up. `ended` is called when the server stops, before a signal
     such as SIGTERM ends the process.
     """
-    bound = bind(host, port)
+    host, bound = service.host, bind(service.host, service.port)
     number = bound.getsockname()[1]
-    secret = "" if not token else tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
+    secret = (
+        "" if not service.token else tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
+    )
     shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
     address = (
         f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"
     )
-    studio = Studio(root, file, trust, world, host, number, secret, lambda: ready(address), ended)
+    studio = Studio(service, number, secret, lambda: ready(address), ended)
     config = uvicorn.Config(
         studio.app,
         log_level="warning",

@@ -1,0 +1,31 @@
+"""What a studio serves, and the address that it listens at."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from pathlib import Path
+
+from deodar.worlds._base import World
+
+
+@dc.dataclass(frozen=True)
+class Service:
+    """What a studio serves, and the address that it listens at.
+
+    Attributes:
+        root: the folder below which the studio reads and writes files.
+        file: the document to open first; none: the gallery of examples.
+        trust: whether functions that documents name may be run.
+        world: what sensors read; none: only what the document holds.
+        host: name or number of the address; the default is reachable from this machine only.
+        port: none: the first free one from `deodar.server.serve.PORT` on; 0: any free one.
+        token: whether pages need a token; without it everybody who can connect may use the studio.
+    """
+
+    root: Path
+    file: Path | None = None
+    trust: bool = False
+    world: World | None = None
+    host: str = "127.0.0.1"
+    port: int | None = None
+    token: bool = True
