@@ -15,6 +15,7 @@ import importlib
 import inspect
 import re
 import sys
+import typing
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -428,7 +429,7 @@ def arguments(obj: Any) -> list[inspect.Parameter]:
     """The arguments of a call; of a part, whose constructor checks them by its declaration, the declared
     ones.
     """
-    found = list(inspect.signature(obj).parameters.values())
+    found = _unpacked(obj, list(inspect.signature(obj).parameters.values()))
     if not dataclasses.is_dataclass(obj) or not any(p.kind is p.VAR_KEYWORD for p in found):
         return found
     out: list[inspect.Parameter] = []
@@ -438,6 +439,19 @@ def arguments(obj: Any) -> list[inspect.Parameter]:
         needed = given is dataclasses.MISSING or isinstance(given, Needed)
         out.append(inspect.Parameter(f.name, kind, default=inspect.Parameter.empty if needed else given))
     return out
+
+
+def _unpacked(obj: Any, found: list[inspect.Parameter]) -> list[inspect.Parameter]:
+    """The arguments with the keys of `**name: Unpack[...]` in place of `**name`; defaults are those of the
+    function in the module of the keys that takes them all.
+    """
+    if not found or not str(found[-1].annotation).startswith("Unpack["):
+        return found
+    (keys,) = typing.get_args(typing.get_type_hints(obj)[found[-1].name])
+    module = vars(importlib.import_module(keys.__module__)).values()
+    taken = [inspect.signature(f).parameters for f in module if inspect.isfunction(f)]
+    takes = next(parameters for parameters in taken if keys.__annotations__.keys() <= parameters.keys())
+    return [*found[:-1], *(takes[key] for key in keys.__annotations__)]
 
 
 # ------------------------------------------------------------------------------------------- the command line

@@ -66,13 +66,6 @@ def test_what_few_runs_may_decide():
     assert decided(212, (210, 214), 12, 189, 231) is True  # the interval lies inside
 
 
-def test_a_share_is_a_claim():
-    claim = statistics.share("arrives", 19, 20, 0.95, quick=True)
-    assert claim.holds is True and claim.value == 0.95 and claim.n == 20 and claim.target == ">= 0.95"
-    assert statistics.share("arrives", 0, 0, 0.95).holds is None
-    assert claim.origin == "ours" and not claim.assumes and not claim.inferred
-
-
 def test_equality_is_shown_by_two_one_sided_tests_and_not_by_a_large_p():
     draw = np.random.default_rng(1)
     few = [draw.normal(1.1, 0.1, 6), draw.normal(1.1, 0.1, 6)]

@@ -6,7 +6,7 @@ import dataclasses as dc
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict
 
 import jax.numpy as jnp
 import numpy as np
@@ -120,11 +120,21 @@ class Isolated:
         self.session.restore(snapshot)
 
 
+class Isolation(TypedDict, total=False):
+    """Keyword arguments of `isolate`, which measurements that isolate a field themselves pass on."""
+
+    sigma: float | Sequence[float] | None
+    center: Sequence[float] | None
+    precision: str
+    dt: float | None
+    inputs: Sequence[str]
+
+
 def isolate(
     model: Model | Field,
     path: str = "",
     *,
-    sigma: Any = None,
+    sigma: float | Sequence[float] | None = None,
     center: Sequence[float] | None = None,
     precision: str = "float32",
     dt: float | None = None,

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from deodar.analysis.discretisation import discretisation, obstacle
-from deodar.analysis.isolated import Isolated, isolate
+from deodar.analysis.isolated import Isolated, Isolation, isolate
 from deodar.analysis.memory import Memory, forgetting, outlives, suppression
 from deodar.analysis.peaks import Peak, Peaks
 from deodar.analysis.preshape import SHARES, Boosted, boosted
@@ -215,28 +215,26 @@ def regimes(
     model: Model | Field,
     path: str = "",
     *,
-    sigma: Any = None,
-    precision: str = "float32",
-    dt: float | None = None,
-    inputs: Sequence[str] = (),
     accuracy: float = 0.01,
     limit: float = LIMIT,
     finer: bool = False,
     progress: Callable[[str], None] | None = None,
+    **isolation: Unpack[Isolation],
 ) -> Regimes:
     """Measure the instabilities of one field of a model.
 
     Args:
         model: the model, or a field that stands in none.
         path: the field in the model.
-        sigma: width of the localised input; none: that of the kernel's excitation.
-        precision: float32 or float64.
-        dt: Euler step; none: see `isolate`.
-        inputs: elements of the model kept as constant inputs.
         accuracy: of the thresholds, relative.
         limit: of each settling, in time constants.
         finer: measure thresholds on a grid twice as fine, too, if that has at most 20,000 samples.
         progress: called with what is measured next.
+        sigma: width of the localised input; none: that of the kernel's excitation.
+        center: where the localised input stands; none: the sample nearest to the middle.
+        precision: float32 or float64.
+        dt: Euler step; none: see `isolate`.
+        inputs: elements of the model kept as constant inputs.
 
     Raises:
         UnknownName: if there is no such element.
@@ -244,7 +242,7 @@ def regimes(
     """
     tell = progress or (lambda what: None)
     tell("compiling")
-    isolated = isolate(model, path, sigma=sigma, precision=precision, dt=dt, inputs=inputs)
+    isolated = isolate(model, path, **isolation)
     tell("resting state")
     isolated.reset()
     isolated.settle(limit=limit)

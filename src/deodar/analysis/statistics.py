@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from deodar.analysis.claims import Claim, ClaimKind, Origin
 from deodar.errors import AnalysisError
 from deodar.numerics.intervals import Interval
 
@@ -191,26 +190,6 @@ def smaller(value: float | None, interval: Interval | None, than: float, by: flo
     if value is None or interval is None:
         return None
     return larger(-value, (-interval[1], -interval[0]), -than, by)
-
-
-def share(
-    name: str,
-    hits: int,
-    n: int,
-    at_least: float,
-    kind: ClaimKind = "required",
-    source: str = "",
-    quick: bool = False,
-    origin: Origin = "ours",
-    assumes: str = "",
-    inferred: bool = False,
-) -> Claim:
-    """The claim that at least such a share of runs does something."""
-    interval = wilson(hits, n)
-    value = round(hits / n, 4) if n else None
-    holds = decided(value, interval, n, at_least, 1.0, quick)
-    marks: dict[str, Any] = {"origin": origin, "assumes": assumes, "inferred": inferred}
-    return Claim(name, value, f">= {at_least:g}", holds, kind, source, n, rounded(interval), **marks)
 
 
 def rounded(interval: Interval | None) -> Interval | None:

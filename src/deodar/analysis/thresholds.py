@@ -149,7 +149,8 @@ def ascend(
         isolated.put(**{by: high})
         isolated.settle(fine, limit)
         if isolated.peaks():
-            return bisect(isolated, by, low, high, rest, lambda: bool(isolated.peaks()), accuracy, limit)
+            bracket = Bracket(by, low, high, rest)
+            return bisect(isolated, bracket, lambda: bool(isolated.peaks()), accuracy, limit)
         low, rest = high, isolated.snapshot()
         if high >= searched:
             return None
@@ -175,25 +176,39 @@ def descend(
         isolated.put(**{by: trial})
         isolated.settle(fine, limit)
         if not isolated.peaks():
-            return bisect(isolated, by, held, trial, state, lambda: not isolated.peaks(), accuracy, limit)
+            bracket = Bracket(by, held, trial, state)
+            return bisect(isolated, bracket, lambda: not isolated.peaks(), accuracy, limit)
         if trial <= floor:
             return None
         held, state, reach = trial, isolated.snapshot(), reach * 2
 
 
+@dataclass(frozen=True)
+class Bracket:
+    """Two inputs between which a field changes.
+
+    Attributes:
+        by: which input it is.
+        before: the input at which the field has not changed.
+        after: the input at which it has changed; below `before` where the input falls.
+        state: the field, settled at `before`.
+    """
+
+    by: InputKind
+    before: float
+    after: float
+    state: SessionSnapshot
+
+
 def bisect(
     isolated: Isolated,
-    by: InputKind,
-    before: float,
-    after: float,
-    state: SessionSnapshot,
+    bracket: Bracket,
     changed: Callable[[], bool],
     accuracy: float = 0.01,
     limit: float = LIMIT,
 ) -> Transition:
-    """The input between `before` (settled at `state`, unchanged) and `after` (changed) at which the field
-    changes.
-    """
+    """The input inside a bracket at which the field changes, as `changed` finds once it has settled."""
+    before, after, state = bracket.before, bracket.after, bracket.state
     fine = tolerance(isolated, accuracy)
     least = (
         0.01 * isolated.scale
@@ -204,7 +219,7 @@ def bisect(
     while settled is None or abs(after - before) > accuracy / 2 * max(abs(before + after) / 2, least):
         trial = (before + after) / 2 if settled is not None else after
         isolated.restore(state)
-        isolated.put(**{by: trial})
+        isolated.put(**{bracket.by: trial})
         isolated.settle(fine, limit)
         if changed() or settled is None:
             after, settled = trial, (isolated.snapshot(), isolated.activation())
