@@ -120,7 +120,13 @@ def _two_layers() -> dd.Model:
     model = dd.Model("two layers")
     kernel, inhibition = [dd.Gaussian(2.0, 4.0)], [dd.Gaussian(-1.0, 8.0)]
     model.insert(
-        published.two_layer_field([LINE], kernel, inhibition, drive=[dd.Gaussian(1.0, 4.0)], noise=0.3),
+        published.two_layer_field(
+            [LINE],
+            kernel,
+            inhibition,
+            drive=[dd.Gaussian(1.0, 4.0)],
+            excitatory=published.Layer(noise=0.3),
+        ),
         "layers",
     )
     (

@@ -27,6 +27,32 @@ RENAMED = {
     "dd.Setting.waves": "dd.Setting.convolve",
     "dd.Time.every": "dd.Time.ticks",
     "dd.animate_path(every=...)": "dd.animate_path(stride=...)",
+    "dd.animate_path(trial=...)": "dd.animate_path(dd.figures.View(variable, trial=...))",
+    "dd.animate_path(where=...)": "dd.animate_path(dd.figures.View(variable, where=...))",
+    "dd.architectures.follow(limit=...)": "dd.architectures.follow(ending=Ending(limit=...))",
+    "dd.architectures.follow(radius=...)": "dd.architectures.follow(ending=Ending(radius=...))",
+    "dd.architectures.follow(times=...)": "dd.architectures.follow(ending=Ending(times=...))",
+    "dd.architectures.two_layer_field(noise=...)": (
+        "dd.architectures.two_layer_field(excitatory=Layer(noise=...))"
+    ),
+    "dd.architectures.two_layer_field(resting_inhibition=...)": (
+        "dd.architectures.two_layer_field(inhibitory=Layer(resting_level=...))"
+    ),
+    "dd.architectures.two_layer_field(resting_level=...)": (
+        "dd.architectures.two_layer_field(excitatory=Layer(resting_level=...))"
+    ),
+    "dd.architectures.two_layer_field(sigmoid=...)": (
+        "dd.architectures.two_layer_field(excitatory=Layer(sigmoid=...))"
+    ),
+    "dd.architectures.two_layer_field(sigmoid_inhibition=...)": (
+        "dd.architectures.two_layer_field(inhibitory=Layer(sigmoid=...))"
+    ),
+    "dd.architectures.two_layer_field(tau=...)": (
+        "dd.architectures.two_layer_field(excitatory=Layer(tau=...))"
+    ),
+    "dd.architectures.two_layer_field(tau_inhibition=...)": (
+        "dd.architectures.two_layer_field(inhibitory=Layer(tau=...))"
+    ),
     "dd.demos": "dd.papers",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",

@@ -7,7 +7,7 @@ import pytest
 
 from deodar.analysis.paths import clearance, path_until
 from deodar.analysis.shortest import arena_grid, shortest_path
-from deodar.architectures.follow_the_carrot import Carrot, follow
+from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.errors import ParameterError
 from deodar.worlds.arena.arena import Arena
 
@@ -53,7 +53,7 @@ def test_the_carrot_is_the_point_nearest_to_what_lies_ahead():
 def test_it_reaches_the_goals_round_a_wall(contact):
     world = arena(contact=contact, place_noise=0.5, place_every=2)
     paths = planned()
-    done = follow(world, paths, [0, 1], limit=900)
+    done = follow(world, paths, [0, 1], ending=Ending(limit=900))
     assert (done.steps < 900).all() and done.pose.shape == (done.steps.max() + 1, 2, 3)
     for k in range(2):
         course = done.pose[: done.steps[k] + 1, k]
@@ -63,13 +63,13 @@ def test_it_reaches_the_goals_round_a_wall(contact):
 
 def test_noise_belongs_to_the_trial():
     paths = planned()
-    both = follow(arena(place_noise=1.0), paths, [0, 1], limit=60)
-    one = follow(arena(place_noise=1.0), paths[1:], [1], limit=60)
+    both = follow(arena(place_noise=1.0), paths, [0, 1], ending=Ending(limit=60))
+    one = follow(arena(place_noise=1.0), paths[1:], [1], ending=Ending(limit=60))
     np.testing.assert_allclose(both.pose[:, 1], one.pose[:, 0], atol=1e-4)
 
 
 def test_a_copy_stays_at_the_limit():
-    done = follow(arena(), planned(), [0, 1], limit=5)
+    done = follow(arena(), planned(), [0, 1], ending=Ending(limit=5))
     assert (done.steps == 5).all() and len(done.pose) == 6
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.architectures.two_layer_field import two_layer_field
+from deodar.architectures.two_layer_field import Layer, two_layer_field
 from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll
 from deodar.numerics.sigmoids.linear import Linear
 
@@ -30,12 +30,8 @@ def test_the_steps_are_those_of_the_equations():
             kernels[1],
             0.2,
             kernels[2],
-            12.0,
-            7.0,
-            -3.0,
-            -6.0,
-            dd.Logistic(3),
-            dd.Logistic(1),
+            Layer(12.0, -3.0, dd.Logistic(3)),
+            Layer(7.0, -6.0, dd.Logistic(1)),
         ),
         "two",
     )
@@ -78,10 +74,8 @@ def selection(axis, inhibition, global_inhibition, pool):
         kernel,
         inhibition,
         global_inhibition,
-        tau=TAU,
-        resting_level=H,
-        resting_inhibition=0,
-        sigmoid_inhibition=Linear(),
+        excitatory=Layer(TAU, H),
+        inhibitory=Layer(10, 0, Linear()),
     )
     model.insert(layers, "two")
     targets = [model["one"], model["two.excitatory"]]

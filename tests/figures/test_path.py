@@ -10,7 +10,7 @@ import xarray
 from PIL import Image
 
 from deodar.errors import DeodarError, RecordError
-from deodar.figures import path
+from deodar.figures import View, path
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 
@@ -55,6 +55,14 @@ def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path)
     assert red[0] > 150 > 80 > red[1]
     with pytest.raises(DeodarError, match=r"walk\.gif"):
         path.animate_path(walked * 100, file, arena)
+
+
+def test_the_film_of_a_view_shows_its_trial(walked: xarray.DataArray, tmp_path: Path) -> None:
+    arena, films = Arena("blocks"), []
+    for k, variable in enumerate([walked, View(walked, trial=1), walked.isel(trial=[1])]):
+        file = path.animate_path(variable, tmp_path / f"{k}.gif", arena, width=120, stride=20)
+        films.append(file.read_bytes())
+    assert films[1] == films[2] != films[0]
 
 
 def test_what_is_no_path_is_refused(walked: xarray.DataArray, tmp_path: Path) -> None:

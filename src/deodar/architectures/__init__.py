@@ -10,20 +10,22 @@ from deodar.architectures.change_detection import LENGTH as TRIAL_LENGTH
 from deodar.architectures.change_detection import TEST as TEST_WINDOW
 from deodar.architectures.change_detection import change_detection, change_trial
 from deodar.architectures.feature_space import binding, feature_space
-from deodar.architectures.follow_the_carrot import Carrot, follow
+from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.architectures.plan import START as PLAN_START
 from deodar.architectures.plan import plan
 from deodar.architectures.reference_frame import reference_frame, remapping
 from deodar.architectures.saliency import saliency
 from deodar.architectures.serial_order import lesson, lesson_end, production_start, serial_order
 from deodar.architectures.spa import maze, spa
-from deodar.architectures.two_layer_field import two_layer_field
+from deodar.architectures.two_layer_field import Layer, two_layer_field
 
 __all__ = [
     "PLAN_START",
     "TEST_WINDOW",
     "TRIAL_LENGTH",
     "Carrot",
+    "Ending",
+    "Layer",
     "behaviour",
     "behaviours",
     "binding",

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from deodar import renamed
 from deodar.errors import ParameterError
 from deodar.numerics.axes import Axis
 from deodar.worlds.arena.arena import Arena
@@ -86,47 +87,55 @@ class Followed:
     steps: np.ndarray
 
 
+@dataclass(frozen=True)
+class Ending:
+    """When a copy ends: once it was within `radius` of the arena's goal `times` times, or at the limit.
+
+    Attributes:
+        radius: of the goal, in the unit of the arena.
+        times: steps that a copy has to be there, not necessarily one after another.
+        limit: most steps, of the arena's period each.
+    """
+
+    radius: float = 7.0
+    times: int = 40
+    limit: int = 3000
+
+
+@renamed.arguments("dd.architectures.follow")
 def follow(
     arena: Arena,
-    paths: Sequence[Any],
+    paths: Sequence[ArrayLike],
     trials: Sequence[int],
     carrot: Carrot | None = None,
-    limit: int = 3000,
+    ending: Ending | None = None,
     seed: int = 0,
-    radius: float = 7.0,
-    times: int = 40,
     between: Callable[[], None] = lambda: None,
 ) -> Followed:
     """Let a batch of vehicles follow a path each, from the starts that the arena has for their trials.
 
-    A copy ends when it was within `radius` of the arena's goal `times` times, or at the limit. The batch goes
-    on until all have ended.
+    The batch goes on until all copies have ended.
 
     Args:
         arena: where they drive.
         paths: for each trial rows of x and y, in the unit of the arena.
         trials: the trial of each copy; it keys its noise.
         carrot: the parameters.
-        limit: most steps, of the arena's period each.
+        ending: when a copy ends; none: the defaults of `Ending`.
         seed: seed of all noise.
-        radius: of the goal, in the unit of the arena.
-        times: steps that a copy has to be there, not necessarily one after another.
         between: called after each step.
     """
-    carrot, longest = carrot or Carrot(), max(map(len, paths))
-    filled = np.stack(
-        [
-            np.concatenate([p, np.repeat(p[-1:], longest - len(p), axis=0)])
-            for p in (np.asarray(q, float) for q in paths)
-        ]
-    )
+    carrot, ending = carrot or Carrot(), ending or Ending()
+    points = [np.asarray(path, float) for path in paths]
+    longest = max(map(len, points))
+    filled = np.stack([np.concatenate([p, np.repeat(p[-1:], longest - len(p), axis=0)]) for p in points])
     arena.reset(seed, trials)
     goals = arena.sense("goal", PLACE, 0.0)
     there, ended = np.zeros(len(trials), int), np.full(len(trials), -1)
     pose, touching = [arena.sense("pose", POSE, 0.0)], [arena.sense("touching", (), 0.0)]
-    for step in range(limit + 1):
-        there += np.linalg.norm(pose[-1][:, :2] - goals, axis=1) <= radius
-        ended = np.where((ended < 0) & ((there >= times) | (step == limit)), step, ended)
+    for step in range(ending.limit + 1):
+        there += np.linalg.norm(pose[-1][:, :2] - goals, axis=1) <= ending.radius
+        ended = np.where((ended < 0) & ((there >= ending.times) | (step == ending.limit)), step, ended)
         if (ended >= 0).all():
             break
         wheels = carrot.wheels(arena.sense("place", PLACE, 0.0), arena.sense("heading", (), 0.0), filled)

@@ -21,8 +21,10 @@ References:
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Sequence
 
+from deodar import renamed
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.interaction import Interaction
 from deodar.elements.field import Field
@@ -33,19 +35,37 @@ from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 
 
+@dc.dataclass(frozen=True)
+class Layer:
+    """The field dynamics of one layer.
+
+    Attributes:
+        tau: time constant, in the document's time unit; > 0, and no shorter than the step.
+        resting_level: h, attractor without input.
+        sigmoid: g, output; none: the logistic function.
+        noise: strength of the noise.
+    """
+
+    tau: float = 20.0
+    resting_level: float = -5.0
+    sigmoid: SigmoidFunction | None = None
+    noise: float = 0.0
+
+    def field(self, name: str, axes: Sequence[Axis], kernel: Sequence[Kernel] = ()) -> Field:
+        """The layer as a field."""
+        sigmoid = self.sigmoid or Logistic()
+        return Field(name, axes, self.tau, self.resting_level, sigmoid, kernel, noise=self.noise)
+
+
+@renamed.arguments("dd.architectures.two_layer_field")
 def two_layer_field(
     axes: Sequence[Axis],
     kernel: Sequence[Kernel],
     inhibition: Sequence[Kernel] = (),
     global_inhibition: float = 0.0,
     drive: Sequence[Kernel] = (),
-    tau: float = 20.0,
-    tau_inhibition: float = 10.0,
-    resting_level: float = -5.0,
-    resting_inhibition: float = -5.0,
-    sigmoid: SigmoidFunction | None = None,
-    sigmoid_inhibition: SigmoidFunction | None = None,
-    noise: float = 0.0,
+    excitatory: Layer | None = None,
+    inhibitory: Layer | None = None,
 ) -> Model:
     """The two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group; input
     goes to `excitatory`.
@@ -58,28 +78,19 @@ def two_layer_field(
         global_inhibition: c, on the integral of the inhibitory layer's output.
         drive: k_d, from the excitatory layer to the inhibitory one, summed; none: place by place, with a
             strength of 1.
-        tau: time constant of the excitatory layer, in the document's time unit; > 0, and no shorter than the
-            step.
-        tau_inhibition: tau_v, that of the inhibitory layer, likewise.
-        resting_level: h, attractor of the excitatory layer without input.
-        resting_inhibition: h_v, attractor of the inhibitory layer without input.
-        sigmoid: g, output of the excitatory layer; none: the logistic function.
-        sigmoid_inhibition: g_v, output of the inhibitory layer; none: the logistic function.
-        noise: strength of the noise of the excitatory layer.
+        excitatory: tau, h, g and noise of the excitatory layer; none: the defaults of `Layer`.
+        inhibitory: tau_v, h_v, g_v and noise of the inhibitory layer; none: the defaults of `Layer`, with a
+            tau_v of 10.
     """
     model = Model("two-layer field")
-    excitatory = model.add(
-        Field("excitatory", axes, tau, resting_level, sigmoid or Logistic(), kernel, noise=noise)
-    )
-    inhibitory = model.add(
-        Field("inhibitory", axes, tau_inhibition, resting_inhibition, sigmoid_inhibition or Logistic())
-    )
+    u = model.add((excitatory or Layer()).field("excitatory", axes, kernel))
+    v = model.add((inhibitory or Layer(tau=10.0)).field("inhibitory", axes))
     if drive:
-        excitatory >> model.add(Convolve(drive, name="drive")) >> inhibitory
+        u >> model.add(Convolve(drive, name="drive")) >> v
     else:
-        excitatory >> inhibitory
+        u >> v
     if inhibition:
-        inhibitory >> model.add(Convolve(inhibition, name="inhibition")) >> excitatory
+        v >> model.add(Convolve(inhibition, name="inhibition")) >> u
     if global_inhibition or not inhibition:
-        inhibitory >> model.add(Interaction((), global_inhibition, name="global inhibition")) >> excitatory
+        v >> model.add(Interaction((), global_inhibition, name="global inhibition")) >> u
     return model

@@ -152,13 +152,11 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
             )
         times = variable.sizes.get("time", 0)
         path.animate_path(
-            variable,
+            views[0],
             args.gif,
             world,
             stride=max(1, -(-times // path.MOST_FRAMES)),
             force=args.force,
-            trial=trial,
-            where=where,
         )
     return path.path_figure(variable, world, trial=trial, where=where)
 

@@ -63,30 +63,29 @@ def fill(place: FigureBase, view: View) -> None:
 
 @renamed.arguments("dd.animate_path")
 def animate_path(
-    variable: xarray.DataArray,
+    variable: xarray.DataArray | View,
     file: str | Path,
     arena: World,
     width: int = 480,
     stride: int = 1,
     speed: float = 1.0,
     force: bool = False,
-    **view: Any,
 ) -> Path:
     """Write a GIF of paths as they grow.
 
     Args:
-        variable: what a sensor `place` or `pose` showed, over time.
+        variable: what a sensor `place` or `pose` showed, over time; a `dd.figures.View` of it draws one
+            trial, or one point of a sweep.
         file: where to; it ends in .gif.
         arena: the arena it was recorded in.
         width: in pixels.
         stride: number of records from one frame to the next.
         speed: time of the record over time of the film.
         force: whether a file of that name is replaced.
-        view: see `dd.figures.View`: trial, where.
     """
     from PIL import Image, ImageDraw
 
-    path, looked = Path(file), View(variable, **view)
+    path, looked = Path(file), variable if isinstance(variable, View) else View(variable)
     if path.suffix.lower() != ".gif":
         raise RecordError(
             f"the name ends in {path.suffix!r}; a film of a path is a GIF",
@@ -133,7 +132,8 @@ def animate_path(
                 ahead = x + radius * math.cos(line[k, 2]), y + radius * math.sin(line[k, 2])
                 pen.line([at(x, y), at(*ahead)], fill=colour, width=2 * FINER)
         frames.append(frame.resize((width, height), Image.Resampling.BOX))
-    unit = str(variable["time"].attrs.get("units", "ms")) if "time" in variable.coords else "ms"
+    coords = looked.variable.coords
+    unit = str(coords["time"].attrs.get("units", "ms")) if "time" in coords else "ms"
     step = 1e3 * unit_seconds(unit) * float(np.diff(times).mean()) / speed
     output.write(
         path,

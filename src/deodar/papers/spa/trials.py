@@ -10,7 +10,7 @@ import numpy as np
 
 from deodar.analysis.paths import clearance, path_divergence, path_length
 from deodar.analysis.shortest import shortest_path
-from deodar.architectures.follow_the_carrot import follow
+from deodar.architectures.follow_the_carrot import Ending, follow
 from deodar.architectures.spa import CASE_3, DIRECTIONS, place, spa
 from deodar.experiments.actions import Move
 from deodar.experiments.batch import run_batch
@@ -70,7 +70,8 @@ def carrot(name: str, quick: bool) -> Sequence[Row]:
     c = cases.conditions(quick)[name]
     arena, (starts, goals), on = cases.world(c), pairs(c.maze), reference(c.maze)
     paths = [shortest_path(on, starts[k, :2], goals[k]) for k in c.trials]
-    done = follow(arena, [p for p in paths if p is not None], c.trials, c.carrot, LIMIT, 0, RADIUS, STAY)
+    ending = Ending(RADIUS, STAY, LIMIT)
+    done = follow(arena, [p for p in paths if p is not None], c.trials, c.carrot, ending)
     out: list[Row] = []
     for i, k in enumerate(c.trials):
         end = int(done.steps[i]) + 1
