@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar import registry
+from deodar import plugins, registry
 from deodar.cli import main
 from deodar.errors import UnknownName
 from tests.plugins.conftest import Install
@@ -173,6 +173,7 @@ def _doctor(capsys: pytest.CaptureFixture[str]) -> list[str]:
 def test_a_module_of_any_group_that_raises_is_a_line_of_doctor(
     install: Install, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    assert {f"deodar.{group}" for group in plugins.GROUPS} == set(GROUPS)
     for group, (text, value, name, _) in GROUPS.items():
         package = group.replace(".", "-")
         module = package.replace("-", "_")
@@ -194,6 +195,17 @@ def test_a_name_of_deodar_that_any_group_takes_is_a_line_of_doctor(
         f"plug-in    {group.replace('.', '-')} 0.1.0: PROBLEM: {taken} takes the name {taken!r}, which deodar"
         " has"
         for group, (_, _, _, taken) in GROUPS.items()
+    )
+
+
+def test_a_package_for_another_version_is_a_line_of_doctor_for_each_group(
+    install: Install, capsys: pytest.CaptureFixture[str]
+) -> None:
+    entries = {group: {name: "nowhere"} for group, (_, _, name, _) in GROUPS.items()}
+    install("later", {}, entries, requires=("numpy", "deodar>=7"))
+    problem = f"is made for deodar >=7, and this is {dd.__version__}"
+    assert sorted(_doctor(capsys)) == sorted(
+        f"plug-in    later 0.1.0: PROBLEM: {name} {problem}" for _, _, name, _ in GROUPS.values()
     )
 
 

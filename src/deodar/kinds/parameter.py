@@ -18,7 +18,7 @@ Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | Non
 """A value as documents write it."""
 
 QUANTITIES = ("number", "integer", "per_axis", "part", "array", "numbers")
-"""Forms of parameters whose names may stand in an equation."""
+"""Forms of parameters whose names may occur in an equation."""
 
 ENDLESS = 1e20
 """A time of this size as a default means: never."""
