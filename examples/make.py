@@ -1,4 +1,4 @@
-"""Write the examples anew: one document for each idea, made with the public calls that any script uses.
+"""Write the examples: one document for each idea, made with the public calls that any script uses.
 
     python examples/make.py
 
@@ -269,7 +269,7 @@ def behaviour() -> dd.Model:
 
 
 def groups() -> dd.Model:
-    """Four behaviours from one template, with one knob for the speed of all."""
+    """Four behaviours from one template, with one document parameter for the speed of all."""
     model = dd.Model("groups")
     names = ("search", "approach", "grasp", "lift")
     model.parameter("tempo", 20.0)

@@ -1,4 +1,4 @@
-"""Draw the examples anew for the gallery: what one sees when they run, one small picture each.
+"""Draw the pictures of the examples for the gallery, one small picture each.
 
     python examples/pictures.py
 
@@ -318,7 +318,7 @@ def binding() -> Figure:
 
 
 def remapping() -> Figure:
-    """What jumps on the retina, above, stands still before the body, below."""
+    """A position that jumps on the retina, above, is constant relative to the body, below."""
     figure = blank()
     data = run("remapping", "diagonal.retina.activation", "diagonal.body.activation")
     heat(part(figure, (0, 0.54, 1, 0.46)), data["diagonal.retina.activation"].values, -8, 6, threshold=False)

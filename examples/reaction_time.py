@@ -28,7 +28,7 @@ DISTANCES = (4, 8, 12, 16, 20, 28, 36)
 
 
 def experiment(trials: int = 100) -> dd.Experiment:
-    """So many trials of each distance, without and with a pre-shape at the left target."""
+    """Return an experiment of `trials` trials for each distance, without and with a pre-shape at the left."""
     x = dd.Axis("x", 0, 100, samples=101, unit="deg")
     model = dd.Model("reaction time")
     kernel = [dd.Gaussian(amplitude=1.2, sigma=5)]

@@ -3,8 +3,8 @@
     python examples/sequences.py            a few sequences of each length
     python examples/sequences.py 100    a hundred of each: every seed has its own sequence and its own noise
 
-What is perceived during production is always the same round of places, whatever was learned: each action
-waits until its place comes round.
+During production the perceived input cycles through the same positions for every sequence: each action waits
+until the input reaches its position.
 """
 
 from __future__ import annotations

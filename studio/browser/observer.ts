@@ -15,7 +15,7 @@ import type {
   ToServer,
 } from "../src/protocol";
 import { replaced, valueAt } from "../src/values";
-import { Live } from "../src/world/live";
+import { LiveWorld } from "../src/world/live";
 
 /** Longest time that anything may take; a failure, not a measure. */
 const PATIENCE = 60_000;
@@ -37,7 +37,7 @@ export class Observer {
   document: DocumentView | null = null;
   clock: Clock | undefined;
   /** The world from above; where its bodies are after `watch_world`. */
-  readonly world = new Live();
+  readonly world = new LiveWorld();
   private session = 0;
   private last = 0;
   /** Whether the clock is older than the newest answer: a clock ends each group of messages. */

@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { frameOf, type Point, toPixels } from "../src/world/place";
+import { frameOf, type PlanPoint, toPixels } from "../src/world/place";
 import { button, colours, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -53,14 +53,14 @@ const thing = (name: string) =>
 const robot = () => observer.world.now.bodies[0]?.x ?? Number.NaN;
 
 /** Where a place in the world is on the page. */
-async function onPage(place: Point): Promise<Point> {
+async function onPage(place: PlanPoint): Promise<PlanPoint> {
   const area = await canvas().boundingBox();
   if (area === null) throw new Error("The world is not visible.");
   const { x, y } = toPixels(frameOf([0, 0, 3, 2], area.width, area.height), place);
   return { x: area.x + x, y: area.y + y };
 }
 
-async function drag(from: Point, to: Point): Promise<void> {
+async function drag(from: PlanPoint, to: PlanPoint): Promise<void> {
   const { mouse } = studio.page;
   const [start, end] = [await onPage(from), await onPage(to)];
   await mouse.move(start.x, start.y);

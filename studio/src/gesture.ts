@@ -7,8 +7,8 @@ let last = Math.floor(Math.random() * 2 ** 30);
 
 export const newGesture = (): number => ++last;
 
-type Send<T> = (value: T, gesture: number) => Promise<unknown>;
-type Frame = (draw: () => void) => void;
+type SendValue<T> = (value: T, gesture: number) => Promise<unknown>;
+type Schedule = (draw: () => void) => void;
 
 // Keys that follow within this time belong to one gesture.
 const IDLE_MS = 500;
@@ -23,9 +23,9 @@ export class Gesture<T> {
 
   // `settled` is called when everything was sent and answered, and no button is pressed any more.
   constructor(
-    private send: Send<T>,
+    private send: SendValue<T>,
     private settled: () => void,
-    private frame: Frame = (draw) => void requestAnimationFrame(draw),
+    private frame: Schedule = (draw) => void requestAnimationFrame(draw),
   ) {}
 
   // The pointer moved: the gesture lasts until `end`.

@@ -27,7 +27,7 @@ type Stream = {
   waiting: Set<Subscriber>;
 };
 
-type Send = (message: Watch | Trace | { type: "unwatch"; stream: number }) => void;
+type SendWish = (message: Watch | Trace | { type: "unwatch"; stream: number }) => void;
 
 export class Streams {
   private byKey = new Map<string, Stream>();
@@ -35,7 +35,7 @@ export class Streams {
   private last = 0;
   private drawing = false;
 
-  constructor(private send: Send) {}
+  constructor(private send: SendWish) {}
 
   // Ask for live data; the function returned ends it. The callback also runs when the form changes or the
   // stream is lost.

@@ -34,7 +34,10 @@ MUTABLE_CALLS = {
     "ContextVar",
     "local",
 }
-PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+PAGES = [
+    *sorted((ROOT / "docs").glob("*.md")),
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md")),
+]
 PAGE = [p for p in texts() if (ROOT / "studio") in p.parents and p.suffix in {".ts", ".tsx", ".css"}]
 CHANGES = {"append", "add", "update", "pop", "clear", "extend", "insert", "remove", "setdefault", "discard"}
 
@@ -176,6 +179,17 @@ def test_lines_of_the_manual_have_at_most_110_columns(path: Path) -> None:
     lines = re.sub(r"<!-- evidence .*?<!-- end -->|`[^`\n]{60,}`", "", text, flags=re.DOTALL).splitlines()
     long = [line for line in lines if len(line) > 110 and not line.startswith(("|", "!["))]
     assert not long, "wrap the prose; code, tables and pictures may be wider"
+
+
+def test_no_type_of_the_page_has_two_meanings() -> None:
+    declared: dict[str, set[str]] = {}
+    sources = ROOT / "studio" / "src"
+    for path in (p for p in PAGE if sources in p.parents and p.suffix in {".ts", ".tsx"}):
+        text = path.read_text(encoding="utf-8")
+        for name in re.findall(r"^(?:export )?(?:type|interface|class) (\w+)", text, re.MULTILINE):
+            declared.setdefault(name, set()).add(path.relative_to(ROOT).as_posix())
+    local = {"Props"}  # the properties of the one component of a file, never exported
+    assert not {name: files for name, files in declared.items() if len(files) > 1 and name not in local}
 
 
 def test_warnings_are_errors() -> None:

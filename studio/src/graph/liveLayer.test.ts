@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { LiveLayer } from "./liveLayer";
 
-type Drawn = [picture: unknown, x: number, y: number, width: number, height: number];
+type DrawnPicture = [picture: unknown, x: number, y: number, width: number, height: number];
 
 let frames: (() => void)[] = [];
 const next = () => frames.splice(0).forEach((frame) => frame());
@@ -37,11 +37,11 @@ const slot = (left: number, top: number) =>
 const picture = (style = {}) => ({ width: 100, height: 100, style }) as unknown as HTMLCanvasElement;
 
 function stage() {
-  const drawn: Drawn[] = [];
+  const drawn: DrawnPicture[] = [];
   const ctx = {
     setTransform: () => {},
     clearRect: () => drawn.splice(0),
-    drawImage: (...given: Drawn) => drawn.push(given),
+    drawImage: (...given: DrawnPicture) => drawn.push(given),
     imageSmoothingEnabled: true,
   };
   const canvas = {

@@ -28,7 +28,7 @@ export type FoldedNode = Node<GroupData, "folded">;
 export type SceneNode = BoxNode | FrameNode | FoldedNode;
 export type Wire = Edge<WireData, "wire">;
 
-export type Scene = {
+export type GraphScene = {
   nodes: SceneNode[];
   wires: Wire[];
   tree: Tree;
@@ -41,7 +41,7 @@ export const groupNode = (key: string): string => `group:${key}`;
 
 export const PILL = { height: 22, gap: 4, letter: 6.6, pad: 34, most: 132 };
 
-export function scene(structure: Structure, kinds: Map<string, Kind>): Scene {
+export function scene(structure: Structure, kinds: Map<string, Kind>): GraphScene {
   const { elements, groups, layout } = structure;
   const chained = chains(structure, kinds);
   const found = tree(elements, groups, readFolded(layout), chained.couplings);

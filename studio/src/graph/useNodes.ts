@@ -6,12 +6,12 @@ import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { useStudio } from "../store";
 import { place } from "./arrange";
 import { differ, moved } from "./moved";
-import type { Scene, SceneNode } from "./scene";
+import type { GraphScene, SceneNode } from "./scene";
 
 // Steps by arrow keys that follow each other are one change.
 const KEYS_MS = 500;
 
-export function useNodes(scene: Scene) {
+export function useNodes(scene: GraphScene) {
   const selected = useStudio((state) => state.selected);
   const [nodes, setNodes] = useState<SceneNode[]>(scene.nodes);
   const [seen, setSeen] = useState(scene);

@@ -6,7 +6,7 @@ import type { Problem } from "../protocol";
 import { numberText } from "./number";
 import { NumberBox } from "./NumberBox";
 import { ProblemLine } from "./ProblemLine";
-import { including, nudged, type Range } from "./range";
+import { including, nudged, type SliderRange } from "./range";
 import type { Setting } from "./setting";
 import { ValueSlider } from "./ValueSlider";
 
@@ -14,7 +14,7 @@ type NumberControlProps = {
   label: string;
   setting: Setting<number | null>;
   // What is sensible now; a range that was shown before stays as long as it holds the value.
-  range: Range;
+  range: SliderRange;
   // Another key is another range.
   rangeKey: string;
   unit: string;
@@ -96,13 +96,13 @@ export function NumberControl({
 }
 
 // An end to read: what is less than a step is nothing.
-function endText(end: number, { step, logarithmic }: Range): string {
+function endText(end: number, { step, logarithmic }: SliderRange): string {
   return numberText(logarithmic ? end : Math.round(end / step) * step);
 }
 
 // Ranges follow from values, but must not move under the hand: the first one stays, and grows where a value
 // lies outside.
-function useCalmRange(range: Range, key: string, value: number | null): Range {
+function useCalmRange(range: SliderRange, key: string, value: number | null): SliderRange {
   const kept = useRef({ key, range });
   if (kept.current.key !== key) {
     kept.current = { key, range };

@@ -4,12 +4,12 @@ import { Slider } from "@mantine/core";
 import type { KeyboardEvent } from "react";
 
 import { numberText } from "./number";
-import { nudged, snapped, type Range } from "./range";
+import { nudged, snapped, type SliderRange } from "./range";
 
 type ValueSliderProps = {
   label: string;
   value: number;
-  range: Range;
+  range: SliderRange;
   disabled?: boolean;
   onMove: (value: number) => void;
   onEnd: () => void;

@@ -6,11 +6,11 @@ import type { AxisView, ElementView, KnobView, ParameterForm } from "../protocol
 import { useStudio } from "../store";
 import { axesOf, formAt, type Kinds } from "./leaf";
 import { symbolOf } from "./part";
-import { axesAt, type Range, sliderRange } from "./range";
+import { axesAt, type SliderRange, sliderRange } from "./range";
 import { unitText } from "./unit";
 
-export type Look = {
-  range: Range;
+export type ControlLook = {
+  range: SliderRange;
   unit: string;
   symbol: string;
   cost: ParameterForm["cost"];
@@ -43,7 +43,7 @@ export function lookOf(
   element: ElementView | undefined,
   path: string,
   value: unknown,
-): Look | undefined {
+): ControlLook | undefined {
   const form = element && formAt(kinds, element.kind, element.values, path);
   if (element === undefined || form === undefined) {
     return undefined;
@@ -59,7 +59,7 @@ export function lookOf(
   };
 }
 
-export function useLook(element: string, path: string, value: unknown): Look | undefined {
+export function useLook(element: string, path: string, value: unknown): ControlLook | undefined {
   const found = useStudio((state) => state.elements.get(element));
   const kinds = useStudio((state) => state.kinds);
   const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
@@ -71,7 +71,7 @@ export function useLook(element: string, path: string, value: unknown): Look | u
 }
 
 // A document parameter has the range and the unit of the first parameter that it drives.
-export function useKnobLook(knob: KnobView | undefined): Look {
+export function useKnobLook(knob: KnobView | undefined): ControlLook {
   const first = knob?.links[0];
   const driven = useLook(first?.element ?? "", first?.parameter ?? "", knob?.value ?? null);
   const range = sliderRange(UNDECLARED, knob?.value ?? null, { path: "", axes: NO_AXES, own: false });

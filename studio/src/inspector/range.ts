@@ -3,7 +3,7 @@
 import type { AxisView, ParameterForm } from "../protocol";
 import { valueAt } from "../values";
 
-export type Range = {
+export type SliderRange = {
   lower: number;
   upper: number;
   logarithmic: boolean;
@@ -24,7 +24,7 @@ const ENDLESS = 1e12;
 const WIDE = 1e3;
 const STEPS = 200;
 
-export function sliderRange(form: ParameterForm, value: unknown, standing: Standing): Range {
+export function sliderRange(form: ParameterForm, value: unknown, standing: Standing): SliderRange {
   const sizes = [...numbersOf(value), ...numbersOf(defaultAt(form, standing.path))].filter(
     (v) => Math.abs(v) < ENDLESS,
   );
@@ -35,7 +35,7 @@ export function sliderRange(form: ParameterForm, value: unknown, standing: Stand
 
 // The same range where it holds the value, else a wider one; the end that is beaten moves so far that it is
 // not beaten again at once.
-export function including(range: Range, value: number): Range {
+export function including(range: SliderRange, value: number): SliderRange {
   if ((value >= range.lower && value <= range.upper) || Math.abs(value) >= ENDLESS) {
     return range;
   }
@@ -51,7 +51,11 @@ export function including(range: Range, value: number): Range {
 }
 
 // A range that a person chose.
-export function chosen(range: Range, lower: number | undefined, upper: number | undefined): Range {
+export function chosen(
+  range: SliderRange,
+  lower: number | undefined,
+  upper: number | undefined,
+): SliderRange {
   const low = lower ?? range.lower;
   const high = upper ?? range.upper;
   if (!(low < high)) {
@@ -66,7 +70,11 @@ export function chosen(range: Range, lower: number | undefined, upper: number | 
   return stepped(low, high, range.logarithmic && low > 0, whole);
 }
 
-function sensible(form: ParameterForm, sizes: number[], { path, axes, own }: Standing): Omit<Range, "step"> {
+function sensible(
+  form: ParameterForm,
+  sizes: number[],
+  { path, axes, own }: Standing,
+): Omit<SliderRange, "step"> {
   const { lower, upper, unit } = form;
   const size = Math.max(0, ...sizes.map(Math.abs));
   if (
@@ -96,7 +104,7 @@ function sensible(form: ParameterForm, sizes: number[], { path, axes, own }: Sta
 
 // Places lie on the axis, distances (of parts inside, of elements without axes of their own) go both ways,
 // widths up to half the axis.
-function along(axes: AxisView[], bound: number | null, place: boolean): Omit<Range, "step"> {
+function along(axes: AxisView[], bound: number | null, place: boolean): Omit<SliderRange, "step"> {
   const half = Math.max(...axes.map((axis) => (axis.upper - axis.lower) / 2));
   if (bound !== null) {
     return { lower: bound, upper: Math.max(half, bound + half), logarithmic: false };
@@ -118,7 +126,7 @@ export function axesAt(axes: AxisView[], form: ParameterForm, path: string): Axi
   return one === undefined ? axes : [one];
 }
 
-function within(lower: number, upper: number, low: number, high: number): Omit<Range, "step"> {
+function within(lower: number, upper: number, low: number, high: number): Omit<SliderRange, "step"> {
   const least = Math.max(lower, low);
   const most = Math.min(upper, high);
   if (least < most) {
@@ -134,7 +142,7 @@ function ifZero(unit: string): number {
   return unit === "activation" ? 10 : unit === "time" ? 1000 : 1;
 }
 
-function stepped(lower: number, upper: number, logarithmic: boolean, whole: boolean): Range {
+function stepped(lower: number, upper: number, logarithmic: boolean, whole: boolean): SliderRange {
   const step = fine((upper - lower) / STEPS);
   return { lower, upper, logarithmic, step: whole ? Math.max(1, Math.round(step)) : step };
 }
@@ -173,7 +181,7 @@ export function defaultAt(form: ParameterForm, path: string): unknown {
 // slider
 
 // The value nearest to where the slider stands that is round.
-export function snapped(value: number, range: Range): number {
+export function snapped(value: number, range: SliderRange): number {
   const round = range.logarithmic
     ? Number(value.toPrecision(3))
     : Number((Math.round(value / range.step) * range.step).toPrecision(12));
@@ -181,7 +189,7 @@ export function snapped(value: number, range: Range): number {
 }
 
 // One key press further. Coarse is ten steps; on a logarithmic range a step is a share of the value.
-export function nudged(value: number, direction: 1 | -1, coarse: boolean, range: Range): number {
+export function nudged(value: number, direction: 1 | -1, coarse: boolean, range: SliderRange): number {
   if (range.logarithmic && value > 0) {
     const factor = coarse ? 1.25 : 1.02;
     return snapped(direction > 0 ? value * factor : value / factor, range);

@@ -81,14 +81,14 @@ export function signature(arrangement: SerializedDockview): string {
   return JSON.stringify({ ...arrangement, panels, grid: shares(arrangement.grid.root), activeGroup: null });
 }
 
-type Branch = { type: string; data: unknown; size?: number };
+type PanelBranch = { type: string; data: unknown; size?: number };
 
 // Sizes as hundredths of what they are a part of.
-function shares(node: Branch): unknown {
+function shares(node: PanelBranch): unknown {
   if (!Array.isArray(node.data)) {
     return node.data;
   }
-  const children = node.data as Branch[];
+  const children = node.data as PanelBranch[];
   const all = children.reduce((sum, child) => sum + (child.size ?? 0), 0) || 1;
   return children.map((child) => [Math.round((50 * (child.size ?? 0)) / all), shares(child)]);
 }

@@ -6,10 +6,10 @@ import { useState, type FormEvent } from "react";
 import { useLateFocus } from "../inspector/lateFocus";
 import { numberText, typedNumber } from "../inspector/number";
 import { ProblemLine } from "../inspector/ProblemLine";
-import type { Range } from "../inspector/range";
+import type { SliderRange } from "../inspector/range";
 import { changedPin, keepPins, type Pin } from "./pins";
 
-type PinEditingProps = { what: "range" | "label"; pin: Pin; range: Range; onDone: () => void };
+type PinEditingProps = { what: "range" | "label"; pin: Pin; range: SliderRange; onDone: () => void };
 
 export function PinEditing({ what, pin, range, onDone }: PinEditingProps) {
   const field = useLateFocus();

@@ -23,7 +23,7 @@ export type PlotProps = {
   set: (settings: Partial<PlotSettings>) => void;
 };
 
-type Frame = PlotProps & {
+type PlotFrameProps = PlotProps & {
   kind: PlotKind;
   // Ports to choose from, if the kind shows one at a time.
   ports?: string[];
@@ -35,7 +35,7 @@ type Frame = PlotProps & {
   children: ReactNode;
 };
 
-export function PlotFrame(props: Frame) {
+export function PlotFrame(props: PlotFrameProps) {
   const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } =
     props;
   const running = useStudio((state) => state.clock?.running ?? false);

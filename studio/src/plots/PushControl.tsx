@@ -3,9 +3,9 @@
 import { NumberInput, Text } from "@mantine/core";
 import type { PlotSettings } from "./settings";
 
-type Push = { amplitude: number; width: number; set: (settings: Partial<PlotSettings>) => void };
+type PushSettings = { amplitude: number; width: number; set: (settings: Partial<PlotSettings>) => void };
 
-export function PushControl({ amplitude, width, set }: Push) {
+export function PushControl({ amplitude, width, set }: PushSettings) {
   return (
     <>
       <div className="plot-pair">

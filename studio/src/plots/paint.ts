@@ -16,8 +16,8 @@ export type Curve = {
 };
 
 // One image for each canvas, kept while its size stays: one putImageData for each frame is all that is paid.
-type Target = { ctx: CanvasRenderingContext2D; image: ImageData; words: Uint32Array };
-const images = new WeakMap<HTMLCanvasElement, Target>();
+type Surface = { ctx: CanvasRenderingContext2D; image: ImageData; words: Uint32Array };
+const images = new WeakMap<HTMLCanvasElement, Surface>();
 const words = new WeakMap<Scale, Uint32Array>();
 
 // A heat map: one pixel for each sample, the canvas is stretched by its style. C order: index = ix * ny + iy;
@@ -130,7 +130,7 @@ export function extent(values: ArrayLike<number>): Range | null {
   return lower <= upper ? [lower, upper] : null;
 }
 
-function imageOf(canvas: HTMLCanvasElement, nx: number, ny: number): Target | null {
+function imageOf(canvas: HTMLCanvasElement, nx: number, ny: number): Surface | null {
   if (nx < 1 || ny < 1) {
     return null;
   }

@@ -20,12 +20,12 @@ import { Carrier } from "./carrier";
 import { draw } from "./draw";
 import { live } from "./live";
 import {
-  type Frame,
+  type PlanFrame,
   frameOf,
   freeName,
   inside,
   placeText,
-  type Point,
+  type PlanPoint,
   things,
   toWorld,
   under,
@@ -36,7 +36,7 @@ const HELP =
 // A box that is placed, and a step of an arrow key, as shares of the shorter and of the longer side.
 const BOX = 0.06;
 const STEP = 0.01;
-const ARROWS: Record<string, Point> = {
+const ARROWS: Record<string, PlanPoint> = {
   ArrowLeft: { x: -1, y: 0 },
   ArrowRight: { x: 1, y: 0 },
   ArrowUp: { x: 0, y: 1 },
@@ -48,8 +48,8 @@ export function World() {
   const open = useStudio((state) => state.connection === "open");
   const shade = useComputedColorScheme();
   const canvas = useRef<HTMLCanvasElement>(null);
-  const frame = useRef<Frame | null>(null);
-  const grip = useRef<Point | null>(null);
+  const frame = useRef<PlanFrame | null>(null);
+  const grip = useRef<PlanPoint | null>(null);
   const redraw = useRef(() => {});
   const [hovered, setHovered] = useState<string | null>(null);
   const [selected, setSelected] = useState<string | null>(null);
@@ -127,7 +127,10 @@ export function World() {
 
   const all = things(scene);
   const find = (name: string | null) => all.find((thing) => thing.name === name);
-  const at = ({ nativeEvent: { offsetX: x, offsetY: y } }: { nativeEvent: MouseEvent }): Point => ({ x, y });
+  const at = ({ nativeEvent: { offsetX: x, offsetY: y } }: { nativeEvent: MouseEvent }): PlanPoint => ({
+    x,
+    y,
+  });
   const down = (event: PointerEvent<HTMLCanvasElement>) => {
     const thing =
       frame.current === null || event.button !== 0 ? null : under(scene, frame.current, at(event));
@@ -241,7 +244,7 @@ export function World() {
   );
 }
 
-function bodyUnder(frame: Frame, pixel: Point): string | null {
+function bodyUnder(frame: PlanFrame, pixel: PlanPoint): string | null {
   const { x, y } = toWorld(frame, pixel);
   return live.now.bodies.find((body) => Math.hypot(body.x - x, body.y - y) <= body.radius)?.name ?? null;
 }

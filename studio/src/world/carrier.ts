@@ -2,13 +2,13 @@
 // is asked no more than it can do.
 
 import type { Answer, ToServer } from "../protocol";
-import type { Point } from "./place";
+import type { PlanPoint } from "./place";
 
 type Ask = (message: ToServer) => Promise<Answer>;
 
 export class Carrier {
   // What is being carried, and where to; null: nothing.
-  held: { name: string; at: Point } | null = null;
+  held: { name: string; at: PlanPoint } | null = null;
   // Why the last place was refused; empty where it was not.
   refused = "";
   private asking = false;
@@ -21,7 +21,7 @@ export class Carrier {
     private told: () => void,
   ) {}
 
-  carry(name: string, at: Point): void {
+  carry(name: string, at: PlanPoint): void {
     this.held = { name, at };
     this.down = false;
     this.due = true;

@@ -3,7 +3,7 @@
 import type { BodyView, BoxView, MarkView } from "../protocol";
 import { font, type Look } from "../plots/look";
 import type { Seen } from "./live";
-import { type Frame, type Point, ticks, toPixels } from "./place";
+import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./place";
 
 const FLOOR = "#f5f5f0";
 const INK = "#1c2420";
@@ -14,12 +14,12 @@ const BODIES = ["#0050a0", "#b85c00", "#00734f", "#9b3a78"];
 const APART = 54;
 const SHORT = 4;
 
-export type Held = { name: string; at: Point; refused: boolean };
+export type Held = { name: string; at: PlanPoint; refused: boolean };
 export type Picked = { hovered: string | null; selected: string | null; held: Held | null };
 
 export function draw(
   ctx: CanvasRenderingContext2D,
-  frame: Frame,
+  frame: PlanFrame,
   { scene, bodies, way }: Seen,
   picked: Picked,
   look: Look,
@@ -53,7 +53,7 @@ export function draw(
   ctx.restore();
 }
 
-function drawAxes(ctx: CanvasRenderingContext2D, frame: Frame, unit: string, look: Look): void {
+function drawAxes(ctx: CanvasRenderingContext2D, frame: PlanFrame, unit: string, look: Look): void {
   const [x0, y0, x1, y1] = frame.border;
   const low = toPixels(frame, { x: x0, y: y0 });
   const high = toPixels(frame, { x: x1, y: y1 });
@@ -88,7 +88,7 @@ function drawAxes(ctx: CanvasRenderingContext2D, frame: Frame, unit: string, loo
   ctx.restore();
 }
 
-function drawBox(ctx: CanvasRenderingContext2D, frame: Frame, box: BoxView, marked: boolean): void {
+function drawBox(ctx: CanvasRenderingContext2D, frame: PlanFrame, box: BoxView, marked: boolean): void {
   const corner = toPixels(frame, { x: box.x - box.width / 2, y: box.y + box.height / 2 });
   const [r, g, b] = box.color.map((part) => Math.round(255 * part));
   ctx.fillStyle = `rgb(${r} ${g} ${b})`;
@@ -100,7 +100,12 @@ function drawBox(ctx: CanvasRenderingContext2D, frame: Frame, box: BoxView, mark
   }
 }
 
-function drawGhost(ctx: CanvasRenderingContext2D, frame: Frame, at: Point, box: BoxView | undefined): void {
+function drawGhost(
+  ctx: CanvasRenderingContext2D,
+  frame: PlanFrame,
+  at: PlanPoint,
+  box: BoxView | undefined,
+): void {
   const width = (box?.width ?? 0) * frame.scale || 16;
   const height = (box?.height ?? 0) * frame.scale || 16;
   const middle = toPixels(frame, at);
@@ -113,7 +118,7 @@ function drawGhost(ctx: CanvasRenderingContext2D, frame: Frame, at: Point, box: 
 
 function drawWay(
   ctx: CanvasRenderingContext2D,
-  frame: Frame,
+  frame: PlanFrame,
   way: number[][],
   n: number,
   body: BodyView,
@@ -132,7 +137,7 @@ function drawWay(
   ctx.stroke();
 }
 
-function drawMark(ctx: CanvasRenderingContext2D, frame: Frame, mark: MarkView, marked: boolean): void {
+function drawMark(ctx: CanvasRenderingContext2D, frame: PlanFrame, mark: MarkView, marked: boolean): void {
   const { x, y } = toPixels(frame, mark);
   const reach = marked ? 8 : 6;
   ctx.strokeStyle = GOAL;
@@ -141,7 +146,7 @@ function drawMark(ctx: CanvasRenderingContext2D, frame: Frame, mark: MarkView, m
   line(ctx, x, y - reach, x, y + reach);
 }
 
-function drawBody(ctx: CanvasRenderingContext2D, frame: Frame, body: BodyView, colour: string): void {
+function drawBody(ctx: CanvasRenderingContext2D, frame: PlanFrame, body: BodyView, colour: string): void {
   const { x, y } = toPixels(frame, body);
   const radius = Math.max(3, body.radius * frame.scale);
   ctx.fillStyle = "#ffffff";

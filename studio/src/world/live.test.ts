@@ -1,9 +1,9 @@
 import { expect, it } from "vitest";
 
-import { Live } from "./live";
+import { LiveWorld } from "./live";
 
 it("the path grows, restarts on a message of the server, and React renders only static parts", () => {
-  const live = new Live();
+  const live = new LiveWorld();
   let told = 0;
   const end = live.listen(() => told++);
   live.take({ type: "scene", scene: { unit: "m", border: [0, 0, 1, 1], boxes: [], marks: [] } });

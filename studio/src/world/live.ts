@@ -5,7 +5,7 @@ import type { Bodies, BodyView, Scene, SceneView } from "../protocol";
 
 export type Seen = { scene: SceneView | null; bodies: BodyView[]; way: number[][] };
 
-export class Live {
+export class LiveWorld {
   private seen: Seen = { scene: null, bodies: [], way: [] };
   private listeners = new Set<() => void>();
 
@@ -32,4 +32,4 @@ export class Live {
   }
 }
 
-export const live = new Live();
+export const live = new LiveWorld();

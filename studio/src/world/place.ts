@@ -2,10 +2,10 @@
 
 import type { SceneView } from "../protocol";
 
-export type Point = { x: number; y: number };
+export type PlanPoint = { x: number; y: number };
 export type Thing = { name: string; fixed: boolean; x: number; y: number; width: number; height: number };
 
-export type Frame = {
+export type PlanFrame = {
   // pixels in a unit of the world
   scale: number;
   // where the lower left corner of the world lies
@@ -18,7 +18,7 @@ const MARGIN = { left: 46, right: 14, top: 12, bottom: 36 };
 // How near to a mark a pointer takes hold of it, in pixels.
 const NEAR = 9;
 
-export function frameOf(border: number[], width: number, height: number): Frame {
+export function frameOf(border: number[], width: number, height: number): PlanFrame {
   const [x0, y0, x1, y1] = border as [number, number, number, number];
   const room = {
     x: Math.max(1, width - MARGIN.left - MARGIN.right),
@@ -30,16 +30,16 @@ export function frameOf(border: number[], width: number, height: number): Frame 
   return { scale, left, bottom, border: [x0, y0, x1, y1] };
 }
 
-export function toPixels({ scale, left, bottom, border }: Frame, { x, y }: Point): Point {
+export function toPixels({ scale, left, bottom, border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
   return { x: left + scale * (x - border[0]), y: bottom - scale * (y - border[1]) };
 }
 
-export function toWorld({ scale, left, bottom, border }: Frame, { x, y }: Point): Point {
+export function toWorld({ scale, left, bottom, border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
   return { x: border[0] + (x - left) / scale, y: border[1] + (bottom - y) / scale };
 }
 
 // The nearest place inside the border.
-export function inside({ border }: Frame, { x, y }: Point): Point {
+export function inside({ border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
   return { x: Math.min(border[2], Math.max(border[0], x)), y: Math.min(border[3], Math.max(border[1], y)) };
 }
 
@@ -49,7 +49,7 @@ export function things({ boxes, marks }: SceneView): Thing[] {
 }
 
 // What lies under a pointer.
-export function under(scene: SceneView, frame: Frame, pixel: Point): Thing | null {
+export function under(scene: SceneView, frame: PlanFrame, pixel: PlanPoint): Thing | null {
   const { x, y } = toWorld(frame, pixel);
   const holds = (thing: Thing) => {
     if (thing.width === 0) {
@@ -79,7 +79,7 @@ export function ticks(
 }
 
 // A place as text, to a thousandth of the longer side.
-export function placeText({ x, y }: Point, border: number[], unit: string): string {
+export function placeText({ x, y }: PlanPoint, border: number[], unit: string): string {
   const longest = Math.max(
     (border[2] as number) - (border[0] as number),
     (border[3] as number) - (border[1] as number),
