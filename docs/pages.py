@@ -89,9 +89,11 @@ def run(page: Path, folder: Path) -> list[str]:
     Raises:
         AssertionError: where what is printed is not what the page says, or a command fails.
     """
+    import matplotlib
+
     names: dict[str, Any] = {"__name__": "__page__"}
     shutil.copytree(ROOT / "examples", folder / "examples")
-    with contextlib.chdir(folder):
+    with contextlib.chdir(folder), matplotlib.rc_context():  # a page sets the style for itself alone
         for block in blocks(page):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):

@@ -90,7 +90,8 @@ def figure(data: xarray.Dataset) -> Figure:
     """Time to detection and choices against the distance of the targets, with 95 % bands."""
     import matplotlib.pyplot as plt
 
-    made, (times, choices) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+    plt.rcParams.update(dd.figures.RC)
+    made, (times, choices) = plt.subplots(1, 2, figsize=(7.2, 2.9), layout="constrained")
     for preshape, label in ((0.0, "no pre-shape"), (1.0, "pre-shape at the left target")):
         found = reactions(data, preshape)
         for axes, name in ((times, "time"), (choices, "left")):
@@ -98,10 +99,10 @@ def figure(data: xarray.Dataset) -> Figure:
             lows, highs = zip(*(interval for _, interval in found[name]), strict=True)
             axes.fill_between(DISTANCES, lows, highs, color=line.get_color(), alpha=0.25)
             axes.set_xlabel("distance of the targets (deg)")
-    choices.axhline(0.5, color="0.6", linewidth=0.8, linestyle=":", zorder=0)
+    choices.axhline(0.5, **dd.figures.THRESHOLD_LINE)
     times.set(ylabel="time to detection (ms)", ylim=(0, None), title="median, 95 % interval")
     choices.set(ylabel="share of peaks left of the middle", ylim=(0, 1.03), title="share, 95 % interval")
-    times.legend(loc="lower right", frameon=False)
+    times.legend(loc="lower right")
     return made
 
 

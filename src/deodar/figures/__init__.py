@@ -10,7 +10,7 @@ figures are objects and not global state.
 """
 
 from deodar.figures._files import save_figure
-from deodar.figures._style import COLOR, COLORS, DIVERGING, RC, SEQUENTIAL, Palette
+from deodar.figures._style import COLOR, COLORS, DIVERGING, RC, SEQUENTIAL, THRESHOLD_LINE, Palette
 from deodar.figures._view import View
 from deodar.figures.path import animate_path, path_figure
 from deodar.figures.projection import projection
@@ -26,6 +26,7 @@ __all__ = [
     "DIVERGING",
     "RC",
     "SEQUENTIAL",
+    "THRESHOLD_LINE",
     "Palette",
     "View",
     "animate_path",

@@ -13,6 +13,7 @@ from typing import Any, cast
 
 import matplotlib
 from matplotlib.figure import Figure
+from matplotlib.rcsetup import cycler
 
 SINGLE = 3.5
 DOUBLE = 7.2
@@ -102,6 +103,8 @@ SEQUENTIAL = "viridis"
 DIVERGING = "RdBu_r"
 
 RC: dict[str, Any] = {
+    "axes.prop_cycle": cycler(color=COLORS),
+    "lines.markersize": 3.5,
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans", "Arial", "Helvetica", "sans-serif"],
     "font.size": 8.0,
@@ -115,7 +118,6 @@ RC: dict[str, Any] = {
     "axes.linewidth": 0.6,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.xmargin": 0.0,
     "axes.unicode_minus": True,
     "axes.formatter.useoffset": False,
     "lines.linewidth": THICK,
@@ -125,19 +127,22 @@ RC: dict[str, Any] = {
     "ytick.major.size": 2.5,
     "image.interpolation": "nearest",
     "image.origin": "lower",
-    "text.parse_math": False,  # names are names, whatever signs stand in them
     "svg.fonttype": "none",  # real text, which a journal or a reader can edit and search
     "svg.hashsalt": "deodar",  # the same figure gives the same file
     "pdf.fonttype": 42,
     "figure.facecolor": "white",
     "savefig.facecolor": "white",
 }
+"""Type, lines and frames, for figures of users too."""
+
+TIGHT: dict[str, Any] = {**RC, "axes.xmargin": 0.0, "text.parse_math": False}
+"""The same, with time and space from edge to edge, and names as they are, with all their signs."""
 
 
 @contextmanager
 def style() -> Generator[None]:
     """The look, for as long as it is needed; the user's own settings are left alone."""
-    with matplotlib.rc_context(cast(Any, RC)), warnings.catch_warnings():
+    with matplotlib.rc_context(cast(Any, TIGHT)), warnings.catch_warnings():
         warnings.filterwarnings(
             "ignore", message="Glyph .* missing"
         )  # a name in a script that the font lacks: boxes, not a failure
