@@ -10,6 +10,7 @@ from deodar.errors import WorldError
 from deodar.experiments.stage import Stage
 from deodar.family import Family
 from deodar.model import find
+from deodar.model.document import Document
 from deodar.parameters import Part, PerAxis, Recompile
 from deodar.session.run import whole
 from deodar.worlds._base import World
@@ -54,7 +55,7 @@ ACTIONS = Family(Action)
 """The kinds of actions, each registered where it is declared."""
 
 
-def _plane(action: Any, *names: str) -> Iterator[tuple[str, str]]:
+def _plane(action: Action, *names: str) -> Iterator[tuple[str, str]]:
     for name in names:
         if not isinstance(getattr(action, name), tuple) or len(getattr(action, name)) != 2:
             yield name, "needs two numbers, along x and along y"
@@ -331,7 +332,7 @@ def require(actions: Sequence[Action], world: World | None) -> None:
             changed(action, world)
 
 
-def targets(action: Action, doc: Any) -> None:
+def targets(action: Action, doc: Document) -> None:
     """Refuse an action that names what is not in a document."""
     for path in action.paths():
         find.target(doc, path)

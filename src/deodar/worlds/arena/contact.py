@@ -8,8 +8,6 @@ path, and stops or slides at the first touch. A disc against a box is a point ag
 
 from __future__ import annotations
 
-from typing import Any
-
 import jax
 import jax.numpy as jnp
 from jax import lax
@@ -35,7 +33,11 @@ PUSHES = 8
 NOT_HIT = 2.0
 
 
-def gaps(position: Any, boxes: Any, radius: Any) -> tuple[Any, Any]:
+Carry = tuple[jax.Array, jax.Array, jax.Array]
+"""Position, what is left of the step, and whether something was touched."""
+
+
+def gaps(position: jax.Array, boxes: jax.Array, radius: jax.Array | float) -> tuple[jax.Array, jax.Array]:
     """For each box (n, 4) the gap between it and the disc, negative inside, and the unit vector (n, 2) out of
     it.
     """
@@ -51,12 +53,14 @@ def gaps(position: Any, boxes: Any, radius: Any) -> tuple[Any, Any]:
     return gap, jnp.where(outside[:, None], away / distance[:, None], normals)
 
 
-def push_out(position: Any, boxes: Any, present: Any, radius: Any) -> Any:
+def push_out(
+    position: jax.Array, boxes: jax.Array, present: jax.Array, radius: jax.Array | float
+) -> jax.Array:
     """The disc moved out of boxes that it stands in (because they were put there), the deepest first;
     elsewhere it stays where it is.
     """
 
-    def push(_: Any, p: Any) -> Any:
+    def push(_: jax.Array, p: jax.Array) -> jax.Array:
         gap, normal = gaps(p, boxes, radius)
         deepest = jnp.argmin(jnp.where(present, gap, jnp.inf))
         depth = jnp.where(present[deepest] & (gap[deepest] < -CLOSE), SKIN - gap[deepest], 0.0)
@@ -65,7 +69,14 @@ def push_out(position: Any, boxes: Any, present: Any, radius: Any) -> Any:
     return lax.fori_loop(0, PUSHES, push, position)
 
 
-def move(position: Any, step: Any, boxes: Any, present: Any, radius: Any, sticks: bool) -> tuple[Any, Any]:
+def move(
+    position: jax.Array,
+    step: jax.Array,
+    boxes: jax.Array,
+    present: jax.Array,
+    radius: jax.Array | float,
+    sticks: bool,
+) -> tuple[jax.Array, jax.Array]:
     """Where a disc that wants to go by `step` (2,) gets to, and whether it touched something.
 
     Args:
@@ -78,7 +89,7 @@ def move(position: Any, step: Any, boxes: Any, present: Any, radius: Any, sticks
     """
     start = push_out(position, boxes, present, radius)
 
-    def advance(_: Any, carry: Any) -> Any:
+    def advance(_: int, carry: Carry) -> Carry:
         p, rest, touched = carry
         gap, normal = gaps(p, boxes, radius)
         length = jnp.sqrt(jnp.sum(rest * rest))
@@ -99,7 +110,9 @@ def move(position: Any, step: Any, boxes: Any, present: Any, radius: Any, sticks
     return end, touched
 
 
-def first_touch(position: Any, step: Any, boxes: Any, radius: Any) -> Any:
+def first_touch(
+    position: jax.Array, step: jax.Array, boxes: jax.Array, radius: jax.Array | float
+) -> jax.Array:
     """For each box the share of a step after which a disc that is outside touches it; above 1: not in this
     step.
     """
@@ -113,7 +126,7 @@ def first_touch(position: Any, step: Any, boxes: Any, radius: Any) -> Any:
     return jnp.minimum(flat, jnp.min(_into_disc(position, step, corners, radius), axis=1))
 
 
-def _into_box(position: Any, step: Any, lower: Any, upper: Any) -> Any:
+def _into_box(position: jax.Array, step: jax.Array, lower: jax.Array, upper: jax.Array) -> jax.Array:
     """Share of the step at which a point enters boxes (..., 2), 0 where it is inside, NOT_HIT where it never
     does.
     """
@@ -125,7 +138,9 @@ def _into_box(position: Any, step: Any, lower: Any, upper: Any) -> Any:
     return jnp.where((enters <= leaves) & (leaves >= 0), jnp.maximum(enters, 0.0), NOT_HIT)
 
 
-def _into_disc(position: Any, step: Any, middles: Any, radius: Any) -> Any:
+def _into_disc(
+    position: jax.Array, step: jax.Array, middles: jax.Array, radius: jax.Array | float
+) -> jax.Array:
     """Share of the step at which a point enters discs round `middles` (..., 2)."""
     away = position - middles
     square = jnp.sum(step * step)
@@ -139,12 +154,14 @@ def _into_disc(position: Any, step: Any, middles: Any, radius: Any) -> Any:
     return jnp.where(meets, jnp.maximum(share, 0.0), NOT_HIT)
 
 
-def rays(origins: Any, directions: Any, boxes: Any, present: Any, longest: float) -> Any:
+def rays(
+    origins: jax.Array, directions: jax.Array, boxes: jax.Array, present: jax.Array, longest: float
+) -> jax.Array:
     """Distance (m,) from each origin (m, 2) along its unit vector (m, 2) to the nearest box; at most
     `longest`.
     """
 
-    def one(origin: Any, direction: Any) -> Any:
+    def one(origin: jax.Array, direction: jax.Array) -> jax.Array:
         share = _into_box(origin, direction * longest, boxes[:, :2], boxes[:, 2:])
         return longest * jnp.min(jnp.where(present, jnp.minimum(share, 1.0), 1.0))
 
