@@ -11,7 +11,7 @@ import functools
 import math
 import time
 from collections.abc import Hashable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -24,7 +24,7 @@ from deodar.compiler.body import Body, batched
 from deodar.compiler.layout import Layout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, ways_of
-from deodar.compiler.program import Port, Program, precision_context
+from deodar.compiler.program import Chunk, Port, Program, precision_context
 from deodar.errors import ModelError, ParameterError, Untrusted
 from deodar.leaves import arrays, resting, structure
 from deodar.model.check import problems
@@ -75,6 +75,24 @@ class Batch:
     def size(self) -> int:
         """Number of copies."""
         return math.prod(self.shape)
+
+
+class ProgramArguments(NamedTuple):
+    """The arguments of a chunk and of a reader, in their order; a JAX PyTree.
+
+    Attributes:
+        values, constants, keys, sensed: as of `Chunk`, before `settle`; batched like the copies.
+        state: state of the copies.
+        whole, real: the clock, as `packed` gives it.
+    """
+
+    values: Tree
+    constants: Tree
+    state: Tree
+    keys: Tree
+    sensed: Tree
+    whole: Any
+    real: Any
 
 
 class Executable:
@@ -171,7 +189,9 @@ class Executable:
         key = ("chunk", tuple(ports))
         if key not in self._known:
             capacity = self.capacity(ports)
-            chunk, _ = self.compile(lambda *a: self._chunk(ports, capacity, *a), *self._example)
+            chunk, _ = self.compile(
+                lambda *a: self._chunk(ports, capacity, ProgramArguments(*a)), *self._example
+            )
             self._known[key] = (chunk, capacity)
         return self._known[key]
 
@@ -184,7 +204,7 @@ class Executable:
 
     def new_reader(self, ports: Sequence[Port]) -> Any:
         """The same, for a caller that keeps it itself."""
-        return self.compile(lambda *a: self._read(ports, *a), *self._example)[0]
+        return self.compile(lambda *a: self._read(ports, ProgramArguments(*a)), *self._example)[0]
 
     def call(self, executable: Any, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
@@ -221,48 +241,33 @@ class Executable:
             return many(values | {"swept": ()}, seed, trials)
         return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
 
-    def _chunk(
-        self,
-        ports: Sequence[Port],
-        capacity: int,
-        values: Tree,
-        constants: Tree,
-        state: Tree,
-        keys: Tree,
-        sensed: Tree,
-        whole: Any,
-        real: Any,
-    ) -> Any:
-        clock = unpacked(whole, real)
+    def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> Any:
+        clock = unpacked(given.whole, given.real)
 
         def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
-            return self._run(ports, capacity, values, constants, state, keys, sensed, clock)
-
-        return self._batched(one, values, constants, state, keys)
-
-    def _read(
-        self,
-        ports: Sequence[Port],
-        values: Tree,
-        constants: Tree,
-        state: Tree,
-        keys: Tree,
-        sensed: Tree,
-        whole: Any,
-        real: Any,
-    ) -> Any:
-        clock = unpacked(whole, real)
-
-        def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
-            constants = self.program.settle(values, constants)
-            still = self.program.steady(values, constants, sensed)
-            return self.program.observe(
-                ports, values, constants, state, keys, sensed, still, clock, clock["tick"]
+            return self._run(
+                ports, capacity, self._begin(values, constants, keys, given.sensed, clock), state
             )
 
-        return self._batched(one, values, constants, state, keys)
+        return self._batched(one, given)
 
-    def _batched(self, one: Any, values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+    def _read(self, ports: Sequence[Port], given: ProgramArguments) -> Any:
+        clock = unpacked(given.whole, given.real)
+
+        def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+            chunk = self._begin(values, constants, keys, given.sensed, clock)
+            return self.program.observe(ports, chunk, state, clock["tick"])
+
+        return self._batched(one, given)
+
+    def _begin(self, values: Tree, constants: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Chunk:
+        """What stays the same in a chunk of one copy."""
+        constants = self.program.settle(values, constants)
+        still = self.program.steady(values, constants, sensed)
+        return Chunk(values, constants, keys, sensed, clock, still)
+
+    def _batched(self, one: Any, given: ProgramArguments) -> Any:
+        values, constants, state, keys = given[:4]
         if self.batch.trials == 1:
             one = _alone(one)
         elif self.batch.trials is not None:
@@ -279,23 +284,11 @@ class Executable:
     def _swept_axes(self, values: Tree) -> Tree:
         return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
-    def _run(
-        self,
-        ports: Sequence[Port],
-        capacity: int,
-        values: Tree,
-        constants: Tree,
-        state: Tree,
-        keys: Tree,
-        sensed: Tree,
-        clock: Tree,
-    ) -> Any:
+    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: Tree) -> Any:
         """`head` steps, a record, then `every` steps and a record until there are `records`; without ports
         `head` steps.
         """
-        program = self.program
-        constants = program.settle(values, constants)
-        still = program.steady(values, constants, sensed)
+        program, clock = self.program, chunk.clock
         head, every, records = (clock[name].astype(jnp.int32) for name in ("head", "every", "records"))
         leaves_of, tree = jax.tree.flatten(state)
         shapes = [leaf.shape for leaf in leaves_of]
@@ -315,18 +308,14 @@ class Executable:
         def steps(n: Any, tick: Any, state: Tree) -> tuple[Any, Tree]:
             def one(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
                 tick, state = carry
-                return tick + jnp.uint32(1), flat(
-                    program.step(values, constants, full(state), keys, {}, sensed, still, clock, tick)
-                )
+                return tick + jnp.uint32(1), flat(program.step(chunk, full(state), {}, tick))
 
             def two(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
                 tick, state = carry
                 for drawn in program.draw(
-                    keys, tick
+                    chunk.keys, tick
                 ):  # noise comes in pairs: for an even tick and the odd one after it
-                    state = flat(
-                        program.step(values, constants, full(state), keys, drawn, sensed, still, clock, tick)
-                    )
+                    state = flat(program.step(chunk, full(state), drawn, tick))
                     tick = tick + jnp.uint32(1)
                 return tick, state
 
@@ -353,7 +342,7 @@ class Executable:
         def segment(r: Any, carry: Any) -> Any:
             tick, state, buffers = carry
             tick, state = steps(jnp.where(r == 0, head, every), tick, state)
-            seen = program.observe(ports, values, constants, full(state), keys, sensed, still, clock, tick)
+            seen = program.observe(ports, chunk, full(state), tick)
             return (
                 tick,
                 state,

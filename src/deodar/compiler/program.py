@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses as dc
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -61,18 +61,35 @@ def precision_context(precision: str) -> contextlib.AbstractContextManager[Any]:
     return jax.enable_x64(True) if precision == "float64" else contextlib.nullcontext()
 
 
+class Chunk(NamedTuple):
+    """What stays the same from step to step in one copy of a model; a JAX PyTree.
+
+    Attributes:
+        values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value
+            for each sweep); the arrays of a world inside the step under `world`.
+        constants: for each group what `prepare` or `settle` made of them.
+        keys: noise keys of the noisy groups; of a world inside the step its own arrays, under `world`.
+        sensed: readings of the sensors; of a world inside the step they are in the state.
+        clock: `tick` and `origin` (uint32), `start` (document time at the tick `origin`), `dt`, `period` (of
+            a world inside, in ticks); empty where no output depends on time.
+        still: outputs that stay the same.
+    """
+
+    values: Tree
+    constants: Tree
+    keys: Tree
+    sensed: Tree
+    clock: Tree
+    still: Buffers
+
+
 class Program:
     """The functions of one plan in one precision.
 
     Arguments they share:
-        values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value
-            for each sweep).
-        constants: what `prepare` made of them, one entry a group.
-        state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible).
-        keys: noise keys of the noisy groups; of a world inside the step its own arrays, under `world`.
-        sensed: readings of the sensors; of a world inside the step they are in the state.
-        clock: `tick` and `origin` (uint32), `start` (document time at the tick `origin`), `dt`, `period` (of
-            a world inside, in ticks).
+        chunk: what stays the same from step to step.
+        state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible);
+            `world` where it is inside the step.
     """
 
     def __init__(
@@ -130,9 +147,9 @@ class Program:
     def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
         buffers: Buffers = {}
-        time = Time.at(0.0, 0.0, self.dtype)
+        chunk = Chunk(values, constants, {}, sensed, {}, {})
         for call in self.still:
-            self._output(call, buffers, values, constants, {}, {}, sensed, time, jnp.uint32(0))
+            self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
 
     def draw(self, keys: Tree, tick: Any) -> tuple[Tree, Tree]:
@@ -145,39 +162,28 @@ class Program:
             str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
         }
 
-    def step(
-        self,
-        values: Tree,
-        constants: Tree,
-        state: Tree,
-        keys: Tree,
-        drawn: Tree,
-        sensed: Tree,
-        still: Buffers,
-        clock: Tree,
-        tick: Any,
-    ) -> Tree:
+    def step(self, chunk: Chunk, state: Tree, drawn: Tree, tick: Any) -> Tree:
         """The state at tick + 1: every output at t is read, then all new states are committed together.
 
         `drawn`: noise of the fast groups.
         """
-        sensed = self._seen(state, sensed)
-        buffers, old = dict(still), state["groups"]
+        chunk = self._seeing(chunk, state)
+        buffers, old = dict(chunk.still), state["groups"]
         new, held = list(old), dict(state["held"])
         for call in self.moving:
             group = self.plan.groups[call.group]
-            time = self._time(clock, tick, group)
             if call.role == "output":
-                shown = (new if call.instant else old)[call.group]
-                self._output(call, buffers, values, constants, shown, keys, sensed, time, tick)
+                self._output(call, buffers, chunk, (new if call.instant else old)[call.group], tick)
             else:
+                time = self._time(chunk.clock, tick, group)
                 inputs = self._inputs(call.group, buffers)
                 for port in group.like.element.reads_own_output:
                     inputs[port] = buffers[call.group, port, 0]
 
                 def run(g: int = call.group, inputs: Any = inputs, time: Time = time) -> Any:
-                    noise = drawn[str(g)] if str(g) in drawn else self._noise(g, keys, tick)
-                    return self._advance(g, values, constants, old[g], inputs, noise, time)
+                    noise = drawn[str(g)] if str(g) in drawn else self._noise(g, chunk.keys, tick)
+                    read = StepArguments(old[g], inputs, chunk.constants[g], noise)
+                    return self._advance(g, chunk.values, read, time)
 
                 new[call.group] = self._gated(call.group, run, old, held, tick)
         if self.body is None:
@@ -185,41 +191,23 @@ class Program:
         told = {
             ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]
         }
-        world = self.body.step(values["world"], keys["world"], state["world"], told, tick, clock["period"])
+        world = self.body.step(
+            chunk.values["world"], chunk.keys["world"], state["world"], told, tick, chunk.clock["period"]
+        )
         return {"groups": new, "held": held, "world": world}
 
-    def _seen(self, state: Tree, sensed: Tree) -> Tree:
-        return sensed if self.body is None else {**sensed, **self.body.sensed(state["world"])}
+    def _seeing(self, chunk: Chunk, state: Tree) -> Chunk:
+        if self.body is None:
+            return chunk
+        return chunk._replace(sensed={**chunk.sensed, **self.body.sensed(state["world"])})
 
-    def observe(
-        self,
-        ports: Sequence[Port],
-        values: Tree,
-        constants: Tree,
-        state: Tree,
-        keys: Tree,
-        sensed: Tree,
-        still: Buffers,
-        clock: Tree,
-        tick: Any,
-    ) -> tuple[Array, ...]:
+    def observe(self, ports: Sequence[Port], chunk: Chunk, state: Tree, tick: Any) -> tuple[Array, ...]:
         """Ports at the state's own time; connections that read `current` see that same state."""
-        buffers, sensed = dict(still), self._seen(state, sensed)
+        chunk = self._seeing(chunk, state)
+        buffers = dict(chunk.still)
         for call in self.plan.needed([(p.group, p.name) for p in ports]):
             if not self.plan.groups[call.group].still:
-                time = self._time(clock, tick, self.plan.groups[call.group])
-                self._output(
-                    call,
-                    buffers,
-                    values,
-                    constants,
-                    state["groups"][call.group],
-                    keys,
-                    sensed,
-                    time,
-                    tick,
-                    now=True,
-                )
+                self._output(call, buffers, chunk, state["groups"][call.group], tick, now=True)
         return tuple(self._port(p, buffers) for p in ports)
 
     def finite(self, state: Tree) -> tuple[Array, list[Array]]:
@@ -238,45 +226,29 @@ class Program:
         return self._each(g, self.functions[g].prepare, values, only="rebuild")
 
     def _output(
-        self,
-        call: Call,
-        buffers: Buffers,
-        values: Tree,
-        constants: Tree,
-        shown: Any,
-        keys: Tree,
-        sensed: Tree,
-        time: Time,
-        tick: Any,
-        now: bool = False,
+        self, call: Call, buffers: Buffers, chunk: Chunk, shown: Any, tick: Any, now: bool = False
     ) -> None:
         g, group = call.group, self.plan.groups[call.group]
+        time = self._time(chunk.clock, tick, group)
         passed = {port for out in group.like.outs for port in group.like.passes(out)}
         inputs = self._inputs(g, buffers, passed, now)
         if port := group.like.element.external:
-            inputs[port] = jnp.asarray(sensed[group.like.id], self.dtype)[None]
-        noise = None if group.like.element.stateful else self._noise(g, keys, tick)
+            inputs[port] = jnp.asarray(chunk.sensed[group.like.id], self.dtype)[None]
+        noise = None if group.like.element.stateful else self._noise(g, chunk.keys, tick)
         out = self._each(
             g,
             lambda e, at, read: self.functions[g].output(e, at, read, time),
-            values,
-            StepArguments(shown, inputs, constants[g], noise),
+            chunk.values,
+            StepArguments(shown, inputs, chunk.constants[g], noise),
         )
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
                 jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes))
             )
 
-    def _advance(
-        self, g: int, values: Tree, constants: Tree, state: Any, inputs: Any, noise: Any, time: Time
-    ) -> Any:
-        new = self._each(
-            g,
-            lambda e, at, read: self.functions[g].advance(e, at, read, time),
-            values,
-            StepArguments(state, inputs, constants[g], noise),
-        )
-        return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, state)
+    def _advance(self, g: int, values: Tree, read: StepArguments, time: Time) -> Any:
+        new = self._each(g, lambda e, at, read: self.functions[g].advance(e, at, read, time), values, read)
+        return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read.state)
 
     def _gated(
         self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Any
@@ -301,6 +273,8 @@ class Program:
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
     def _time(self, clock: Tree, tick: Any, group: RowGroup) -> Time:
+        if not clock:
+            return Time.at(0.0, 0.0, self.dtype)
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
 
     def _inputs(

@@ -11,7 +11,7 @@ import dataclasses as dc
 import math
 import time
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -21,7 +21,7 @@ from jax import lax
 from deodar.compiler.executable import Executable
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Plan
-from deodar.compiler.program import Port, Program, array_key
+from deodar.compiler.program import Chunk, Port, Program, array_key
 from deodar.errors import TimeError
 from deodar.model.document import Document
 from deodar.parameters import real, show
@@ -133,6 +133,20 @@ class StepInputs:
     clock: Tree
 
 
+class _GroupArguments(NamedTuple):
+    """The arguments of the step of one group; a JAX PyTree."""
+
+    values: Tree
+    arrays: Tree
+    constants: Tree
+    state: Tree
+    keys: Tree
+    inputs: Tree
+    shown: Tree
+    sensed: Tree
+    clock: Tree
+
+
 def moment(run: Run) -> StepInputs:
     """The present moment of a run."""
     clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
@@ -239,30 +253,21 @@ def _alone(
     def only(one: Any) -> list[Any]:
         return [one if k == g else None for k in range(count)]
 
-    def run(
-        values: Tree,
-        arrays: Tree,
-        constants: Tree,
-        state: Tree,
-        keys: Tree,
-        inputs: Tree,
-        shown: Tree,
-        sensed: Tree,
-        clock: Tree,
-        n: Any,
-    ) -> Any:
-        settled = only(alone.settle(values | {"arrays": arrays}, [constants])[0])
+    def run(given: _GroupArguments, n: Any) -> Any:
+        values, clock, keys = given.values, given.clock, given.keys
+        settled = only(alone.settle(values | {"arrays": given.arrays}, [given.constants])[0])
 
         def step(tick: Any, state: Tree, drawn: Tree) -> tuple[Tree, Any]:
             # without the barrier what depends on the inputs alone would be computed once, before the loop
-            now, tick = lax.optimization_barrier((inputs, tick))
+            now, tick = lax.optimization_barrier((given.inputs, tick))
             buffers = {
                 (*source, instant): rows
                 for source, rows in zip(sources, now, strict=True)
                 for instant in (0, 1)
             }
-            shown = program.observe(ports, values, settled, state, keys, sensed, buffers, clock, tick)
-            return program.step(values, settled, state, keys, drawn, sensed, buffers, clock, tick), shown
+            chunk = Chunk(values, settled, keys, given.sensed, clock, buffers)
+            shown = program.observe(ports, chunk, state, tick)
+            return program.step(chunk, state, drawn, tick), shown
 
         def body(_: Any, carry: Any) -> Any:
             tick, state, shown = carry
@@ -271,7 +276,7 @@ def _alone(
                 tick = tick + jnp.uint32(1)
             return tick, state, shown
 
-        return lax.fori_loop(0, n // 2 if pairs else n, body, (clock["tick"], state, shown))
+        return lax.fori_loop(0, n // 2 if pairs else n, body, (clock["tick"], given.state, given.shown))
 
     state = {
         "groups": only(at.state["groups"][g]),
@@ -279,7 +284,7 @@ def _alone(
     }
     keys = {k: v for k, v in at.keys.items() if k == str(g)}
     inputs, shown = [held_by[source] for source in sources], tuple(held_by[g, p.name] for p in ports)
-    args = (
+    args = _GroupArguments(
         at.values,
         arrays,
         at.constants[g],
@@ -290,8 +295,8 @@ def _alone(
         at.sensed,
         unpacked(*packed(at.clock, at.program.program.dtype)),
     )
-    executable, _ = at.program.compile(run, *args, np.int32(0))
-    return lambda n: at.program.call(executable, *args, np.int32(n))
+    executable, _ = at.program.compile(run, args, np.int32(0))
+    return lambda n: at.program.call(executable, args, np.int32(n))
 
 
 # ----------------------------------------------------------------------------------------------------- timing
