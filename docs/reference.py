@@ -139,7 +139,7 @@ MEASURES = [
         "dd.load_results",
         "dd.run_trial",
         "dd.run_batch",
-        "deodar.experiments.course.Course",
+        "deodar.experiments.trial.Trial",
     ),
     *_derived(dd.Event),
     *_derived(dd.Action),

@@ -18,6 +18,7 @@ R = TypeVar("R")
 RENAMED = {
     "dd.Element.sees_output": "dd.Element.reads_own_output",
     "dd.Element.sharing": "dd.Element.convolution",
+    "dd.Experiment.bench": "dd.Experiment.setup",
     "dd.Model.add(every=...)": "dd.Model.add(ticks=...)",
     "dd.Model.change": "dd.Model.set",
     "dd.Model.every": "dd.Model.set_ticks",

@@ -81,7 +81,7 @@ def test_the_model_may_be_an_example(file, capsys, tmp_path):
 
 
 def test_after_a_stop_the_same_call_goes_on(file, capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
+    monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
     assert call("--out", "whole") == 0
     from deodar.experiments import jobs
 

@@ -102,7 +102,7 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
     """Single precision; half of the trials of each batch end early, so that it becomes narrower on the
     way.
     """
-    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
+    monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
     model = decider()
     model.add(dd.Field("v", [dd.Axis("x", 0, 500, 501)], tau=10, global_inhibition=0.1, noise=1.0))
     measures = [Measure("strongest", "v.activation", "max"), Measure("mean", "v.activation", "mean")]

@@ -95,7 +95,7 @@ def test_the_place_of_the_warning_is_the_call() -> None:
 def test_trials_run_one_by_one_give_the_same_rows() -> None:
     nothing = [Set(79, "v.tau", 10.0)]
     alone, together = experiment([0.1, 1e6, 0.3], actions=nothing), experiment([0.1, 1e6, 0.3])
-    assert together.bench().batched and not alone.bench().batched
+    assert together.setup().batched and not alone.setup().batched
     one, many = finished(alone), finished(together)
     for name in ("outcome", "diverged", "awaited"):
         assert one[name].values.tolist() == many[name].values.tolist()
@@ -185,7 +185,7 @@ def test_those_that_diverged_leave_the_batch(monkeypatch: pytest.MonkeyPatch) ->
 def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 4)
+    monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
     made = experiment([0.1, 1e6, 0.3], record=["u.activation"])
     data = finished(made, tmp_path / "whole")
 

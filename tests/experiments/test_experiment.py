@@ -100,11 +100,11 @@ def test_the_schema_knows_every_kind():
 def test_a_batch_gives_the_rows_of_single_trials():
     experiment = choice()
     together = experiment.run()
-    assert experiment.bench().batched and len(experiment.bench().pieces()) == 1
+    assert experiment.setup().batched and len(experiment.setup().pieces()) == 1
     alone = dc.replace(
         experiment, actions=[Set(149, "u.tau", 10.0)]
     )  # what is done changes nothing, but not in a batch
-    assert not alone.bench().batched
+    assert not alone.setup().batched
     single = alone.run()
     for name in ("outcome", "strength", "place"):
         assert together[name].values.tolist() == single[name].values.tolist()
@@ -121,7 +121,7 @@ def test_what_cannot_be_swept_has_batches_of_its_own():
     experiment = choice(
         factors=[Factor("width", [4.0, 6.0], "u.kernel.0.sigma"), Factor("noise", [0.0, 1.0], "u.noise")]
     )
-    assert sorted(map(len, experiment.bench().pieces())) == [8, 8] and experiment.bench().swept == ["u.noise"]
+    assert sorted(map(len, experiment.setup().pieces())) == [8, 8] and experiment.setup().swept == ["u.noise"]
     assert experiment.run().sizes["trial"] == 16
 
 
@@ -159,10 +159,10 @@ def test_conditions_of_conditions_and_the_one_awaited():
 
 
 def test_a_stopped_experiment_goes_on_with_the_same_table(tmp_path, monkeypatch):
-    monkeypatch.setattr("deodar.experiments.bench.MOST_COPIES", 5)
+    monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 5)
     experiment = choice()
     whole = experiment.run(tmp_path / "whole")
-    assert len(experiment.bench().pieces()) == 4
+    assert len(experiment.setup().pieces()) == 4
 
     def stop(standing):
         if standing.rows >= 8:
@@ -215,7 +215,7 @@ def test_the_path_of_a_field_alone_means_its_activation():
     assert [
         v.place(short.model.document)[1] for v in (short.conditions[0].views[0], short.measures[0].view)
     ] == ["activation"] * 2
-    assert full.bench().rows([0]) == short.bench().rows([0])
+    assert full.setup().rows([0]) == short.setup().rows([0])
 
 
 def test_records_of_a_field_alone_hold_its_activation(tmp_path):
@@ -331,7 +331,7 @@ def test_a_world_is_moved_after_what_happens():
         actions=[Move(5, "far", (88, 20), when="far")],
     )
     data = moved.run()
-    assert not moved.bench().batched and data["outcome"].values.tolist() == ["touched"]
+    assert not moved.setup().batched and data["outcome"].values.tolist() == ["touched"]
     assert float(data["touched"][0]) < float(dc.replace(moved, actions=[]).run()["touched"][0])
 
 

@@ -17,7 +17,7 @@ from deodar.errors import ParameterError
 from deodar.experiments.actions import Set
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
-from deodar.experiments.view import View, mask
+from deodar.experiments.observable import Observable, mask
 from deodar.numerics.peak import position
 from deodar.numerics.sigmoids.step import Step
 
@@ -71,7 +71,7 @@ def test_only_samples_near_a_place_belong_to_the_peak(axes):
             np.testing.assert_allclose(
                 position(jax.numpy.asarray(u), axes, 0.0, inside)[0], expected, atol=1e-9
             )
-            view = View("u.activation", "place", near, radius)
+            view = Observable("u.activation", "place", near, radius)
             np.testing.assert_allclose(
                 view.seen(u[None, None], axes, 2)[0, 0], expected if len(axes) > 1 else expected[0], atol=1e-9
             )
@@ -97,7 +97,7 @@ def test_single_precision_gives_a_fraction_of_a_step():
 
 def test_without_a_peak_there_is_no_position():
     assert not position(jax.numpy.full(41, -1.0), (LINE,), 0.0)[1]
-    assert math.isnan(View("u.activation", "place").seen(np.full((1, 1, 41), -1.0), (LINE,), 2)[0, 0])
+    assert math.isnan(Observable("u.activation", "place").seen(np.full((1, 1, 41), -1.0), (LINE,), 2)[0, 0])
 
 
 def experiment(**changes):

@@ -82,7 +82,7 @@ def main(version: int, folder: Path) -> None:
             raise KeyboardInterrupt
 
     experiment.run(folder / "whole")
-    import deodar.experiments.bench as bench
+    import deodar.experiments.setup as bench
 
     bench.MOST_COPIES = 2
     try:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from deodar.batch.compute import compute
-from deodar.batch.parcel import PackedModel
+from deodar.batch.packed import PackedModel
 from deodar.batch.pieces import PieceResult
 from deodar.batch.pool import Pool
 from deodar.errors import Interrupted
@@ -33,13 +33,13 @@ class WorkerTask:
     """One piece, as a worker gets it.
 
     Attributes:
-        parcel: the model and its world.
+        packed: the model and its world.
         settings: the arguments of `simulate` for this piece.
         board: the file that all processes map: for each piece the steps done, and at the end whether to stop.
         number: which piece this is.
     """
 
-    parcel: PackedModel
+    packed: PackedModel
     settings: Mapping[str, Any]
     board: str
     number: int
@@ -67,10 +67,10 @@ def run(
         KeyboardInterrupt: on a second Ctrl-C; the processes are ended at once.
         WorkerError: something cannot be handed to another process, or a process has died.
     """
-    parcel = PackedModel.of(model, world)
+    packed = PackedModel.of(model, world)
     parts: list[PieceResult | None] = [None] * len(pieces)
     with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces))) as pool:
-        waiting = [WorkerTask(parcel, settings, path, k) for k, settings in enumerate(pieces)][::-1]
+        waiting = [WorkerTask(packed, settings, path, k) for k, settings in enumerate(pieces)][::-1]
         while waiting or pool.busy:
             while waiting and pool.idle:
                 pool.give(waiting[-1].number, work, waiting.pop())
@@ -121,6 +121,6 @@ def work(job: WorkerTask) -> PieceResult:
                 raise KeyboardInterrupt
 
         try:
-            return compute(job.parcel.model, world=job.parcel.world(), progress=told, **job.settings)
+            return compute(job.packed.model, world=job.packed.world(), progress=told, **job.settings)
         except Interrupted as error:
             return PieceResult(error.data, False)

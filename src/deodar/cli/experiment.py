@@ -79,14 +79,14 @@ def run(args: argparse.Namespace) -> int:
     given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
     given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
     experiment = dc.replace(found, **given)
-    bench = experiment.bench(args.trust)
+    setup = experiment.setup(args.trust)
     if args.check:
-        return _check(args, bench)
+        return _check(args, setup)
     out: Path = args.out or places.free(Path.cwd(), experiment.name)
-    _confirm(args, bench, out)
+    _confirm(args, setup, out)
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
-            data = carry(bench, out, args.workers or None, bar.show)
+            data = carry(setup, out, args.workers or None, bar.show)
     except (KeyboardInterrupt, OutputError) as stop:
         if not (out / ROWS).is_file():
             raise
@@ -110,36 +110,36 @@ def run(args: argparse.Namespace) -> int:
     return 1 if _diverged(data) == data.sizes["trial"] else 0
 
 
-def _confirm(args: argparse.Namespace, bench: Any, out: Path) -> None:
+def _confirm(args: argparse.Namespace, setup: Any, out: Path) -> None:
     """Ask before very many steps; trials whose rows are in the folder are not counted."""
     # start-up time: these bring JAX
     from deodar.batch.simulate import LONG_STEPS
     from deodar.experiments.results import ROWS, load_results
 
-    if bench.trials * bench.steps < LONG_STEPS:
+    if setup.trials * setup.steps < LONG_STEPS:
         return
-    left = bench.trials - (load_results(out).sizes["trial"] if (out / ROWS).is_file() else 0)
-    what = f"{left} trials of at most {bench.steps:.3g} steps of dt = {bench.dt:g}"
+    left = setup.trials - (load_results(out).sizes["trial"] if (out / ROWS).is_file() else 0)
+    what = f"{left} trials of at most {setup.steps:.3g} steps of dt = {setup.dt:g}"
 
     def seconds() -> float:
-        first = bench.pieces()[0]
-        a_step = _long.seconds_a_step(lambda n: bench.shortened(n).rows(first))
-        return a_step * bench.steps * left / len(first) / min(args.workers or 1, len(bench.pieces()))
+        first = setup.pieces()[0]
+        a_step = _long.seconds_a_step(lambda n: setup.shortened(n).rows(first))
+        return a_step * setup.steps * left / len(first) / min(args.workers or 1, len(setup.pieces()))
 
-    _long.confirm(args, "experiment", left * bench.steps, what, seconds)
+    _long.confirm(args, "experiment", left * setup.steps, what, seconds)
 
 
-def _check(args: argparse.Namespace, bench: Any) -> int:
-    pieces = [len(piece) for piece in bench.pieces()]
+def _check(args: argparse.Namespace, setup: Any) -> int:
+    pieces = [len(piece) for piece in setup.pieces()]
     way = (
         f"in {len(pieces)} batch{'es' if len(pieces) > 1 else ''} of at most {max(pieces)}"
-        if bench.batched
+        if setup.batched
         else "one by one"
     )
     if args.json:
-        print(codec.line({"trials": sum(pieces), "batched": bench.batched, "pieces": pieces}))
+        print(codec.line({"trials": sum(pieces), "batched": setup.batched, "pieces": pieces}))
     else:
-        print(f"{bench.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
+        print(f"{setup.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
     return 0
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from deodar.errors import WorldError
-from deodar.experiments.stage import Stage
+from deodar.experiments.running import RunningTrial
 from deodar.family import Family
 from deodar.model import find
 from deodar.model.document import Document
@@ -46,7 +46,7 @@ class Action(Part):
         """Ports of the model that it reads."""
         return iter(())
 
-    def apply(self, stage: Stage) -> None:
+    def apply(self, running: RunningTrial) -> None:
         """Do it now."""
         raise NotImplementedError
 
@@ -91,9 +91,9 @@ class Place(Action):
     def faults(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center", "size")
 
-    def apply(self, stage: Stage) -> None:
+    def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, stage.session.world).place(self.thing, found.center, found.size, found.color)
+        changed(self, running.session.world).place(self.thing, found.center, found.size, found.color)
 
 
 @ACTIONS.register
@@ -118,9 +118,9 @@ class Move(Action):
     def faults(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center")
 
-    def apply(self, stage: Stage) -> None:
+    def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, stage.session.world).move(self.thing, found.center)
+        changed(self, running.session.world).move(self.thing, found.center)
 
 
 @ACTIONS.register
@@ -140,8 +140,8 @@ class Remove(Action):
 
     world_method: ClassVar[str] = "remove"
 
-    def apply(self, stage: Stage) -> None:
-        changed(self, stage.session.world).remove(self.thing)
+    def apply(self, running: RunningTrial) -> None:
+        changed(self, running.session.world).remove(self.thing)
 
 
 @ACTIONS.register
@@ -164,8 +164,8 @@ class Set(Action):
     def paths(self) -> Iterator[str]:
         yield self.path
 
-    def apply(self, stage: Stage) -> None:
-        stage.session.set(self.path, self.value)
+    def apply(self, running: RunningTrial) -> None:
+        running.session.set(self.path, self.value)
 
 
 @ACTIONS.register
@@ -194,13 +194,13 @@ class Ramp(Action):
     def paths(self) -> Iterator[str]:
         yield self.path
 
-    def apply(self, stage: Stage) -> None:
-        session, end = stage.session, self.end
+    def apply(self, running: RunningTrial) -> None:
+        session, end = running.session, self.end
         steps = whole(self.lasting, session.dt, "how long a ramp takes")
         start = float(session.get(self.path)) if self.start is None else self.start
         for k in range(steps + 1):
             share = k / steps if steps else 1.0
-            stage.later(k, lambda value=start + share * (end - start): session.set(self.path, value))
+            running.later(k, lambda value=start + share * (end - start): session.set(self.path, value))
 
 
 @ACTIONS.register
@@ -223,11 +223,11 @@ class Push(Action):
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="for how long")]
     when: Annotated[str, WHEN] = ""
 
-    def apply(self, stage: Stage) -> None:
+    def apply(self, running: RunningTrial) -> None:
         if self.when:  # one that has its own time stands in the model, with a window
-            session, path = stage.session, f"{stage.pushes[self]}.amplitude"
+            session, path = running.session, f"{running.pushes[self]}.amplitude"
             session.set(path, self.amount)
-            stage.later(
+            running.later(
                 whole(self.lasting, session.dt, "how long a push lasts"), lambda: session.set(path, 0.0)
             )
 
@@ -249,8 +249,8 @@ class Record(Action):
     on: Annotated[bool, Recompile(meaning="whether what is recorded is kept from then on")] = True
     when: Annotated[str, WHEN] = ""
 
-    def apply(self, stage: Stage) -> None:
-        stage.recording = self.on
+    def apply(self, running: RunningTrial) -> None:
+        running.recording = self.on
 
 
 @ACTIONS.register
@@ -277,10 +277,10 @@ class Snapshot(Action):
         if not self.of:
             yield "of", "names no ports, so there is nothing to keep"
 
-    def apply(self, stage: Stage) -> None:
-        stage.snapshots[self.label] = (
-            stage.session.time,
-            {path: stage.session.read(path).copy() for path in self.of},
+    def apply(self, running: RunningTrial) -> None:
+        running.snapshots[self.label] = (
+            running.session.time,
+            {path: running.session.read(path).copy() for path in self.of},
         )
 
 
@@ -298,8 +298,8 @@ class Reset(Action):
     at: Annotated[float, AT]
     when: Annotated[str, WHEN] = ""
 
-    def apply(self, stage: Stage) -> None:
-        stage.restart()
+    def apply(self, running: RunningTrial) -> None:
+        running.restart()
 
 
 @ACTIONS.register
@@ -321,8 +321,8 @@ class End(Action):
         if not self.outcome:
             yield "outcome", "is empty, which is what a trial that runs has"
 
-    def apply(self, stage: Stage) -> None:
-        stage.outcome = self.outcome
+    def apply(self, running: RunningTrial) -> None:
+        running.outcome = self.outcome
 
 
 def require(actions: Sequence[Action], world: World | None) -> None:

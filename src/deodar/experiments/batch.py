@@ -14,12 +14,12 @@ from deodar.batch.driven import driven
 from deodar.compiler.executable import RARELY, Batch, Executable, executable
 from deodar.compiler.plan import Leaf
 from deodar.errors import NotFinite, ParameterError, RunWarning, TimeError, WorldError
-from deodar.experiments.course import Course
 from deodar.experiments.events import Event
 from deodar.experiments.measures import BaseMeasure
+from deodar.experiments.observable import Observable
+from deodar.experiments.observations import DIVERGED, Observations
 from deodar.experiments.reader import Place, with_readers
-from deodar.experiments.tally import DIVERGED, Tally
-from deodar.experiments.view import View
+from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -62,8 +62,8 @@ def run_batch(
     values: Mapping[str, Sequence[float]] | None = None,
     measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
-) -> list[Course]:
-    """Run trials all at once; the course of each is that of `run_trial` but for rounding.
+) -> list[Trial]:
+    """Run trials all at once; the result of each is that of `run_trial` but for rounding.
 
     When half of the copies have ended, the others continue in a batch of half the width: always in a world,
     otherwise where this saves more time than compiling takes. The widths follow from the trials alone, so the
@@ -88,10 +88,10 @@ def run_batch(
         between: called after each call of the program with the number of trials that still run.
         values: for parameter paths the value that each trial has; not together with a world.
         measures: what is measured.
-        tolerant: return the courses although all trials diverge, and do not warn.
+        tolerant: return the results although all trials diverge, and do not warn.
 
     Returns:
-        The course of each trial. One that diverges before it ends has the outcome `diverged` and an `error`
+        The result of each trial. One that diverges before it ends has the outcome `diverged` and an `error`
         with the reason; its values are NaN, its events and measures None. The others are not affected. A
         `RunWarning` counts those that diverged.
 
@@ -106,7 +106,7 @@ def run_batch(
     numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
         raise ParameterError(f"trials are numbers, each of them once, not {list(trials)}")
-    tally = Tally(events, measures, len(numbers))
+    observed = Observations(events, measures, len(numbers))
     views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
     watched = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
@@ -140,7 +140,7 @@ def run_batch(
         good = flock.good(np.asarray(ticks))
         by = {p: _blank(a, good) for p, a in zip(order, arrays, strict=True)}
         seen = {v: v.given(by[p]) if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
-        counts = tally.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps, good)
+        counts = observed.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps, good)
         looks[flock.rows] += counts
         for k, n in enumerate(counts):
             if watched and n:
@@ -154,7 +154,7 @@ def run_batch(
         flock.batch.record(
             ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen)
         )
-        running = [k for k, row in enumerate(flock.rows) if not tally.outcome[row]]
+        running = [k for k, row in enumerate(flock.rows) if not observed.outcome[row]]
         if between is not None:
             between(len(running))
         if not running:
@@ -162,10 +162,10 @@ def run_batch(
         left = steps - flock.batch.clock.tick
         flock.shrink(running, left)
         ahead = min(LOOKS * gap, left - left % gap if left >= gap else left)
-    out: list[Course] = []
+    out: list[Trial] = []
     for row, n in enumerate(looks):
         found = np.asarray(times[:n])
-        error = flock.errors[row] if tally.outcome[row] == DIVERGED else None
+        error = flock.errors[row] if observed.outcome[row] == DIVERGED else None
         whole_ = {name: np.concatenate([part[i] for part in kept[row]]) for i, name in enumerate(watch)}
         whole_ = (
             whole_
@@ -173,17 +173,17 @@ def run_batch(
             else {name: np.full_like(values, np.nan) for name, values in whole_.items()}
         )
         out.append(
-            Course(
+            Trial(
                 found,
                 whole_,
-                tally.events_of(row),
-                tally.outcome[row],
-                tally.measures_of(row, {view: axes[p] for view, p in places.items()}),
+                observed.events_of(row),
+                observed.outcome[row],
+                observed.measures_of(row, {view: axes[p] for view, p in places.items()}),
                 found,
                 error=error,
             )
         )
-    lost = [course.error for course in out if course.error is not None]
+    lost = [result.error for result in out if result.error is not None]
     if lost and not tolerant:
         if len(lost) == len(out):
             raise lost[0]
@@ -203,7 +203,7 @@ def _blank(values: np.ndarray, good: np.ndarray) -> np.ndarray:
     return np.where(bad.reshape(*bad.shape, *[1] * (values.ndim - 2)), 0, values) if bad.any() else values
 
 
-def _place(doc: Document, view: View) -> Place:
+def _place(doc: Document, view: Observable) -> Place:
     entry, port = view.place(doc)
     return entry.id, port
 

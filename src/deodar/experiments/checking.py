@@ -11,8 +11,8 @@ from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did
 from deodar.experiments.actions import Record, changed, targets
 from deodar.experiments.design import Design
 from deodar.experiments.events import Reached
-from deodar.experiments.tally import require
-from deodar.experiments.view import PLACE, View, mask
+from deodar.experiments.observable import PLACE, Observable, mask
+from deodar.experiments.observations import require
 from deodar.model import edit, find
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
@@ -140,7 +140,7 @@ def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[
                     break
 
 
-def _view(view: View, model: Model, world: World | None) -> None:
+def _view(view: Observable, model: Model, world: World | None) -> None:
     if world is not None and view.of in world.sensors:
         if view.near or view.reduce == PLACE:
             raise ParameterError(

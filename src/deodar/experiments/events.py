@@ -13,7 +13,7 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
-from deodar.experiments.view import REDUCES, View
+from deodar.experiments.observable import REDUCES, Observable
 from deodar.family import Family
 from deodar.parameters import Part, PerAxis, Recompile
 
@@ -32,8 +32,8 @@ class Looks:
     """
 
     times: np.ndarray
-    seen: Mapping[View, np.ndarray]
-    first: Mapping[View, np.ndarray]
+    seen: Mapping[Observable, np.ndarray]
+    first: Mapping[Observable, np.ndarray]
     holds: dict[str, np.ndarray] = field(default_factory=dict[str, np.ndarray])
 
 
@@ -54,7 +54,7 @@ class Event(Part):
     """Edge-triggered: fires on a false-to-true transition."""
 
     @property
-    def views(self) -> tuple[View, ...]:
+    def views(self) -> tuple[Observable, ...]:
         """What has to be sampled."""
         return ()
 
@@ -97,8 +97,8 @@ class Crosses(Event):
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
-    def views(self) -> tuple[View, ...]:
-        return (View(self.of, self.reduce),)
+    def views(self) -> tuple[Observable, ...]:
+        return (Observable(self.of, self.reduce),)
 
     def holds(self, looks: Looks) -> np.ndarray:
         return COMPARES[self.side](looks.seen[self.views[0]], self.level)
@@ -149,7 +149,7 @@ class Appears(Event):
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
-    def views(self) -> tuple[View, ...]:
+    def views(self) -> tuple[Observable, ...]:
         near = (
             ()
             if self.near is None
@@ -157,7 +157,7 @@ class Appears(Event):
             if isinstance(self.near, Sequence)
             else (float(self.near),)
         )
-        return (View(self.field, "max", near, self.radius, "activation"),)
+        return (Observable(self.field, "max", near, self.radius, "activation"),)
 
     def faults(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
@@ -211,8 +211,8 @@ class Within(Event):
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
     @property
-    def views(self) -> tuple[View, ...]:
-        return View(self.of), View(self.goal)
+    def views(self) -> tuple[Observable, ...]:
+        return Observable(self.of), Observable(self.goal)
 
     def holds(self, looks: Looks) -> np.ndarray:
         of, goal = (looks.seen[view][..., :2] for view in self.views)
@@ -239,8 +239,8 @@ class Leaves(Event):
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = False
 
     @property
-    def views(self) -> tuple[View, ...]:
-        return (View(self.of),)
+    def views(self) -> tuple[Observable, ...]:
+        return (Observable(self.of),)
 
     def holds(self, looks: Looks) -> np.ndarray:
         view = self.views[0]

@@ -6,15 +6,16 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from deodar import renamed
 from deodar.batch.simulate import LONG_STEPS
 from deodar.errors import DeodarError, Problem, RunWarning
-from deodar.experiments.bench import Bench
 from deodar.experiments.design import Design
 from deodar.experiments.jobs import Standing
+from deodar.experiments.observations import DIVERGED
 from deodar.experiments.results import carry
-from deodar.experiments.tally import DIVERGED
+from deodar.experiments.setup import Setup
 
 if TYPE_CHECKING:
     import xarray
@@ -49,19 +50,24 @@ class Experiment(Design):
         precision: float32 or float64.
     """
 
-    def bench(self, trust: bool = False) -> Bench:
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise renamed.no_member(self, name)
+
+    def setup(self, trust: bool = False) -> Setup:
         """The experiment with its model and its world opened, and everything checked that can be checked
         before a trial runs.
 
         Raises:
             ParameterError: it names what is not there, or holds what cannot be; all problems are listed.
         """
-        return Bench.open(self, trust)
+        return Setup.open(self, trust)
 
     def check(self) -> list[Problem]:
         """What is wrong with it; nothing where it can be run."""
         try:
-            self.bench(trust=True)
+            self.setup(trust=True)
         except DeodarError as error:
             return list(error.problems)
         return []
@@ -93,14 +99,14 @@ class Experiment(Design):
             OutputExists: the folder holds another experiment, or something else.
             KeyboardInterrupt: on Ctrl-C, when the pieces that run are done; their rows are kept.
         """
-        bench = self.bench(trust)
-        if bench.trials * bench.steps >= LONG_STEPS:
+        setup = self.setup(trust)
+        if setup.trials * setup.steps >= LONG_STEPS:
             total = (
-                f"{bench.trials * bench.steps:.3g} steps in total ({bench.trials} trials of at most"
-                f" {bench.steps:.3g} steps of dt = {bench.dt:g})"
+                f"{setup.trials * setup.steps:.3g} steps in total ({setup.trials} trials of at most"
+                f" {setup.steps:.3g} steps of dt = {setup.dt:g})"
             )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
-        data = carry(bench, out, workers, progress)
+        data = carry(setup, out, workers, progress)
         if DIVERGED in data.attrs:
             warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
         return data

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from deodar.experiments.view import PLACE, REDUCES, View
+from deodar.experiments.observable import PLACE, REDUCES, Observable
 from deodar.extensions import Extensions
 from deodar.numerics.axes import Axes
 from deodar.parameters import Part, PerAxis, Recompile
@@ -33,9 +33,9 @@ class BaseMeasure(Part):
     when: str = ""
 
     @property
-    def view(self) -> View:
+    def view(self) -> Observable:
         """What is sampled: all samples of `of`."""
-        return View(self.of)
+        return Observable(self.of)
 
     def value(self, samples: np.ndarray, axes: Axes | None) -> float | Sequence[float] | np.ndarray | None:
         """Return the measure.
@@ -79,7 +79,7 @@ class Measure(BaseMeasure):
     ] = 0.0
 
     @property
-    def view(self) -> View:
+    def view(self) -> Observable:
         """What has to be sampled."""
         near = (
             ()
@@ -88,7 +88,7 @@ class Measure(BaseMeasure):
             if isinstance(self.near, Sequence)
             else (float(self.near),)
         )
-        return View(self.of, self.reduce, near, self.radius, threshold=self.threshold)
+        return Observable(self.of, self.reduce, near, self.radius, threshold=self.threshold)
 
     def faults(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:

@@ -13,7 +13,7 @@ import jax.numpy as jnp
 
 from deodar import codec
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.experiments.view import PLACE, REDUCES, View, mask
+from deodar.experiments.observable import PLACE, REDUCES, Observable, mask
 from deodar.model import edit
 from deodar.model.document import Document
 from deodar.model.resolve import resolve
@@ -65,13 +65,13 @@ class Reader(Coupling):
         return {"output": _REDUCES[self.reduce](y)}
 
 
-def with_readers(doc: Document, views: Sequence[View]) -> tuple[Document, dict[View, Place]]:
+def with_readers(doc: Document, views: Sequence[Observable]) -> tuple[Document, dict[Observable, Place]]:
     """The document with a reader for each view of a field that can have one, and where each of these is read.
 
     Views of single numbers, of input ports and of whole arrays are left out: they are read as they are.
     """
     nodes = {node.id: node for node in resolve(doc)[0]}
-    at: dict[View, Place] = {}
+    at: dict[Observable, Place] = {}
     for view in views:
         source, port = view.place(doc)
         axes = nodes[source.id].outs.get(port) if source.id in nodes else None

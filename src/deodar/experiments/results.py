@@ -17,12 +17,12 @@ import numpy as np
 from deodar import codec, renamed
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, RecordError
-from deodar.experiments import parcel
-from deodar.experiments.bench import Bench
+from deodar.experiments import packed
 from deodar.experiments.jobs import Job, Standing, carry_out
 from deodar.experiments.migrations import migrate
+from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
-from deodar.experiments.tally import DIVERGED
+from deodar.experiments.setup import Setup
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
@@ -42,7 +42,7 @@ ROWS, TABLE, DATASET, EXPERIMENT, MODEL = (
 
 
 def carry(
-    bench: Bench,
+    setup: Setup,
     out: str | Path | None,
     workers: int | None = None,
     progress: Callable[[Standing], None] | None = None,
@@ -50,57 +50,57 @@ def carry(
     """Run the trials whose rows are not there yet, write the table, and give it.
 
     Args:
-        bench: the experiment, opened.
+        setup: the experiment, opened.
         out: the folder; None: nothing is kept.
         workers: number of processes of one core each; none: this process.
         progress: called with a `Standing` after each piece.
     """
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _carry(bench, Path(folder), workers, progress)
+            return _carry(setup, Path(folder), workers, progress)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
-    return _carry(bench, folder, workers, progress)
+    return _carry(setup, folder, workers, progress)
 
 
 def _carry(
-    bench: Bench, out: Path, workers: int | None, progress: Callable[[Standing], None] | None
+    setup: Setup, out: Path, workers: int | None, progress: Callable[[Standing], None] | None
 ) -> xarray.Dataset:
-    about = _about(bench, workers, out)
-    rows = Rows(out / ROWS, about, read=lambda made: migrate(made, bench.model.document))
+    about = _about(setup, workers, out)
+    rows = Rows(out / ROWS, about, read=lambda made: migrate(made, setup.model.document))
     if not (out / MODEL).exists():
-        documents.save(bench.model.document, out / MODEL)
+        documents.save(setup.model.document, out / MODEL)
     if not (out / EXPERIMENT).exists():
-        output.write(out / EXPERIMENT, (codec.text(_plan(bench)) + "\n").encode())
+        output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
     records = (
         out / RECORDS
-        if bench.experiment.record or any(type(a).__name__ == "Snapshot" for a in bench.experiment.actions)
+        if setup.experiment.record or any(type(a).__name__ == "Snapshot" for a in setup.experiment.actions)
         else None
     )
-    carry_out(list(_jobs(bench, workers, records)), rows, progress, workers)
+    carry_out(list(_jobs(setup, workers, records)), rows, progress, workers)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
     return data
 
 
-def _jobs(bench: Bench, workers: int | None, records: Path | None) -> Iterator[Job]:
-    handed = parcel.Parcel.of(bench) if workers else None
-    for piece in bench.pieces():
+def _jobs(setup: Setup, workers: int | None, records: Path | None) -> Iterator[Job]:
+    handed = packed.PackedExperiment.of(setup) if workers else None
+    for piece in setup.pieces():
         keys, given = tuple(f"{k:06}" for k in piece), {"trials": piece, "records": records}
         if handed is None:
-            yield Job(keys, bench.rows, given, len(piece))
+            yield Job(keys, setup.rows, given, len(piece))
         else:
-            yield Job(keys, parcel.work, {"handed": handed, **given}, len(piece))
+            yield Job(keys, packed.work, {"handed": handed, **given}, len(piece))
 
 
-def _about(bench: Bench, workers: int | None, folder: Path) -> dict[str, Any]:
+def _about(setup: Setup, workers: int | None, folder: Path) -> dict[str, Any]:
     """What makes the experiment: rows of another one are never mixed with its own."""
-    digest = _digest_in(folder, bench.model.document) or _digest(*documents.dumps(bench.model.document))
+    digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
     made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
-    unit = bench.model.document.time_unit
-    world = None if bench.world is None else bench.world.describe()
-    return {**_plan(bench), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
+    unit = setup.model.document.time_unit
+    world = None if setup.world is None else setup.world.describe()
+    return {**_plan(setup), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
 
 
 def _digest(text: str, arrays: bytes | None) -> str:
@@ -125,9 +125,9 @@ def _digest_in(folder: Path, doc: Document) -> str:
     return _digest(codec.text(data) + "\n", arrays)
 
 
-def _plan(bench: Bench) -> dict[str, Any]:
+def _plan(setup: Setup) -> dict[str, Any]:
     """The plain data of an experiment whose model stands beside it."""
-    return codec.parse(codec.line({**bench.experiment.to_data(), "model": MODEL}))
+    return codec.parse(codec.line({**setup.experiment.to_data(), "model": MODEL}))
 
 
 # -------------------------------------------------------------------------------------------------- the table

@@ -14,13 +14,13 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, ParameterError, TimeError, UnknownName, did_you_mean
 from deodar.experiments.actions import Action, Record, Reset, targets
 from deodar.experiments.actions import require as require_actions
-from deodar.experiments.course import Course
 from deodar.experiments.events import Event
 from deodar.experiments.measures import BaseMeasure
+from deodar.experiments.observable import Observable
+from deodar.experiments.observations import DIVERGED, Observations
 from deodar.experiments.pushes import with_pushes
-from deodar.experiments.stage import Stage
-from deodar.experiments.tally import DIVERGED, Tally
-from deodar.experiments.view import View
+from deodar.experiments.running import RunningTrial
+from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, Axis
@@ -48,11 +48,11 @@ def run_trial(
     between: Callable[[], None] | None = None,
     measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
-) -> Course:
-    """Run one trial and return its course.
+) -> Trial:
+    """Run one trial and return its result.
 
     The first look is at the start. At a time at which something is done, the look comes first: what is done
-    shows one step (for a world, one period) later. The same arguments give the same course, whatever ran
+    shows one step (for a world, one period) later. The same arguments give the same result, whatever ran
     before; things that actions moved in the world are put back.
 
     Args:
@@ -78,7 +78,7 @@ def run_trial(
         NotFinite: the trial diverges, unless `tolerant`.
     """
     require_actions(actions, world)
-    tally = Tally(events, measures, 1)
+    observed = Observations(events, measures, 1)
     _require_events(actions, [e.name for e in events], require_model(model))
     staged, pushes = with_pushes(require_model(model), actions)
     session = Session(staged, dt, seed, precision, world, trial)
@@ -88,9 +88,9 @@ def run_trial(
     )
     if gap == 0:
         raise TimeError("every is 0; it is at least one step")
-    stage = Stage(session, pushes, any(isinstance(a, Reset) for a in actions))
-    stage.recording = not any(isinstance(a, Record) and a.on for a in actions)
-    waiting = _schedule(stage, actions)
+    running = RunningTrial(session, pushes, any(isinstance(a, Reset) for a in actions))
+    running.recording = not any(isinstance(a, Record) and a.on for a in actions)
+    waiting = _schedule(running, actions)
     eye = _Eye(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
     values: dict[str, np.ndarray] = {}
@@ -98,7 +98,7 @@ def run_trial(
 
     def keep(values: dict[str, np.ndarray]) -> None:
         times.append(session.time)
-        if stage.recording:
+        if running.recording:
             recorded.append(session.time)
             kept.append(values)
 
@@ -109,24 +109,24 @@ def run_trial(
                 looked = session.tick % gap == 0 or session.tick == steps
                 if looked:
                     keep(values)
-                    tally.take([0], np.asarray([session.time]), seen, session.tick == steps)
+                    observed.take([0], np.asarray([session.time]), seen, session.tick == steps)
                     if between is not None:
                         between()
-                    waiting = _schedule_after(stage, waiting, tally.events_of(0))
-                if not tally.outcome[0]:
-                    stage.do()
-                    if stage.outcome:
+                    waiting = _schedule_after(running, waiting, observed.events_of(0))
+                if not observed.outcome[0]:
+                    running.do()
+                    if running.outcome:
                         if not looked:
                             keep(values)
-                        tally.end(0, stage.outcome, seen)
-                if tally.outcome[0]:
+                        observed.end(0, running.outcome, seen)
+                if observed.outcome[0]:
                     break
-                ahead, due = gap - session.tick % gap, stage.until()
+                ahead, due = gap - session.tick % gap, running.until()
                 session.step(min([ahead, steps - session.tick, *([] if due is None else [due])]))
     except NotFinite as error:
         if not tolerant:
             raise
-        lost, tally.outcome[0] = error, DIVERGED
+        lost, observed.outcome[0] = error, DIVERGED
         kept = [{name: np.full_like(a, np.nan) for name, a in values.items()} for values in kept]
     stacked = {
         name: np.stack([v[name] for v in kept])
@@ -134,15 +134,15 @@ def run_trial(
         else np.zeros((0, *(values[name].shape if name in values else ())))
         for name in watch
     }
-    events_, measures_ = tally.events_of(0), tally.measures_of(0, eye.axes())
-    return Course(
+    events_, measures_ = observed.events_of(0), observed.measures_of(0, eye.axes())
+    return Trial(
         np.asarray(times),
         stacked,
         events_,
-        tally.outcome[0],
+        observed.outcome[0],
         measures_,
         np.asarray(recorded),
-        stage.snapshots,
+        running.snapshots,
         lost,
     )
 
@@ -158,31 +158,31 @@ def _require_events(actions: Sequence[Action], names: Sequence[str], model: Mode
             )
 
 
-def _schedule(stage: Stage, actions: Sequence[Action]) -> list[tuple[int, Action]]:
+def _schedule(running: RunningTrial, actions: Sequence[Action]) -> list[tuple[int, Action]]:
     """Schedule the actions of stated times; those that wait for an event are returned, each with its steps
     after it.
     """
     waiting: list[tuple[int, Action]] = []
     for action in actions:
         moment = whole(
-            action.at if action.when else action.at - stage.session.time,
-            stage.session.dt,
+            action.at if action.when else action.at - running.session.time,
+            running.session.dt,
             "the time of an action",
         )
         if action.when:
             waiting.append((moment, action))
         else:
-            stage.later(moment, lambda action=action: action.apply(stage))
+            running.later(moment, lambda action=action: action.apply(running))
     return waiting
 
 
 def _schedule_after(
-    stage: Stage, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]
+    running: RunningTrial, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]
 ) -> list[tuple[int, Action]]:
     """Schedule the actions whose event has happened, and return the others."""
     for moment, action in waiting:
         if happened[action.when] is not None:
-            stage.later(moment, lambda action=action: action.apply(stage))
+            running.later(moment, lambda action=action: action.apply(running))
     return [w for w in waiting if happened[w[1].when] is None]
 
 
@@ -191,11 +191,11 @@ class _Eye:
     the present.
     """
 
-    def __init__(self, session: Session, watch: Sequence[str], views: Sequence[View]) -> None:
+    def __init__(self, session: Session, watch: Sequence[str], views: Sequence[Observable]) -> None:
         self.session, self.watch, self.views = session, watch, tuple(dict.fromkeys(views))
         known = () if session.world is None else session.world.sensors
         self.sensors = {name for name in [*watch, *(v.of for v in views)] if name in known}
-        self.ports: dict[str | View, tuple[str, str]] = {}
+        self.ports: dict[str | Observable, tuple[str, str]] = {}
         for name in [n for n in watch if n not in self.sensors]:
             entry, port = find.shown(session.document, name)
             self.ports[name] = entry.id, port
@@ -210,7 +210,7 @@ class _Eye:
             self.places = [(ident, "output") for ident in tied[:1]]
         self.look: Look = look(session.program, self.places)
 
-    def see(self) -> tuple[dict[str, np.ndarray], dict[View, np.ndarray]]:
+    def see(self) -> tuple[dict[str, np.ndarray], dict[Observable, np.ndarray]]:
         """The values of what is watched, and what each view shows, as one look at one trial."""
         session = self.session
         if self.look.program is not session.program:  # an action compiled another one
@@ -222,7 +222,7 @@ class _Eye:
             name: sensed[name] if name in sensed else np.array(arrays[self.ports[name]])
             for name in self.watch
         }
-        seen: dict[View, np.ndarray] = {}
+        seen: dict[Observable, np.ndarray] = {}
         for view in self.views:
             raw, axes = (
                 (sensed[view.of], None) if view.of in sensed else (arrays[self.ports[view]], self._axes(view))
@@ -242,11 +242,11 @@ class _Eye:
                 clock = Clock(session.tick, session.time, session.tick, session.dt)
                 raise not_finite([f"{entry.path}.{port}"], clock, session.document.time_unit)
 
-    def axes(self) -> dict[View, Axes | None]:
+    def axes(self) -> dict[Observable, Axes | None]:
         """For each view the axes of what it samples; None for a sensor."""
         return {view: None if view.of in self.sensors else self._axes(view) for view in self.views}
 
-    def _axes(self, view: View) -> Axes:
+    def _axes(self, view: Observable) -> Axes:
         program = self.session.program
         return program.axes(program.port(*self.ports[view]))
 

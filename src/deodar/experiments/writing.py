@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.experiments.course import Course
+from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.resolve import resolve
@@ -19,14 +19,14 @@ RECORDS = "records"
 
 
 def write_records(
-    folder: Path, key: str, doc: Document, record: Sequence[str], course: Course, about: Mapping[str, Any]
+    folder: Path, key: str, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Any]
 ) -> None:
     """Write what was recorded of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; what stands there of
     an earlier try is replaced.
     """
     if record:
-        _write(folder / f"{key}.nc", doc, record, course.recorded, course.values, about)
-    for label, (time, values) in course.snapshots.items():
+        _write(folder / f"{key}.nc", doc, record, result.recorded, result.values, about)
+    for label, (time, values) in result.snapshots.items():
         kept = {path: array[None] for path, array in values.items()}
         _write(
             folder / f"{key}-{label}.nc",

@@ -1,4 +1,4 @@
-"""The parcel: a model and its world as another process gets them, as plain data.
+"""A model and its world packed for another process, as plain data.
 
 A worker imports deodar and nothing else, so what the script that started it has defined must be importable.
 """

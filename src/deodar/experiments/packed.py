@@ -8,41 +8,41 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from deodar import codec
-from deodar.batch import parcel
-from deodar.experiments.bench import Bench
+from deodar.batch import packed
 from deodar.experiments.design import Design
 from deodar.experiments.rows import Row
+from deodar.experiments.setup import Setup
 
 
 @dataclass(frozen=True)
-class Parcel:
+class PackedExperiment:
     """An experiment, its model and its world.
 
     Attributes:
         experiment: its plain data, as JSON text.
-        bench: the model and the world.
+        setup: the model and the world.
     """
 
     experiment: str
-    bench: parcel.PackedModel
+    setup: packed.PackedModel
 
     @classmethod
-    def of(cls, bench: Bench) -> Parcel:
-        """A bench, packed.
+    def of(cls, setup: Setup) -> PackedExperiment:
+        """A setup, packed.
 
         Raises:
             WorkerError: something of it cannot be handed to another process.
         """
-        plain = bench.experiment.to_data() | {"model": "as handed over"}
-        return cls(codec.line(plain), parcel.PackedModel.of(bench.model, bench.world))
+        plain = setup.experiment.to_data() | {"model": "as handed over"}
+        return cls(codec.line(plain), packed.PackedModel.of(setup.model, setup.world))
 
-    def open(self) -> Bench:
-        """The bench again."""
-        model = self.bench.model  # first: it imports what the experiment's model is made of
-        return Bench(Design.from_data(codec.parse(self.experiment)), model, self.bench.world())
+    def open(self) -> Setup:
+        """The setup again."""
+        model = self.setup.model  # first: it imports what the experiment's model is made of
+        return Setup(Design.from_data(codec.parse(self.experiment)), model, self.setup.world())
 
 
-def work(handed: Parcel, trials: Sequence[int], records: Path | None) -> list[Row]:
+def work(handed: PackedExperiment, trials: Sequence[int], records: Path | None) -> list[Row]:
     """The rows of some trials, in a worker."""
     return _opened(handed).rows(trials, records)
 
@@ -50,5 +50,5 @@ def work(handed: Parcel, trials: Sequence[int], records: Path | None) -> list[Ro
 @functools.lru_cache(
     maxsize=1
 )  # the next piece of the same experiment finds the compiled programs that a model keeps
-def _opened(handed: Parcel) -> Bench:
+def _opened(handed: PackedExperiment) -> Setup:
     return handed.open()

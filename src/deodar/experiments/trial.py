@@ -1,4 +1,4 @@
-"""The course of one trial: what was seen of it, and what happened when."""
+"""The result of one trial: what was seen of it, and what happened when."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from deodar.errors import NotFinite
-from deodar.experiments.stage import Kept
-from deodar.experiments.tally import TIME as TIME
+from deodar.experiments.observations import TIME as TIME
+from deodar.experiments.running import Kept
 
 Value = float | list[float] | None
 
 
 @dataclass(frozen=True)
-class Course:
+class Trial:
     """One trial, run.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""The bench: an experiment with its model and its world opened, and its trials as pieces of work."""
+"""An opened experiment: its model, its world, and its trials as pieces of work."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from deodar.batch.pieces import BATCH_BYTES
 from deodar.experiments.actions import Push
 from deodar.experiments.batch import run_batch
 from deodar.experiments.checking import check
-from deodar.experiments.course import Course
 from deodar.experiments.design import Design
 from deodar.experiments.levels import swept
+from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.pushes import with_pushes
 from deodar.experiments.rows import KEY, Row
 from deodar.experiments.run import run_trial
-from deodar.experiments.tally import DIVERGED, TIME
+from deodar.experiments.trial import Trial
 from deodar.experiments.writing import write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load
@@ -44,7 +44,7 @@ machine).
 
 
 @dataclass
-class Bench:
+class Setup:
     """An experiment that can be run.
 
     Attributes:
@@ -58,7 +58,7 @@ class Bench:
     world: World | None
 
     @classmethod
-    def open(cls, experiment: Design, trust: bool = False) -> Bench:
+    def open(cls, experiment: Design, trust: bool = False) -> Setup:
         """Open model and world of an experiment, and check everything that can be checked before a trial
         runs.
         """
@@ -89,9 +89,9 @@ class Bench:
         """Steps of a trial that no condition ends."""
         return round(self.experiment.limit / self.dt)
 
-    def shortened(self, steps: int) -> Bench:
+    def shortened(self, steps: int) -> Setup:
         """The same with another limit, in steps, to measure how long a step takes."""
-        return Bench(dc.replace(self.experiment, limit=steps * self.dt), self.model, self.world)
+        return Setup(dc.replace(self.experiment, limit=steps * self.dt), self.model, self.world)
 
     @cached_property
     def batched(self) -> bool:
@@ -144,32 +144,32 @@ class Bench:
     def rows(self, trials: Sequence[int], records: Path | None = None) -> list[Row]:
         """Run some trials and give their rows; `records`: the folder for what is recorded."""
         out: list[Row] = []
-        for k, course, model in self._courses(trials, records is not None):
+        for k, result, model in self._results(trials, records is not None):
             levels = {
                 f.name: f.labels[n] for f, n in zip(self.experiment.factors, self.cells[k], strict=True)
             }
-            awaited = [c.name for c in self.experiment.conditions if c.ends and course.events[c.name] is None]
-            row: Row = {KEY: f"{k:06}", "trial": k, "levels": levels, "outcome": course.outcome}
+            awaited = [c.name for c in self.experiment.conditions if c.ends and result.events[c.name] is None]
+            row: Row = {KEY: f"{k:06}", "trial": k, "levels": levels, "outcome": result.outcome}
             row |= {
-                "awaited": ", ".join(awaited) if course.outcome == TIME else "",
-                "duration": course.duration,
+                "awaited": ", ".join(awaited) if result.outcome == TIME else "",
+                "duration": result.duration,
             }
-            row |= {} if course.error is None else {"duration": None, DIVERGED: course.error.problems[0].what}
-            row |= {"events": dict(course.events), "measures": dict(course.measures)}
+            row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
+            row |= {"events": dict(result.events), "measures": dict(result.measures)}
             if records is not None:
                 about = {
                     "experiment": self.experiment.name,
                     "trial": k,
                     "seed": self.experiment.seed,
                     "levels": levels,
-                    "outcome": course.outcome,
+                    "outcome": result.outcome,
                 }
                 about |= {DIVERGED: row[DIVERGED]} if DIVERGED in row else {}
-                write_records(records, row[KEY], model.document, self.experiment.record, course, about)
+                write_records(records, row[KEY], model.document, self.experiment.record, result, about)
             out.append(row)
         return out
 
-    def _courses(self, trials: Sequence[int], keep: bool) -> list[tuple[int, Course, Model]]:
+    def _results(self, trials: Sequence[int], keep: bool) -> list[tuple[int, Trial, Model]]:
         e = self.experiment
         watch = e.record if keep else ()
         given: dict[str, Any] = {
@@ -182,7 +182,7 @@ class Bench:
         }
         given |= {"events": e.conditions, "world": self.world, "tolerant": True}
         if not self.batched:
-            out: list[tuple[int, Course, Model]] = []
+            out: list[tuple[int, Trial, Model]] = []
             for k in trials:
                 model = self._with(self.changes(k))
                 out.append((k, run_trial(model, e.limit, trial=k, actions=e.actions, **given), model))
@@ -193,8 +193,8 @@ class Bench:
             path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept
         }
         staged, _ = with_pushes(model, e.actions)
-        courses = run_batch(staged, e.limit, trials, values=values, **given)
-        return [(k, course, model) for k, course in zip(trials, courses, strict=True)]
+        results = run_batch(staged, e.limit, trials, values=values, **given)
+        return [(k, result, model) for k, result in zip(trials, results, strict=True)]
 
     def _with(self, changes: Mapping[str, Any]) -> Model:
         """The model with other parameters; it shares the programs that have been compiled."""

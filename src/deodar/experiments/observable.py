@@ -1,4 +1,4 @@
-"""What a look sees of a port or of a sensor: its values, or one number that is made of them."""
+"""What events and measures observe of a port or a sensor: its values, or one number computed from them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PLACE = "place"
 
 
 @dataclass(frozen=True)
-class View:
+class Observable:
     """What is looked at.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""The tally: what has happened when in trials that run beside each other, and what was measured then."""
+"""Events and measures of trials that run side by side: what has happened when, and what was measured then."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from deodar.errors import ParameterError, UnknownName, did_you_mean
 from deodar.experiments.events import Event, Looks
 from deodar.experiments.measures import BaseMeasure
-from deodar.experiments.view import View
+from deodar.experiments.observable import Observable
 from deodar.numerics.axes import Axes
 
 TIME = "time"
@@ -19,7 +19,7 @@ DIVERGED = "diverged"
 """Outcome of a trial in which a value became infinite or undefined."""
 
 
-class Tally:
+class Observations:
     """What looks at trials have shown so far.
 
     Attributes:
@@ -39,13 +39,13 @@ class Tally:
         self.measured: list[list[np.ndarray | None]] = [[None] * trials for _ in measures]
         self._counts = np.zeros((len(events), trials), int)
         self._been = np.zeros((len(events), trials), bool)
-        self._first: dict[View, np.ndarray] = {}
+        self._first: dict[Observable, np.ndarray] = {}
 
     def take(
         self,
         rows: Sequence[int],
         times: np.ndarray,
-        seen: Mapping[View, np.ndarray],
+        seen: Mapping[Observable, np.ndarray],
         last: bool,
         good: np.ndarray | None = None,
     ) -> np.ndarray:
@@ -106,7 +106,7 @@ class Tally:
                 self.measured[m][rows[i]] = np.array(seen[measure.view][i, when[i]])
         return np.where(running, np.minimum(ends + 1, n), 0)
 
-    def end(self, row: int, outcome: str, seen: Mapping[View, np.ndarray]) -> None:
+    def end(self, row: int, outcome: str, seen: Mapping[Observable, np.ndarray]) -> None:
         """End a trial by hand, at what a look just saw."""
         self.outcome[row] = outcome
         for m, measure in enumerate(self.measures):
@@ -123,7 +123,7 @@ class Tally:
         }
 
     def measures_of(
-        self, row: int, axes: Mapping[View, Axes | None]
+        self, row: int, axes: Mapping[Observable, Axes | None]
     ) -> dict[str, float | list[float] | None]:
         """Return each measure of a trial; None: it was not taken, there was nothing to measure, or the trial
         diverged.

@@ -1,4 +1,4 @@
-"""The stage: a trial that runs, as actions find it."""
+"""A running trial, as actions see it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Kept = tuple[float, Mapping[str, np.ndarray]]
 """Document time, and for each port what it then held."""
 
 
-class Stage:
+class RunningTrial:
     """A trial that runs, and what is still to be done to it.
 
     Attributes:
