@@ -24,7 +24,7 @@ from deodar.model.check import check
 from deodar.parameters import Live, Part, parameters
 from deodar.session.run import require_step
 from tests.contracts.build import KINDS, PARTS, around, example
-from tests.house.test_docstrings import entries, sections
+from tests.house.test_docstrings import read
 
 LIMITED = {
     kind: {p.name: p.role for p in parameters(cls) if p.role in LIMITING} for kind, cls in KINDS.items()
@@ -49,7 +49,7 @@ def test_a_parameter_whose_unit_has_time_in_it_declares_its_role(kind: str) -> N
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_a_parameter_that_is_described_as_a_time_has_a_unit_of_time(kind: str) -> None:
     """An element cannot forget it: its docstring speaks of time where its unit does not."""
-    words = entries(sections(KINDS[kind]).get("Parameters", ""))
+    words = read(KINDS[kind]).entries("Parameters")
     for p in parameters(KINDS[kind]):
         if SPEAKS_OF_TIME.search(words.get(p.name, "")) and p.form in ("number", "per_axis", "array"):
             assert p.role or (kind, p.name) in OTHER_TIMES, f"{kind}.{p.name}: {words[p.name]}"
