@@ -1,0 +1,110 @@
+"""The mutation command: what it changes, what it draws, which tests it runs, and what it counts."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tests.house.source import ROOT
+
+
+@pytest.fixture(scope="module")
+def mutate() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("mutate", ROOT / "tools" / "mutate.py")
+    assert spec is not None and spec.loader is not None
+    module = sys.modules["mutate"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "changed"),
+    [
+        ("a < b", "comparison", "(a <= b)"),
+        ("x = [i for i in y if i not in z]", "comparison", "x = [i for i in y if (i in z)]"),
+        ("a + b * c", "arithmetic", "(a - b * c)"),
+        ("a + b * c", "arithmetic", "a + (b / c)"),
+        ("é = 1", "constant", "é = (2)"),
+        ("x = 'é', True", "constant", "x = 'é', (False)"),
+        ("a and b", "boolean", "(a or b)"),
+        ("if not a: b", "boolean", "if (a): b"),
+        ("x = a if b else c", "condition", "x = (c if b else a)"),
+        ("def f():\n    return 'a'", "return value", "def f():\n    return None"),
+        ("f()", "removed statement", "pass"),
+        ("self.a = b", "removed statement", "pass"),
+        ("x = f(a, b, c)", "swapped argument", "x = (f(b, a, c))"),
+    ],
+)
+def test_a_place_is_changed_and_nothing_else(mutate: ModuleType, text: str, kind: str, changed: str) -> None:
+    found = [m.applied(text) for m in mutate.mutants("a.py", text) if m.kind == kind]
+    assert changed in found
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "def f(a: 'int | None') -> list[3]: ...",
+        "x: Literal[1]",
+        "if TYPE_CHECKING:\n    f(a, b)",
+        "class A(Protocol):\n    x = 1",
+        "x = f'{a + 1}'",
+        "def f():\n    return None",
+    ],
+)
+def test_what_no_run_reads_is_not_changed(mutate: ModuleType, text: str) -> None:
+    assert not list(mutate.mutants("a.py", text))
+
+
+def test_the_same_commit_draws_the_same_places(mutate: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "a.py").write_text("\n".join(f"x{i} = {i}" for i in range(50)))
+    drawn = mutate.draw(tmp_path, "abc", 10)
+    assert drawn == mutate.draw(tmp_path, "abc", 10) != mutate.draw(tmp_path, "abd", 10)
+    assert len(set(drawn)) == 10 and len(mutate.draw(tmp_path, "abc", 100)) == 50
+
+
+def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
+    mutate: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # the three processes start sooner
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "toy.py").write_text(
+        "def total(a, b):\n    return a + b\n\n"
+        "def large(a):\n    return a > 10\n\n"
+        "def unused(a):\n    return a * 2\n"
+    )
+    (tmp_path / "test_toy.py").write_text(
+        "import toy\ndef test_total(): assert toy.total(1, 2) == 3\ndef test_large(): assert toy.large(20)\n"
+        "def test_wrong(): assert toy.unused(1) == 1\n"
+    )
+    calls = tmp_path / "calls.jsonl"
+    mutate.note(tmp_path, calls, ["-q", "-p", "no:cacheprovider", "test_toy.py"])
+    found = mutate.calls(calls)
+    assert {test: set(called) for test, (_, called) in found.items()} == {
+        "test_toy.py::test_total": {"src/toy.py:1"},
+        "test_toy.py::test_large": {"src/toy.py:4"},
+    }
+    text = (tmp_path / "src" / "toy.py").read_text()
+    chosen = [m for m in mutate.mutants("src/toy.py", text) if m.kind in ("arithmetic", "comparison")]
+    rows = [mutate.judge(tmp_path, m, found, "abc") for m in chosen]
+    assert [(r.place, r.outcome, r.test) for r in rows] == [
+        ("src/toy.py:2:12", "killed", "test_toy.py::test_total"),
+        ("src/toy.py:5:12", "survived", ""),
+        ("src/toy.py:8:12", "not covered", ""),
+    ]
+    assert (tmp_path / "src" / "toy.py").read_text() == text
+    mutate.write(tmp_path / "rows.csv", rows)
+    assert mutate.read(tmp_path / "rows.csv") == rows
+    assert mutate.report(rows, {rows[1].key: "the test is about 20 alone"}) == [
+        "1 of 2 mutants killed (50.0 %); 1 are equivalent",
+        " not covered  src/toy.py:8:12  arithmetic: a * 2  ->  (a / 2)",
+    ]
+
+
+def test_a_mutant_that_takes_too_long_survives(mutate: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "test_slow.py").write_text("import time\ndef test_slow(): time.sleep(600)\n")
+    assert mutate.run(tmp_path, ["test_slow.py::test_slow"], 0.5) == ("timed out", "")

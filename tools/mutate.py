@@ -1,0 +1,462 @@
+"""Change the package at places drawn by a commit, and run the tests that cover each change.
+
+    python tools/mutate.py map [PYTEST ARGUMENTS]    note which functions each test calls
+    python tools/mutate.py run [--count 200]         judge what HEAD draws: rows in evidence/mutants.csv
+    python tools/mutate.py run --again               judge the survivors again, with the present tests
+    python tools/mutate.py show                      print the share that is killed, and every survivor
+
+A place is drawn from all comparisons, arithmetic, constants, conditions, returned values, statements and
+calls below `src`. A mutant is killed when a test that calls its function fails. One that takes too long
+survives, and so does one that no test covers. Rows are written one by one, so a run that was stopped
+continues. Mutants that no test can distinguish from the package are listed with the reason in
+evidence/equivalent_mutants.csv and are not counted.
+
+`map` runs the tests in one process and adds to the map of a commit, which can so be filled folder by folder.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import csv
+import dataclasses as dc
+import io
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tarfile
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from types import CodeType, FrameType
+
+ROOT = Path(__file__).parents[1]
+KEPT = ROOT / ".pytest_cache" / "mutants"
+ROWS = ROOT / "evidence" / "mutants.csv"
+EQUIVALENT = ROOT / "evidence" / "equivalent_mutants.csv"
+
+COUNT = 200
+TESTS = 150
+"""Most tests that are run for one mutant: those of the shortest time first."""
+
+PATIENCE = 10.0, 60.0
+"""A mutant times out after this many times the time of its tests, plus so many seconds."""
+
+
+Key = tuple[str, str, str]
+"""What identifies a mutant of a commit: place, source before, source after."""
+
+
+@dc.dataclass(frozen=True)
+class Mutant:
+    """One change of one place.
+
+    Attributes:
+        file: path below the root.
+        line, column: where the place begins, both from 1.
+        kind: what is changed, such as "comparison".
+        before, after: the source of the place.
+        start, end: characters of the file that `after` replaces.
+    """
+
+    file: str
+    line: int
+    column: int
+    kind: str
+    before: str
+    after: str
+    start: int = dc.field(compare=False)
+    end: int = dc.field(compare=False)
+
+    @property
+    def key(self) -> Key:
+        """Its place, and the beginning of its source before and after, each in one line."""
+        before, after = (" ".join(s.split())[:120] for s in (self.before, self.after))
+        return f"{self.file}:{self.line}:{self.column}", before, after
+
+    def applied(self, text: str) -> str:
+        """The file with the change."""
+        return text[: self.start] + self.after + text[self.end :]
+
+
+COMPARISONS: dict[type[ast.cmpop], ast.cmpop] = {
+    ast.Lt: ast.LtE(),
+    ast.LtE: ast.Lt(),
+    ast.Gt: ast.GtE(),
+    ast.GtE: ast.Gt(),
+    ast.Eq: ast.NotEq(),
+    ast.NotEq: ast.Eq(),
+    ast.In: ast.NotIn(),
+    ast.NotIn: ast.In(),
+    ast.Is: ast.IsNot(),
+    ast.IsNot: ast.Is(),
+}
+ARITHMETIC: dict[type[ast.operator], ast.operator] = {
+    ast.Add: ast.Sub(),
+    ast.Sub: ast.Add(),
+    ast.Mult: ast.Div(),
+    ast.Div: ast.Mult(),
+    ast.FloorDiv: ast.Mult(),
+    ast.Mod: ast.Mult(),
+    ast.Pow: ast.Mult(),
+    ast.BitAnd: ast.BitOr(),
+    ast.BitOr: ast.BitAnd(),
+}
+
+
+def changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
+    """Kinds of changes of a node, with the changed node."""
+    match node:
+        case ast.Compare(left, [op, *ops], right) if type(op) in COMPARISONS:
+            yield "comparison", ast.Compare(left, [COMPARISONS[type(op)], *ops], right)
+        case ast.BinOp(left, op, right) if type(op) in ARITHMETIC:
+            yield "arithmetic", ast.BinOp(left, ARITHMETIC[type(op)], right)
+        case ast.Constant(bool(value)):
+            yield "constant", ast.Constant(not value)
+        case ast.Constant(int(value) | float(value)):
+            yield "constant", ast.Constant(value + 1)
+        case ast.BoolOp(op, values):
+            yield "boolean", ast.BoolOp(ast.Or() if isinstance(op, ast.And) else ast.And(), values)
+        case ast.UnaryOp(ast.Not(), operand):
+            yield "boolean", operand
+        case ast.IfExp(test, body, orelse):
+            yield "condition", ast.IfExp(test, orelse, body)
+        case ast.Return(value) if value is not None and ast.unparse(value) != "None":
+            yield "return value", ast.Return(ast.Constant(None))
+        case ast.Expr(ast.Call()) | ast.AugAssign() | ast.Raise():
+            yield "removed statement", ast.Pass()
+        case ast.Assign([ast.Attribute() | ast.Subscript()]):
+            yield "removed statement", ast.Pass()
+        case ast.Call(f, [a, b, *rest], keywords) if not any(isinstance(x, ast.Starred) for x in (a, b)):
+            yield "swapped argument", ast.Call(f, [b, a, *rest], keywords)
+        case _:
+            return
+
+
+def unread(node: ast.AST) -> list[ast.AST]:
+    """Children that no run reads: annotations, what only types need, and the text of messages."""
+    match node:
+        case ast.If(ast.Name("TYPE_CHECKING")):
+            return list(node.body)
+        case ast.ClassDef(bases=[*bases]) if any("Protocol" in ast.unparse(b) for b in bases):
+            return list(node.body)
+        case ast.arg(annotation=annotation) | ast.AnnAssign(annotation=annotation) if annotation:
+            return [annotation]
+        case ast.FunctionDef(returns=returns) if returns:
+            return [returns]
+        case ast.Raise(exc=ast.Call(args=args, keywords=keywords)):
+            return [*args, *keywords]
+        case ast.JoinedStr(values=values):
+            return list(values)
+        case _:
+            return []
+
+
+def mutants(file: str, text: str) -> Iterator[Mutant]:
+    """Every change of a file, in the order of its syntax tree."""
+    starts = [0]
+    for line in text.splitlines(keepends=True):
+        starts.append(starts[-1] + len(line))
+    lines = text.splitlines()
+
+    def at(line: int, column: int) -> int:
+        """Columns of syntax trees count bytes."""
+        return starts[line - 1] + len(lines[line - 1].encode()[:column].decode())
+
+    def walk(node: ast.AST) -> Iterator[ast.AST]:
+        yield node
+        left_out = unread(node)
+        for child in ast.iter_child_nodes(node):
+            if child not in left_out:
+                yield from walk(child)
+
+    for node in walk(ast.parse(text)):
+        for kind, new in changes(node):
+            assert (
+                isinstance(node, ast.expr | ast.stmt) and node.end_lineno and node.end_col_offset is not None
+            )
+            start, end = at(node.lineno, node.col_offset), at(node.end_lineno, node.end_col_offset)
+            after = ast.unparse(ast.fix_missing_locations(new))
+            after = f"({after})" if isinstance(node, ast.expr) else after
+            yield Mutant(file, node.lineno, node.col_offset + 1, kind, text[start:end], after, start, end)
+
+
+def draw(root: Path, seed: str, count: int) -> list[Mutant]:
+    """Mutants of the package, drawn by a text: the same text draws the same ones from the same files."""
+    found = [
+        mutant
+        for path in sorted((root / "src").rglob("*.py"))
+        for mutant in mutants(path.relative_to(root).as_posix(), path.read_text(encoding="utf-8"))
+    ]
+    return random.Random(seed).sample(found, min(count, len(found)))
+
+
+# Which test calls which function.
+
+Calls = dict[str, tuple[float, set[str]]]
+"""For each test its seconds, and the functions it calls as `FILE:FIRST LINE`."""
+
+
+class Recorder:
+    """A plugin of pytest that notes, for each test that passes, the functions of the package that it calls.
+
+    Calls are what is traced, not lines: a callback for each line would make the suite several times as long.
+    """
+
+    def __init__(self, root: Path, out: io.TextIOBase) -> None:
+        self.root, self.out = str(root) + os.sep, out
+        self.seen: set[CodeType] = set()
+        self.failed = False
+
+    def trace(self, frame: FrameType, event: str, argument: object) -> None:
+        self.seen.add(frame.f_code)
+
+    def pytest_runtest_logstart(self) -> None:
+        self.seen, self.failed, self.began = set(), False, time.process_time()
+        threading.settrace(self.trace)
+        sys.settrace(self.trace)
+
+    def pytest_runtest_logreport(self, report: object) -> None:
+        self.failed |= getattr(report, "failed", False)
+
+    def pytest_runtest_logfinish(self, nodeid: str) -> None:
+        sys.settrace(None)
+        threading.settrace(None)  # type: ignore[arg-type]
+        calls = sorted(
+            f"{code.co_filename.removeprefix(self.root)}:{code.co_firstlineno}"
+            for code in self.seen
+            if code.co_filename.startswith(self.root + "src")
+        )
+        if calls and not self.failed and "\n" not in nodeid:
+            seconds = round(time.process_time() - self.began, 3)
+            self.out.write(json.dumps([nodeid, seconds, calls]) + "\n")
+            self.out.flush()
+
+
+def note(root: Path, out: Path, arguments: Sequence[str]) -> int:
+    """Run tests of a tree in a process of its own, and add to the map which functions they call."""
+    code = (
+        "import sys, pytest; from pathlib import Path; sys.path.insert(0, sys.argv[1]); import mutate\n"
+        "with open(sys.argv[2], 'a', encoding='utf-8') as out:\n"
+        "    sys.exit(pytest.main(sys.argv[3:], plugins=[mutate.Recorder(Path.cwd().resolve(), out)]))"
+    )
+    out.parent.mkdir(parents=True, exist_ok=True)
+    return subprocess.run(
+        [sys.executable, "-c", code, str(Path(__file__).parent), str(out), *arguments],
+        cwd=root,
+        env=environment(root),
+        check=False,
+    ).returncode
+
+
+def calls(file: Path) -> Calls:
+    """The map: of a test that was run twice, the later run."""
+    if not file.exists():
+        return {}
+    with file.open(encoding="utf-8") as text:
+        return {test: (seconds, set(found)) for test, seconds, found in map(json.loads, text)}
+
+
+def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
+    """Tests that call the function of a mutant, the quickest first; outside of functions, those that call any
+    function of its file.
+    """
+    around = [
+        node
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+        and node.body[0].lineno <= mutant.line <= (node.end_lineno or 0)
+    ]
+    if around:
+        inner = max(around, key=lambda node: node.lineno)
+        first = min([inner.lineno, *(d.lineno for d in inner.decorator_list)])
+        wanted = {f"{mutant.file}:{first}"}
+        fits: Callable[[set[str]], bool] = wanted.__le__
+    else:
+        fits = lambda called: any(c.startswith(mutant.file + ":") for c in called)  # noqa: E731
+    tests = [(seconds, test) for test, (seconds, called) in found.items() if fits(called)]
+    return [test for _, test in sorted(tests)]
+
+
+# One mutant after another.
+
+
+@dc.dataclass(frozen=True)
+class Row:
+    """What became of a mutant: killed, survived, timed out or not covered."""
+
+    commit: str
+    place: str
+    before: str
+    after: str
+    kind: str
+    outcome: str
+    test: str
+    tests: int
+    seconds: float
+
+    @property
+    def key(self) -> Key:
+        return self.place, self.before, self.after
+
+
+def environment(root: Path) -> dict[str, str]:
+    """The environment of the tests of a tree, which import the package from there."""
+    return {**os.environ, "PYTHONPATH": str(root / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def judge(root: Path, mutant: Mutant, found: Calls, commit: str) -> Row:
+    """Change a tree, run the tests that cover the change, and take the change back."""
+    path = root / mutant.file
+    text = path.read_text(encoding="utf-8")
+    tests = covering(mutant, text, found)[:TESTS]
+    began = time.monotonic()
+    outcome, test = "not covered", ""
+    if tests:
+        allowed = PATIENCE[0] * sum(found[t][0] for t in tests) + PATIENCE[1]
+        path.write_text(mutant.applied(text), encoding="utf-8")
+        try:
+            outcome, test = run(root, tests, allowed)
+        finally:
+            path.write_text(text, encoding="utf-8")
+    if mutant.file.startswith("src/deodar/compiler/"):  # it may have kept wrong programs
+        shutil.rmtree(root / ".pytest_cache", ignore_errors=True)
+    seconds = round(time.monotonic() - began, 1)
+    return Row(commit, *mutant.key, mutant.kind, outcome, test, len(tests), seconds)
+
+
+def run(root: Path, tests: Sequence[str], allowed: float) -> tuple[str, str]:
+    """Run tests until one fails: the outcome, and the test that failed."""
+    with tempfile.TemporaryDirectory() as place:
+        names = Path(place) / "tests"
+        names.write_text("\n".join(tests), encoding="utf-8")
+        command = ["-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--tb=no", "-rfE"]
+        process = subprocess.Popen(
+            [sys.executable, *command, f"@{names}"],
+            cwd=root,
+            env=environment(root),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        try:
+            out, _ = process.communicate(timeout=allowed)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+            return "timed out", ""
+    if process.returncode == 0:
+        return "survived", ""
+    failed = [
+        line.split(" ", 1)[1].split(" - ")[0]
+        for line in out.splitlines()
+        if line.startswith(("FAILED ", "ERROR "))
+    ]
+    return "killed", (failed or ["at import"])[0]
+
+
+def read(file: Path) -> list[Row]:
+    """The rows of a file; none where there is no file."""
+    if not file.exists():
+        return []
+    with file.open(encoding="utf-8", newline="") as text:
+        return [
+            Row(**{**row, "tests": int(row["tests"]), "seconds": float(row["seconds"])})  # type: ignore[arg-type]
+            for row in csv.DictReader(text)
+        ]
+
+
+def write(file: Path, rows: Iterable[Row]) -> None:
+    """Write all rows; what is there is replaced at once."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    new = file.with_suffix(".new")
+    with new.open("w", encoding="utf-8", newline="") as text:
+        out = csv.DictWriter(text, [f.name for f in dc.fields(Row)], lineterminator="\n")
+        out.writeheader()
+        out.writerows(dc.asdict(row) for row in rows)
+    new.replace(file)
+
+
+def equivalents(file: Path = EQUIVALENT) -> Mapping[Key, str]:
+    """Why a mutant (place, before, after) cannot be told from the package."""
+    if not file.exists():
+        return {}
+    with file.open(encoding="utf-8", newline="") as text:
+        return {(r["place"], r["before"], r["after"]): r["why"] for r in csv.DictReader(text)}
+
+
+def report(rows: Sequence[Row], equal: Mapping[Key, str]) -> list[str]:
+    """The share that is killed, and a line for each mutant that is not."""
+    counted = [r for r in rows if r.key not in equal]
+    killed = sum(r.outcome == "killed" for r in counted)
+    share = f"{100 * killed / len(counted):.1f} %" if counted else "none"
+    out = [f"{killed} of {len(counted)} mutants killed ({share}); {len(rows) - len(counted)} are equivalent"]
+    return out + [
+        f"{r.outcome:>12}  {r.place}  {r.kind}: {r.before}  ->  {r.after}"
+        for r in counted
+        if r.outcome != "killed"
+    ]
+
+
+def tree(commit: str, into: Path) -> Path:
+    """The files of a commit, with the tests of the working tree and the page that was built here."""
+    archive = subprocess.run(["git", "archive", commit], cwd=ROOT, capture_output=True, check=True).stdout
+    with tarfile.open(fileobj=io.BytesIO(archive)) as files:
+        files.extractall(into, filter="data")
+    shutil.rmtree(into / "tests")
+    shutil.copytree(ROOT / "tests", into / "tests")
+    if (page := ROOT / "src" / "deodar" / "server" / "static").exists():
+        shutil.copytree(page, into / page.relative_to(ROOT))
+    return into
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0] if __doc__ else "")
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name in ("map", "run", "show"):
+        command = commands.add_parser(name)
+        command.add_argument("--commit", default="HEAD", help="draw by this commit, and change its files")
+        if name == "run":
+            command.add_argument("--count", type=int, default=COUNT, help="how many are drawn")
+            command.add_argument("--again", action="store_true", help="judge survivors once more")
+    given, rest = parser.parse_known_args(arguments)
+    if rest and given.command != "map":
+        parser.error(f"unknown: {' '.join(rest)}")
+    name = ["git", "rev-parse", given.commit]
+    commit = subprocess.run(name, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+    known = KEPT / f"{commit}.jsonl"
+    rows = read(ROWS)
+    if given.command == "show":
+        print("\n".join(report(rows, equivalents())))
+        return
+    with tempfile.TemporaryDirectory() as place:
+        root = tree(commit, Path(place).resolve())
+        if given.command == "map":
+            sys.exit(note(root, known, rest or ["tests"]))
+        found = calls(known)
+        if not found:
+            parser.error(
+                f"no map of {commit[:7]}; type `python tools/mutate.py map --commit {commit[:7]}` first"
+            )
+        rows = [r for r in rows if r.commit == commit]
+        done = {r.key for r in rows if r.outcome == "killed" or not given.again}
+        for mutant in draw(root, commit, given.count):
+            if mutant.key in done:
+                continue
+            row = judge(root, mutant, found, commit)
+            rows = [*(r for r in rows if r.key != mutant.key), row]
+            write(ROWS, rows)
+            print(f"{row.outcome:>12}  {row.place}  {row.kind}: {row.before}  ->  {row.after}", flush=True)
+    print("\n".join(report(rows, equivalents())[:1]))
+
+
+if __name__ == "__main__":
+    main()
