@@ -77,3 +77,33 @@ def test_what_does_not_fit_is_refused() -> None:
         peaks(np.zeros(5), [x])
     with pytest.raises(dd.errors.AnalysisError, match="finite"):
         peaks(np.full(101, np.nan), [x])
+
+
+@pytest.mark.parametrize("axis", [x, dd.Axis("phi", 0, 100, samples=101, periodic=True)])
+def test_each_of_two_peaks_has_a_width_of_its_own(axis: dd.Axis) -> None:
+    narrow, broad = bump(axis, 20, sigma=3, height=3.0), bump(axis, 70, sigma=8, height=2.0)
+    found = peaks(np.maximum(narrow, broad), [axis])
+    assert [p.width[0] for p in found] == pytest.approx(
+        [2 * 3 * np.sqrt(2 * np.log(4.0)), 2 * 8 * np.sqrt(2 * np.log(3.0))], abs=0.2
+    )
+    assert [p.size for p in found] == pytest.approx([p.width[0] for p in found])
+
+
+def test_a_cut_ends_where_its_region_does() -> None:
+    u = -np.ones((5, 7))
+    u[0, 1:6], u[0:4, 1], u[0:4, 5] = 1, 1, 1  # a bow: the row of its highest sample meets both legs
+    u[2, 1] = 2
+    a, b = dd.Axis("a", 0, 4, samples=5), dd.Axis("b", 0, 6, samples=7)
+    (found,) = peaks(u, [a, b])
+    assert found.samples == 11 and found.width[1] == pytest.approx(2 / 3 + 2 / 3)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("flipped", [False, True])
+def test_a_peak_that_touches_two_regions_across_the_seam_joins_them(turned: bool, flipped: bool) -> None:
+    u = -np.ones((6, 9))
+    u[0, 1:8], u[-1, 1:3], u[-1, 6:8] = 1, 1, 1
+    axes = [dd.Axis("a", 0, 6, samples=6, periodic=True), dd.Axis("b", 0, 8, samples=9)]
+    u = u[::-1] if flipped else u
+    (found,) = peaks(u.T, axes[::-1]) if turned else peaks(u, axes)
+    assert found.samples == 11

@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
-from deodar.importers.presets import apply_preset
+from deodar.importers.presets import applied, apply_preset
 from tests.importers.cosivina.files import SAMPLES, element, written
 
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
@@ -94,3 +94,34 @@ def test_the_same_file_changes_nothing():
         model = dd.load(path)
         assert apply_preset(model, path).lines == []
         assert json.loads(model.to_json())
+
+
+X = dd.Axis("x", 0, 10, samples=11)
+
+
+def one_field(**kernel):
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2, **kernel)]))
+    return model
+
+
+@pytest.mark.parametrize(
+    ("here", "there", "said"),
+    [
+        (None, "reflect", True),
+        ("zero", "periodic", True),
+        (None, "zero", False),  # what a line does without a word about it
+        ("zero", ["zero"], False),
+    ],
+)
+def test_what_lies_beyond_the_ends_stays_and_a_difference_is_listed(here, there, said):
+    model = one_field(amplitude=1.0, boundary=here)
+    doc, lines = applied(model.document, one_field(amplitude=2.0, boundary=there).document)
+    (u,) = doc.entries
+    (kernel,) = u.element.kernel
+    assert kernel.amplitude == 2.0 and kernel.boundary == model["u"].element.kernel[0].boundary
+    expected = [("kernel.0.boundary", "dropped")] if said else []
+    assert sorted((line.what, line.verdict) for line in lines) == [
+        ("kernel.0.amplitude", "carried"),
+        *expected,
+    ]

@@ -129,3 +129,28 @@ def test_an_element_that_is_gone_is_an_error_that_says_so(model: dd.Model, chang
 def test_only_a_number_can_become_a_document_parameter(model: dd.Model, leaf: str) -> None:
     with pytest.raises(ParameterError, match="cannot be linked"):
         find.number(model.document, model["u"].id, leaf)
+
+
+@pytest.mark.parametrize("place", ["add", "rename", "group"])
+def test_no_element_is_placed_where_its_parameter_has_the_name_of_a_document_parameter(place: str) -> None:
+    model = dd.Model("m")
+    model.parameter("u.tau" if place != "group" else "g.u.tau", 5.0)
+    other = model.add(dd.Field("w", [X]))
+    before = model.document
+    with pytest.raises(ModelError, match=r"a document parameter is called '(g\.)?u\.tau', like a parameter"):
+        match place:
+            case "add":
+                model.add(dd.Field("u", [X]))
+            case "rename":
+                edit.move(before, other.id, ("u",))
+            case _:
+                edit.move(before, other.id, ("g", "u"))
+    assert model.document == before
+
+
+def test_a_document_parameter_may_have_a_dotted_name_that_is_no_parameter_of_the_element() -> None:
+    model = dd.Model("m")
+    model.parameter("u.speed", 5.0)
+    model.parameter("uu.tau", 6.0)
+    model.add(dd.Field("u", [X]))
+    assert (model.get("u.speed"), model.get("uu.tau"), model["u"].tau) == (5.0, 6.0, 20.0)

@@ -16,7 +16,7 @@ from deodar.elements.function import Function
 from deodar.recording import files
 from deodar.recording.provenance import KEY, document
 from deodar.recording.record import about
-from deodar.recording.repeat import repeat
+from deodar.recording.repeat import compare, repeat
 from deodar.worlds.picture import Picture
 from tests.recording.models import record, x
 
@@ -95,3 +95,21 @@ def test_a_record_that_does_not_say_what_made_it() -> None:
     data = record().assign_attrs({KEY: "{}"})
     with pytest.raises(dd.errors.RecordError):
         repeat(data, simulate)
+
+
+def test_a_value_that_is_no_number_must_be_none_both_times() -> None:
+    data = record()
+    diverged = data.copy(deep=True)
+    diverged["u.activation"].values[-1, 0] = np.nan
+    both = compare(diverged, diverged.copy(deep=True))
+    assert both.same_bits and both.largest["u.activation"] == 0
+    for old, new in ((data, diverged), (diverged, data)):
+        done = compare(old, new)
+        assert not done.same_bits and done.largest["u.activation"] == float("inf")
+
+
+def test_bits_of_no_number_that_differ_are_no_difference_of_a_value() -> None:
+    old, new = record(), record()
+    old["u.activation"].values[-1, 0], new["u.activation"].values[-1, 0] = np.nan, -np.float32(np.nan)
+    new["u.activation"].values[-1, 1] += 0.5
+    assert compare(old, new).largest["u.activation"] == pytest.approx(0.5)

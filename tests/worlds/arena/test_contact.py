@@ -139,3 +139,22 @@ def test_rays_end_at_the_nearest_box_that_is_there() -> None:
     )
     inside = contact.rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
     np.testing.assert_array_equal(inside, [0.0])
+
+
+@pytest.mark.parametrize(("inward", "touches"), [(0.0, False), (5e-7, False), (2e-6, True), (-1e-4, False)])
+def test_a_path_along_a_wall_grazes_it_unless_it_points_into_it(inward: float, touches: bool) -> None:
+    wall = np.asarray([(0, -10, 1, 10)], np.float32)
+    start = np.asarray([[-RADIUS - contact.SKIN, 0.0]], np.float32)
+    steps = np.asarray([[[inward, 1.0]]], np.float32)
+    end, touched = mover(True)(start, steps, wall, np.ones(1, bool))
+    assert bool(touched[0, 0]) is touches
+    np.testing.assert_allclose(end[0, 0, 1], 0.0 if touches else 1.0, atol=1e-5)
+
+
+@pytest.mark.parametrize(("gap", "touches"), [(2e-6, True), (1e-3, False)])
+def test_a_disc_touches_what_is_closer_than_rounding(gap: float, touches: bool) -> None:
+    wall = np.asarray([(0, -10, 1, 10)], np.float32)
+    start, steps = np.asarray([[-RADIUS - gap, 0.0]], np.float32), np.asarray([[[1e-4, 0.0]]], np.float32)
+    end, touched = mover(False)(start, steps, wall, np.ones(1, bool))
+    assert bool(touched[0, 0]) is touches
+    np.testing.assert_allclose(end[0, 0, 0], start[0, 0] + (0.0 if touches else 1e-4), atol=1e-6)
