@@ -6,7 +6,10 @@ ifeq ($(OS),Windows_NT)
   BIN := .venv/Scripts
 endif
 
-.PHONY: demo test lint types studio docs schema bench lowest lock audit clean
+# files over two processes, in the order that tests/conftest.py gives them
+SPREAD := -n 2 --dist loadfile --no-loadscope-reorder
+
+.PHONY: demo test fast lint types studio docs schema bench lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency

@@ -1,0 +1,72 @@
+"""CPU seconds of the slow tests, from which the marker `fast` follows.
+
+`pytest --write-durations` measures the tests that it runs, in one process, and replaces their rows in
+`durations.csv`; tests that it does not run keep theirs. The seconds of a function are those of all its cases,
+with the processes that they start. What has no row is fast: a test is fast until it is measured.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+FILE = Path(__file__).with_name("durations.csv")
+LIMIT = 0.3
+"""CPU seconds of all cases of a function above which it is slow."""
+
+
+def function(nodeid: str) -> str:
+    """The test function that a case belongs to: its name without parameters."""
+    return nodeid.split("[", 1)[0]
+
+
+def seconds(file: Path = FILE) -> dict[str, float]:
+    """CPU seconds of each test function known to be slow."""
+    with file.open(encoding="utf-8", newline="") as text:
+        return {row["test"]: float(row["seconds"]) for row in csv.DictReader(text)}
+
+
+def files(rows: dict[str, float]) -> Counter[str]:
+    """CPU seconds of the slow test functions of each file."""
+    out: Counter[str] = Counter()
+    for test, s in rows.items():
+        out[test.split("::")[0]] += s
+    return out
+
+
+def exists(test: str) -> bool:
+    """Whether the file of a test function still defines it."""
+    path, _, name = test.partition("::")
+    file = FILE.parents[1] / path
+    return file.exists() and f"def {name.split('::')[-1]}(" in file.read_text(encoding="utf-8")
+
+
+def write(measured: dict[str, float], file: Path = FILE) -> None:
+    """Replace the rows of the functions that were measured; rows of files that are gone are dropped."""
+    rows = {test: s for test, s in seconds(file).items() if exists(test)} | measured
+    with file.open("w", encoding="utf-8", newline="") as text:
+        out = csv.writer(text, lineterminator="\n")
+        out.writerow(("test", "seconds"))
+        out.writerows((test, f"{rows[test]:.1f}") for test in sorted(rows) if rows[test] > LIMIT)
+
+
+class Recorder:
+    """Measure the CPU seconds of this process and of those that ended in it, test by test."""
+
+    def __init__(self) -> None:
+        self.seconds: Counter[str] = Counter()
+
+    @pytest.hookimpl(wrapper=True, tryfirst=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
+        before = sum(os.times()[:4])
+        result = yield
+        self.seconds[function(item.nodeid)] += sum(os.times()[:4]) - before
+        return result  # type: ignore[return-value]
+
+    def pytest_sessionfinish(self) -> None:
+        write(dict(self.seconds))

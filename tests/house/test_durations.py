@@ -1,0 +1,59 @@
+"""The marker `fast` follows from measured CPU time; programs compile quickly unless bits are judged."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests import conftest, durations
+
+
+def test_every_slow_test_exists() -> None:
+    gone = [test for test in durations.seconds() if not durations.exists(test)]
+    assert not gone, (
+        f"durations.csv lists tests that are gone; type `pytest --write-durations FILE`: {gone[:5]}"
+    )
+
+
+def test_a_measured_function_replaces_its_row_and_others_keep_theirs(tmp_path: Path) -> None:
+    file = tmp_path / "durations.csv"
+    here = "tests/house/test_durations.py"
+    kept, quicker, slower = (
+        f"{here}::{name}"
+        for name in ("test_every_slow_test_exists", "test_this_test_is_fast", "test_what_judges_bits_exists")
+    )
+    file.write_text(f"test,seconds\n{kept},9.0\n{quicker},5.0\n{here}::test_that_is_gone,7.0\n")
+    durations.write({quicker: 0.1, slower: 2.04}, file)
+    assert durations.seconds(file) == {kept: 9.0, slower: 2.0}
+
+
+def test_the_cases_of_a_function_count_together() -> None:
+    assert durations.function("tests/a/test_b.py::test_c[x-1]") == "tests/a/test_b.py::test_c"
+    assert durations.files({"a.py::x": 1.0, "a.py::y": 2.0, "b.py::x": 4.0}) == {"a.py": 3.0, "b.py": 4.0}
+
+
+def test_this_test_is_fast(request: pytest.FixtureRequest) -> None:
+    assert request.node.get_closest_marker("fast")
+    assert not request.node.get_closest_marker("default_program")
+
+
+def test_programs_are_compiled_quickly_unless_the_default_is_asked_for(
+    request: pytest.FixtureRequest,
+) -> None:
+    default = request.config.getoption("--default-programs")
+    assert (conftest.QUICK_PROGRAMS in os.environ.get("XLA_FLAGS", "")) is not default
+
+
+def test_what_judges_bits_exists() -> None:
+    root = Path(conftest.__file__).parents[1]
+    assert all((root / place).exists() for place in conftest.DEFAULT_PROGRAM)
+
+
+def test_processes_keep_byte_code(tmp_path: Path) -> None:
+    (tmp_path / "imported.py").write_text("x = 1\n")
+    subprocess.run([sys.executable, "-c", "import imported"], cwd=tmp_path, check=True)
+    assert list(tmp_path.rglob("imported.*.pyc"))
