@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 import json
+import pickle
 
 import numpy as np
 import pytest
 import xarray
 
 from deodar.batch.pieces import BATCH_BYTES, PieceResult, Pieces, cut, joined
+from deodar.batch.request import SimulationRequest
 from deodar.errors import ParameterError
 from deodar.recording.provenance import KEY
 
@@ -22,10 +24,12 @@ SIZES = [1, 2, 7, 100]
 )
 def test_every_copy_is_in_one_piece(trials: int, points: int, workers: int, batch: int | None) -> None:
     pieces = cut({"trial": trials, "a": points}, 2**20, workers, batch)
-    jobs = pieces.settings(range(trials), {"a": [float(k) for k in range(points)]})
-    found = [(t, a) for job in jobs for t in job["trials"] for a in job["sweep"]["a"]]
+    whole = SimulationRequest(100.0)
+    requests = pieces.requests(whole, range(trials), {"a": [float(k) for k in range(points)]})
+    jobs = [(r.trials, (r.sweep or {})["a"]) for r in requests if isinstance(r.trials, list)]
+    found = [(t, a) for job in jobs for t in job[0] for a in job[1]]
     assert len(jobs) == pieces.count and len(found) == len(set(found)) == trials * points
-    sizes = [len(job["trials"]) * len(job["sweep"]["a"]) for job in jobs]
+    sizes = [len(job[0]) * len(job[1]) for job in jobs]
     assert max(sizes) == sizes[0] == pieces.batch and sizes[:-1] == [pieces.batch] * (len(jobs) - 1)
     rest = min(trials, points)
     assert pieces.batch <= max(rest, batch if batch is not None else BATCH_BYTES // 2**20)
@@ -87,3 +91,10 @@ def test_where_none_is_complete_most_is_kept(times: tuple[int, ...], trials: lis
 
 def test_where_nothing_was_begun_the_record_is_empty() -> None:
     assert not joined(Pieces("trial", 6, 2, 1), [None, None, None], {}).sizes
+
+
+def test_a_request_of_many_trials_is_pickled_small() -> None:
+    """A worker process gets one for each piece."""
+    whole = SimulationRequest(1000.0, trials=range(10_000), sweep={"u.tau": [10.0, 20.0]})
+    first = cut({"trial": 10_000, "u.tau": 2}, 2**20).requests(whole, range(10_000), whole.sweep or {})[0]
+    assert first.trials == [0, 1, 2, 3] and len(pickle.dumps(first)) < 500

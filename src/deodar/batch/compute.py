@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -11,6 +12,7 @@ import numpy as np
 from deodar.batch import pieces
 from deodar.batch.points import Points
 from deodar.batch.progress import Shown, bar
+from deodar.batch.request import SimulationRequest
 from deodar.compiler import device as devices
 from deodar.compiler.executable import Batch, Executable, executable
 from deodar.compiler.program import Port
@@ -31,38 +33,29 @@ from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
 Spread = Callable[
-    [Model, World | None, Sequence[Mapping[str, Any]], int, Callable[[int], None]],
+    [Model, World | None, Sequence[SimulationRequest], int, Callable[[int], None]],
     list[pieces.PieceResult | None],
 ]
 """A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
 
 
+PROVENANCE = ("duration", "seed", "every", "accuracy", "record")
+"""Parts of a request that every record states; what else it states is known only after the run began."""
+
+
 def compute(
     model: Model,
-    duration: float,
-    dt: float | None = None,
-    seed: int = 0,
-    record: Sequence[str] | str | None = None,
-    every: float | None = None,
-    trials: int | Sequence[int] | None = None,
-    sweep: Mapping[str, Sequence[float]] | None = None,
-    precision: str = "float32",
+    request: SimulationRequest,
     world: World | None = None,
     progress: Shown = None,
-    workers: int | None = None,
-    batch: int | None = None,
-    device: str | None = None,
-    accuracy: str = "default",
-    width: tuple[str, int] | None = None,
     spread: Spread | None = None,
 ) -> pieces.PieceResult:
     """Compute a whole run of `simulate`, or one piece of it; if all its copies diverge, the error is returned
     beside the record.
 
-    `spread`: runs pieces in worker processes. `width`: a dimension and its length in the other pieces. The
-    piece is filled up to it with copies of its last one, whose results are not kept: the last digits in
-    single precision depend on how many copies are computed together.
+    `spread` runs pieces in worker processes.
     """
+    sweep, precision, device = request.sweep, request.precision, request.device
     doc = require_model(model).document
     model.require()
     if sweep is not None and not isinstance(sweep, Mapping):
@@ -70,25 +63,25 @@ def compute(
             f"sweep gives for each parameter path its values, not {show(sweep)}",
             fix="For example sweep={'u.tau': [10, 20]}",
         )
-    step = doc.step if dt is None else dt
+    step = doc.step if request.dt is None else request.dt
     require_step(doc, step)
-    seed = require_seed(seed)
-    steps = whole(duration, step, "the duration")
-    gap = 1 if every is None else whole(every, step, "every")
-    if every is not None and gap == 0:
+    seed = require_seed(request.seed)
+    steps = whole(request.duration, step, "the duration")
+    gap = 1 if request.every is None else whole(request.every, step, "every")
+    if request.every is not None and gap == 0:
         raise TimeError("every is 0; it is at least one step")
-    names, numbers = _trials(trials)
+    names, numbers = _trials(request.trials)
     points = Points(doc, sweep or {})
     for document in points.documents():
         require_step(document, step)
-    ports = _ports(doc, record)
-    start, gap = (steps, steps + 1) if record is None else (0, gap)
+    ports = _ports(doc, request.record)
+    start, gap = (steps, steps + 1) if request.record is None else (0, gap)
     count = 0 if start > steps else 1 + (steps - start) // gap
     copies = Batch(points.size if sweep else None, len(numbers) if names else None)
     nodes, _ = resolve(doc)
-    cut = _cut(memory.copy_bytes(nodes, precision), names, points, workers, batch, device)
+    cut = _cut(memory.copy_bytes(nodes, precision), names, points, request)
     recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * count * copies.size
-    beside = min(workers or 0, cut.count) if cut.count > 1 else 0
+    beside = min(request.workers or 0, cut.count) if cut.count > 1 else 0
     memory.require(
         nodes,
         precision,
@@ -98,20 +91,13 @@ def compute(
         min(points.size, cut.batch),
         beside,
     )
-    paths = None if record is None else [find.written(doc, path) for path in _list(record)]
-    settings = {
-        "duration": float(duration),
-        "seed": seed,
-        "every": every,
-        "accuracy": accuracy,
-        "record": paths,
-    }
+    paths = None if request.record is None else [find.written(doc, path) for path in _list(request.record)]
+    request = dc.replace(request, duration=float(request.duration), seed=seed, record=paths)
     labels, grid = list(numbers) if names else None, points.by_path
-    asked = {"trials": labels, "sweep": grid, "workers": workers, "device": device}
+    asked = {"trials": labels, "sweep": grid, "workers": request.workers, "device": device}
     if cut.count > 1:
-        settings |= {"dt": float(step), "precision": precision, "device": device}
-        jobs = [settings | own for own in cut.settings(labels, grid)]
-        parts = _in_pieces(model, jobs, workers, world, steps, progress, spread)
+        jobs = cut.requests(dc.replace(request, dt=float(step)), labels, grid)
+        parts = _in_pieces(model, jobs, request.workers, world, steps, progress, spread)
         data, complete = (
             pieces.joined(cut, parts, asked),
             sum(part is not None and part.complete for part in parts),
@@ -126,7 +112,7 @@ def compute(
         )
     stopped, nothing = False, None
     with stoppable() as check:
-        more_points, more_trials = _missing(width, points, len(numbers))
+        more_points, more_trials = _missing(request.width, points, len(numbers))
         filled = Batch(
             points.size + more_points if sweep else None, len(numbers) + more_trials if names else None
         )
@@ -137,7 +123,7 @@ def compute(
             filled,
             points.leaves if sweep else (),
             device,
-            accuracy,
+            request.accuracy,
             embodied(doc, world),
         )
         swept = (
@@ -147,6 +133,7 @@ def compute(
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
         store = _Store(program, found, filled, count)
+        settings = {name: getattr(request, name) for name in PROVENANCE}
         about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)
         try:
             with bar(steps, progress) as shown:
@@ -188,7 +175,7 @@ def compute(
     reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in kept.items()}
     data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
     if stopped:
-        raise Interrupted(f"stopped at {run.clock.time:g} of {duration:g} {doc.time_unit}", data)
+        raise Interrupted(f"stopped at {run.clock.time:g} of {request.duration:g} {doc.time_unit}", data)
     return pieces.PieceResult(data, True, nothing)
 
 
@@ -205,7 +192,7 @@ def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tupl
 
 def _in_pieces(
     model: Model,
-    jobs: Sequence[Mapping[str, Any]],
+    jobs: Sequence[SimulationRequest],
     count: int | None,
     world: World | None,
     steps: int,
@@ -224,9 +211,7 @@ def _in_pieces(
             return spread(model, world, jobs, count, between)
         for k, job in enumerate(jobs):
             try:
-                parts[k] = compute(
-                    model, world=world, progress=lambda done, k=k: between(k * steps + done), **job
-                )
+                parts[k] = compute(model, job, world, lambda done, k=k: between(k * steps + done))
             except Interrupted as error:
                 parts[k] = pieces.PieceResult(error.data, False)
                 break
@@ -237,22 +222,20 @@ def _cut(
     bytes_a_copy: int,
     trials: Sequence[int] | None,
     points: Points,
-    workers: int | None,
-    batch: int | None,
-    device: str | None,
+    request: SimulationRequest,
 ) -> pieces.Pieces:
     lengths = ({} if trials is None else {"trial": len(trials)}) | {
         path: len(values) for path, values in points.by_path.items()
     }
+    workers, device = request.workers, request.device
     on_cpu = device is None or devices.find(device).platform == devices.DEFAULT
     if workers is not None and not on_cpu:
         raise WorkerError(
             f"worker processes run on the cores of the CPU, not on {device!r}",
             fix="Leave out workers, or device",
         )
-    return pieces.cut(
-        lengths, bytes_a_copy if on_cpu else 0, 1 if workers is None else require_workers(workers), batch
-    )
+    count = 1 if workers is None else require_workers(workers)
+    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, count, request.batch)
 
 
 def require_workers(workers: Any) -> int:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from deodar import codec
+from deodar.batch.request import SimulationRequest
 from deodar.errors import NotFinite, ParameterError
 from deodar.parameters import show
 from deodar.recording.provenance import KEY
@@ -69,11 +70,11 @@ class Pieces:
         """Number of pieces."""
         return math.ceil(self.total / self.length)
 
-    def settings(
-        self, trials: Sequence[int] | None, sweep: Mapping[str, Sequence[float]]
-    ) -> list[dict[str, Any]]:
-        """For each piece its trials and its sweep."""
-        out: list[dict[str, Any]] = []
+    def requests(
+        self, whole: SimulationRequest, trials: Sequence[int] | None, sweep: Mapping[str, Sequence[float]]
+    ) -> list[SimulationRequest]:
+        """For each piece the request of the whole run, with the trials and the sweep of the piece."""
+        out: list[SimulationRequest] = []
         for first in range(0, self.total, self.length):
             part = slice(first, first + self.length)
             own = list(trials) if trials is not None else None
@@ -87,13 +88,9 @@ class Pieces:
                     {path: list(values) for path, values in sweep.items()},
                     own[part] if own is not None else None,
                 )
+            width = self.dimension, self.length
             out.append(
-                {
-                    "trials": own,
-                    "sweep": grid or None,
-                    "batch": self.batch,
-                    "width": (self.dimension, self.length),
-                }
+                dc.replace(whole, trials=own, sweep=grid or None, workers=None, batch=self.batch, width=width)
             )
         return out
 

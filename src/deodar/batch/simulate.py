@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar.batch.compute import compute
 from deodar.batch.progress import Shown
+from deodar.batch.request import SimulationRequest
 from deodar.batch.workers import run as in_workers
 from deodar.errors import RunWarning
 from deodar.model.model import Model
@@ -106,24 +107,10 @@ def simulate(
             stacklevel=2,
         )
         progress = True if progress is None else progress
-    data, _, lost = compute(
-        model,
-        duration,
-        dt,
-        seed,
-        record,
-        every,
-        trials,
-        sweep,
-        precision,
-        world,
-        progress,
-        workers,
-        batch,
-        device,
-        accuracy,
-        spread=in_workers,
+    request = SimulationRequest(
+        duration, dt, seed, record, every, trials, sweep, precision, workers, batch, device, accuracy
     )
+    data, _, lost = compute(model, request, world, progress, in_workers)
     if lost is not None:
         raise lost
     if "diverged" in data.attrs:

@@ -11,14 +11,14 @@ import contextlib
 import dataclasses as dc
 import mmap
 import tempfile
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
-from typing import Any
 
 from deodar.batch.compute import compute
 from deodar.batch.packed import PackedModel
 from deodar.batch.pieces import PieceResult
 from deodar.batch.pool import Pool
+from deodar.batch.request import SimulationRequest
 from deodar.errors import Interrupted
 from deodar.model.model import Model
 from deodar.session.interrupt import AtOnce
@@ -34,13 +34,13 @@ class WorkerTask:
 
     Attributes:
         packed: the model and its world.
-        settings: the arguments of `simulate` for this piece.
+        request: the simulation that the piece is.
         board: the file that all processes map: for each piece the steps done, and at the end whether to stop.
         number: which piece this is.
     """
 
     packed: PackedModel
-    settings: Mapping[str, Any]
+    request: SimulationRequest
     board: str
     number: int
 
@@ -48,7 +48,7 @@ class WorkerTask:
 def run(
     model: Model,
     world: World | None,
-    pieces: Sequence[Mapping[str, Any]],
+    pieces: Sequence[SimulationRequest],
     workers: int,
     between: Callable[[int], None],
 ) -> list[PieceResult | None]:
@@ -58,7 +58,7 @@ def run(
     Args:
         model: the model, as it now is.
         world: what it senses; every worker has a copy of it.
-        pieces: arguments of `simulate` for each piece.
+        pieces: the simulation that each piece is.
         workers: number of processes.
         between: called from time to time with the number of completed steps of all pieces; a
             KeyboardInterrupt that it raises stops all.
@@ -70,7 +70,7 @@ def run(
     packed = PackedModel.of(model, world)
     parts: list[PieceResult | None] = [None] * len(pieces)
     with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces))) as pool:
-        waiting = [WorkerTask(packed, settings, path, k) for k, settings in enumerate(pieces)][::-1]
+        waiting = [WorkerTask(packed, piece, path, k) for k, piece in enumerate(pieces)][::-1]
         while waiting or pool.busy:
             while waiting and pool.idle:
                 pool.give(waiting[-1].number, work, waiting.pop())
@@ -121,6 +121,6 @@ def work(job: WorkerTask) -> PieceResult:
                 raise KeyboardInterrupt
 
         try:
-            return compute(job.packed.model, world=job.packed.world(), progress=told, **job.settings)
+            return compute(job.packed.model, job.request, job.packed.world(), told)
         except Interrupted as error:
             return PieceResult(error.data, False)

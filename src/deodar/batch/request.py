@@ -1,0 +1,44 @@
+"""A simulation that was asked for: how long, with which copies, and how it is computed."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping, Sequence
+
+
+@dc.dataclass(frozen=True)
+class SimulationRequest:
+    """A simulation that was asked for, as `deodar.simulate` gets it or as one piece of it. Worker processes
+    get it pickled, so it holds plain data: the model, its world and the progress bar are beside it.
+
+    Attributes:
+        duration: document time; a whole number of steps.
+        dt: Euler step; none: the document's own.
+        seed: seed of all noise.
+        record: paths of ports; none: all fields and nodes, at the end.
+        every: document time between records; none: dt.
+        trials: number of trials, or a list of trial numbers; none: one run without a dimension `trial`.
+        sweep: for each parameter path its values; none: no sweep.
+        precision: float32 or float64.
+        workers: number of processes that share the copies; none: this process alone.
+        batch: copies that run at once in one process; none: as many as fit into the cache.
+        device: where it runs; none: the CPU.
+        accuracy: default or exact.
+        width: of a piece, a dimension and its length in the other pieces. The piece is filled up to it with
+            copies of its last one, whose results are not kept: the last digits in single precision depend on
+            how many copies are computed together.
+    """
+
+    duration: float
+    dt: float | None = None
+    seed: int = 0
+    record: Sequence[str] | str | None = None
+    every: float | None = None
+    trials: int | Sequence[int] | None = None
+    sweep: Mapping[str, Sequence[float]] | None = None
+    precision: str = "float32"
+    workers: int | None = None
+    batch: int | None = None
+    device: str | None = None
+    accuracy: str = "default"
+    width: tuple[str, int] | None = None
