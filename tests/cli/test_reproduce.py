@@ -181,7 +181,7 @@ def test_runs_that_find_no_room_end_it_and_those_before_are_kept(toy, monkeypatc
         room.pop()
         sync(file)
 
-    monkeypatch.setattr("deodar.experiments.rows.os.fsync", full)
+    monkeypatch.setattr("deodar.model.output.os.fsync", full)
     assert call("--out", "part") == 1
     told = capsys.readouterr().err
     assert (

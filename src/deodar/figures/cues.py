@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
 from deodar.architectures.saliency import CUE_AT
-from deodar.figures._style import COLOR, COLORS, MEDIUM, SEQUENTIAL, SMALL, style
+from deodar.figures import _color
+from deodar.figures._style import COLOR, COLORS, MEDIUM, SMALL, style
 from deodar.figures._style import figure as sheet
 from deodar.worlds.picture import Picture
 
@@ -21,7 +22,7 @@ Place = tuple[float, float]
 ROW = 1.75
 WIDTH = 9.6
 EXPLAINED = (
-    "white line: threshold\narrow: cued hue\ncircle: peak\ndotted outlines: right\n  places, marked by a"
+    "black line: threshold\narrow: cued hue\ncircle: peak\ndotted outlines: right\n  places, marked by a"
     " person\ndotted lines: spatial peak"
 )
 LOWEST, HIGHEST = -6.0, 4.0
@@ -111,7 +112,7 @@ def cues_figure(result: DrawnResult) -> Figure:
             _motor(grid[row, 3], result, k, outcome, last=row == rows - 1)
         bar = out.colorbar(image, cax=grid[0, 3].inset_axes((0.02, 0.12, 0.045, 0.8)))
         bar.set_label("activation (0: threshold)")
-        bar.ax.axhline(0, color="white", linewidth=1)
+        bar.ax.axhline(0, color="black", linewidth=MEDIUM)
         told = grid[0, 3].text(
             0.34, 0.92, EXPLAINED, va="top", fontsize=SMALL, linespacing=1.6, transform=grid[0, 3].transAxes
         )
@@ -183,10 +184,8 @@ def _colour_space(axes: Any, result: DrawnResult, k: int, at: int, hue: float | 
     x, hues = result.record["x"].values, result.record["hue"].values
     step = hues[1] - hues[0]
     extent = (x[0] - 1, x[-1] + 1, hues[0] - step / 2, hues[-1] + step / 2)
-    image = axes.imshow(
-        seen.T, origin="lower", aspect="auto", extent=extent, cmap=SEQUENTIAL, vmin=LOWEST, vmax=HIGHEST
-    )
-    axes.contour(x, hues, seen.T, levels=[0.0], colors="white", linewidths=0.8)
+    image = axes.imshow(seen.T, origin="lower", aspect="auto", extent=extent, **_scale())
+    axes.contour(x, hues, seen.T, levels=[0.0], colors="black", linewidths=MEDIUM)
     axes.set_yticks([0, 120, 240, 360])
     axes.set_ylim(extent[2], extent[3])
     axes.set_ylabel("hue (deg)")
@@ -202,6 +201,12 @@ def _colour_space(axes: Any, result: DrawnResult, k: int, at: int, hue: float | 
     return image
 
 
+def _scale() -> dict[str, Any]:
+    """The colours of activation, white at the threshold."""
+    colors = _color.scale([np.array([LOWEST, HIGHEST])], 0.0)
+    return {"cmap": colors.cmap, "norm": colors.norm}
+
+
 def _spatial(axes: Any, result: DrawnResult, k: int, at: int) -> None:
     u = result.record["spatial.activation"].isel({"cue.center": k, "time": at}).values
     width, height = result.scene.picture.size
@@ -209,9 +214,7 @@ def _spatial(axes: Any, result: DrawnResult, k: int, at: int) -> None:
         u.T,
         origin="upper",
         extent=result.corners,
-        cmap=SEQUENTIAL,
-        vmin=LOWEST,
-        vmax=HIGHEST,
+        **_scale(),
         interpolation="nearest",
     )
     axes.set_anchor("N")
