@@ -173,7 +173,7 @@ def test_a_report_that_finds_no_room_is_written_to_a_second_place(toy, monkeypat
 
 
 def test_runs_that_find_no_room_end_it_and_those_before_are_kept(toy, monkeypatch, capsys):
-    sync, room = os.fsync, [None] * 4  # the line of what makes the experiment, and three runs
+    sync, room = os.fsync, [None] * 5  # the first line and its folder, and three runs
 
     def full(file):
         if not room:
