@@ -9,7 +9,7 @@ The laws that an element may rely on:
 * a step reads every output at time t, then commits all new states together;
 * all connections into one port are summed, in the port's axes;
 * `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to
-  `settle`, which may use all and is computed once a chunk; what that returns is handed to `output` and
+  `hoist`, which may use all and is computed once a chunk; what that returns is handed to `output` and
   `advance`.
 """
 
@@ -228,10 +228,8 @@ class Element(Part):
         """Names of the input ports."""
         return self.inputs
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
-        """Axes that an input port takes; None where it takes what comes (the connection with most axes
-        decides).
-        """
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
+        """Return the axes that an input port takes; None where the connection with most axes decides."""
         axes: Axes | None = getattr(self, "axes", None)
         return axes
 
@@ -250,9 +248,9 @@ class Element(Part):
         """Axes of the element's noise, or None where it has none now."""
         return None
 
-    def outside(self) -> str:
-        """Name of code from outside that it runs (then `load` gives that code), or "": not loaded before the
-        document is trusted.
+    def external_code(self) -> str:
+        """Return the name of external code that it runs and that `load` gives, or "". The code is not loaded
+        before the document is trusted.
         """
         return ""
 
@@ -260,9 +258,9 @@ class Element(Part):
         """The code from outside; another one makes another program."""
         return None
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        """What does not fit between the parameters and the axes at the ports, with what to type if it is not
-        another connection.
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        """Check the parameters against the axes at the ports: yield what is wrong, or (what is wrong, what to
+        type) where the remedy is not another connection.
         """
         return iter(())
 
@@ -310,9 +308,9 @@ class Element(Part):
         """Constants that depend on axes and on parameters that rebuild."""
         return {}
 
-    def settle(self, at: Setting, constants: Any) -> Any:
-        """What stays the same from step to step although it depends on live parameters: computed once a chunk
-        from what `prepare` gave.
+    def hoist(self, at: Setting, constants: Any) -> Any:
+        """Compute, once a chunk, what depends on live parameters but not on the state, from the constants of
+        `prepare`.
 
         `output` and `advance` get what it returns in place of the constants.
         """
@@ -334,18 +332,17 @@ class Element(Part):
         """Output ports that show NaN where they have no value yet. Only these may do so in a record."""
         return ()
 
-    def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
-        """The new state after a step if its input had been larger by `amount` (over the axes): for hands that
-        reach into a running model.
+    def inject(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+        """Return the state after a step as if its input had been larger by `amount` (over the axes); for
+        external inputs to a running model.
 
         None where that is not a simple sum, or where there is no such input.
         """
         return None
 
-    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
-        """What was learned, as parameters: with them `init` gives this state.
-
-        Nothing where the state is not learned but passes.
+    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return the learned state as parameters with which `init` gives this state; empty where nothing is
+        learned.
         """
         return {}
 
@@ -363,7 +360,7 @@ class Coupling(Element):
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:

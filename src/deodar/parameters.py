@@ -161,12 +161,12 @@ class Part(metaclass=PartType):
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
         if not problems:
-            problems += [Problem(f"{type(self).__name__}.{where}", what) for where, what in self.faults()]
+            problems += [Problem(f"{type(self).__name__}.{where}", what) for where, what in self.validate()]
         if problems:
             raise ParameterError(problems)
 
-    def faults(self) -> Iterator[tuple[str, str]]:
-        """Further things wrong with the values together: (parameter, what). For leaves to add to."""
+    def validate(self) -> Iterator[tuple[str, str]]:
+        """Cross-parameter checks: yield (parameter, what is wrong). Override in subclasses."""
         return iter(())
 
     short: ClassVar[str] = ""

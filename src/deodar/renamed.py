@@ -16,13 +16,21 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 RENAMED = {
+    "dd.Element.faults": "dd.Element.validate",
+    "dd.Element.lasting": "dd.Element.learned_parameters",
+    "dd.Element.misfits": "dd.Element.validate_axes",
+    "dd.Element.outside": "dd.Element.external_code",
+    "dd.Element.push": "dd.Element.inject",
     "dd.Element.sees_output": "dd.Element.reads_own_output",
+    "dd.Element.settle": "dd.Element.hoist",
     "dd.Element.sharing": "dd.Element.convolution",
+    "dd.Element.wants": "dd.Element.input_axes",
     "dd.Experiment.bench": "dd.Experiment.setup",
     "dd.Model.add(every=...)": "dd.Model.add(ticks=...)",
     "dd.Model.change": "dd.Model.set",
     "dd.Model.every": "dd.Model.set_ticks",
     "dd.MovingGaussian(path=...)": "dd.MovingGaussian(waypoints=...)",
+    "dd.Session.push": "dd.Session.inject",
     "dd.Setting.choices": "dd.Setting.convolve",
     "dd.Setting.shared": "dd.Setting.convolve",
     "dd.Setting.waves": "dd.Setting.convolve",

@@ -141,7 +141,7 @@ def test_convolving_without_a_declaration_is_an_error() -> None:
         executable(coupled(Undeclared)).chunk(())
 
 
-@pytest.mark.parametrize("old", ["sharing", "sees_output"])
+@pytest.mark.parametrize("old", ["sharing", "sees_output", "wants", "misfits", "faults", "settle", "push"])
 def test_a_class_that_sets_what_elements_no_longer_have_is_an_error(old: str) -> None:
     with pytest.raises(ModelError, match=rf"Late sets {old!r}.*dd.Element.{old} is now dd.Element"):
         type("Late", (dd.Element,), {old: True})

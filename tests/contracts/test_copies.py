@@ -166,7 +166,7 @@ def test_trust_does_not_travel_through_pickle(tmp_path):
 def test_trust_does_not_come_back_by_undoing(tmp_path):
     model = foreign(tmp_path, trust=True)
     model.remove(model.document.entries[0].path)
-    assert not any(e.element.outside() for e in model.document.entries)
+    assert not any(e.element.external_code() for e in model.document.entries)
     other = pickle.loads(pickle.dumps(model))
     other.undo()
     with pytest.raises(Untrusted):

@@ -84,10 +84,10 @@ def test_help_lists_every_parameter_with_unit_range_and_meaning(cls: type[Any]) 
 @pytest.mark.parametrize("cls", KINDS_AND_PARTS.values(), ids=KINDS_AND_PARTS)
 def test_methods_of_the_contract_are_neither_in_help_nor_in_completion(cls: type[Any]) -> None:
     methods = {
-        "wants",
-        "faults",
-        "misfits",
-        "settle",
+        "input_axes",
+        "validate",
+        "validate_axes",
+        "hoist",
         "prepare",
         "advance",
         "output",
@@ -103,7 +103,7 @@ def test_methods_of_the_contract_are_neither_in_help_nor_in_completion(cls: type
 
 
 def test_the_base_classes_show_their_methods_to_those_who_write_an_element() -> None:
-    assert {"wants", "advance", "misfits"} <= set(dir(Element))
+    assert {"input_axes", "advance", "validate_axes"} <= set(dir(Element))
     text = shown(Element)
     assert "advance(self, at: 'Setting'" in text
 

@@ -73,7 +73,7 @@ def test_one_copy_gives_just_what_it_declares(kind, precision):
         time = Time.at(0.0, 1.0, at.dtype)
         state = element.init(at)
         functions = Functions(here, {})
-        constants = functions.settle(element, at, functions.prepare(element, at))
+        constants = functions.hoist(element, at, functions.prepare(element, at))
         read = StepArguments(state, zeros, constants, noise)
         out = jax.eval_shape(lambda: functions.output(element, at, read, time))
         assert {port: np.shape(v) for port, v in out.items()} == {

@@ -35,7 +35,7 @@ def test_a_push_adds_to_its_input():
     model = dd.Model("pushed")
     model.add(Integrator("x", [], 0.2))
     s = dd.Session(model, dt=1.0)
-    s.push("x", 2.0, 5)
+    s.inject("x", 2.0, 5)
     s.step(5)
     assert s.read("x.output") == pytest.approx(2.0)
 

@@ -73,7 +73,7 @@ def test_parameters_are_named_in_field_order(name: str) -> None:
 def test_every_port_is_named_with_its_axes(name: str) -> None:
     cls = ELEMENTS[name]
     element = cls.example()
-    axes = {port: element.wants(port, ()) or () for port in element.ports()}
+    axes = {port: element.input_axes(port, ()) or () for port in element.ports()}
     outputs = list(element.outputs(axes))
     listed = read(cls).entries("Ports")
     # the inputs of a user's function are named by its own parameter

@@ -127,7 +127,17 @@ def test_a_renamed_name_of_the_root_says_the_new_one(monkeypatch: pytest.MonkeyP
 
 CALLS: dict[str, Callable[[], object]] = {
     f"dd.Element.{name}": functools.partial(type, "Late", (deodar.Element,), {name: True})
-    for name in ("sees_output", "sharing")
+    for name in (
+        "faults",
+        "lasting",
+        "misfits",
+        "outside",
+        "push",
+        "sees_output",
+        "settle",
+        "sharing",
+        "wants",
+    )
 }
 """For each old name that is an argument with a certain value, or a call that needs more than its name: the
 call that raises.

@@ -89,9 +89,9 @@ def test_a_hand_is_seen_in_the_input(driven: Driven) -> None:
     driven.do(lambda: engine.show([place], []))
     driven.until(lambda: place in engine.shot.arrays)
     before = engine.shot.arrays[place]
-    driven.do(lambda: engine.push(Hand(driven.u, np.full(101, 2.5))))
+    driven.do(lambda: engine.inject(Hand(driven.u, np.full(101, 2.5))))
     driven.until(lambda: np.allclose(engine.shot.arrays[place], before + 2.5))
-    driven.do(lambda: engine.push(None))
+    driven.do(lambda: engine.inject(None))
     driven.until(lambda: np.allclose(engine.shot.arrays[place], before))
 
 
@@ -200,7 +200,7 @@ def test_what_cannot_go_on_is_refused_and_nothing_changes(driven: Driven) -> Non
             driven.do(lambda bad=bad: engine.adopt(m, bad))
     assert session.document is before
     with pytest.raises(ParameterError, match="takes no input"):
-        driven.do(lambda: engine.push(Hand(m["s"].id, np.zeros(101))))
+        driven.do(lambda: engine.inject(Hand(m["s"].id, np.zeros(101))))
 
 
 def test_a_failure_stops_the_run_and_a_reset_ends_it(driven: Driven) -> None:

@@ -129,7 +129,7 @@ def test_an_experiment_with_a_measure_of_a_package_is_written_and_batched(
     assert "Width" in json.dumps(dd.Experiment.schema()["properties"]["measures"])
     together = dataclasses.replace(loaded, world="", conditions=(), trials=2, measures=loaded.measures[1:])
     together = dataclasses.replace(together, model=_without_eye(tmp_path))
-    assert together.bench().batched
+    assert together.setup().batched
     alone = dd.run_trial(together.model, 30, measures=together.measures)
     assert together.run()["width"].values.tolist() == [alone.measures["width"]] * 2
 

@@ -232,7 +232,7 @@ def reads_time(kind: str) -> bool:
 
     def step() -> object:
         state, functions = element.init(at), Functions(here, {})
-        constants = functions.settle(element, at, functions.prepare(element, at))
+        constants = functions.hoist(element, at, functions.prepare(element, at))
         read = StepArguments(state, inputs, constants, noise)
         return functions.output(element, at, read, time), functions.advance(element, at, read, time)
 

@@ -65,7 +65,7 @@ def test_a_push_is_an_input(noise: float) -> None:
     bound = dd.Session(model, seed=3, precision="float64")
     amount = 3 * np.exp(-0.5 * ((X.points - 50) / 5) ** 2)
     bound.step(50)
-    free.push("u", amount, 50)
+    free.inject("u", amount, 50)
     np.testing.assert_allclose(free.read("u.activation"), bound.read("u.activation"), atol=1e-9)
     assert free.journal[-1].what == "push u"
 
@@ -77,7 +77,7 @@ def test_what_takes_no_input_cannot_be_pushed() -> None:
     session = dd.Session(model)
     for path in ("s", "slow"):
         with pytest.raises(dd.errors.ParameterError, match="takes no input"):
-            session.push(path, 1.0)
+            session.inject(path, 1.0)
 
 
 def test_another_seed_comes_with_a_reset() -> None:
@@ -90,3 +90,11 @@ def test_another_seed_comes_with_a_reset() -> None:
     other.step(5)
     np.testing.assert_array_equal(session.read("u0.activation"), other.read("u0.activation"))
     assert session.seed == 2
+
+
+def test_the_old_name_of_an_external_input_states_the_new_one() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X]))
+    session = dd.Session(model)
+    with pytest.raises(AttributeError, match=r"dd.Session.push is now dd.Session.inject"):
+        session.push("u", 1.0)

@@ -81,7 +81,7 @@ class ProgramArguments(NamedTuple):
     """The arguments of a chunk and of a reader, in their order; a JAX PyTree.
 
     Attributes:
-        values, constants, keys, sensed: as of `Chunk`, before `settle`; batched like the copies.
+        values, constants, keys, sensed: as of `Chunk`, before `hoist`; batched like the copies.
         state: state of the copies.
         whole, real: the clock, as `packed` gives it.
     """
@@ -262,7 +262,7 @@ class Executable:
 
     def _begin(self, values: Tree, constants: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Chunk:
         """What stays the same in a chunk of one copy."""
-        constants = self.program.settle(values, constants)
+        constants = self.program.hoist(values, constants)
         still = self.program.steady(values, constants, sensed)
         return Chunk(values, constants, keys, sensed, clock, still)
 
@@ -437,7 +437,7 @@ def executable(
     require_trust(model, doc)
     lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
-    outside = tuple(e.element.load() for e in doc.entries if e.element.outside())
+    outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
     ways = () if exact else tuple(ways_of(doc, lifted, batch.size, body is not None).items())
     key = (
         signature(doc),
@@ -506,7 +506,7 @@ def require_trust(model: Model, doc: Document) -> None:
     if model.trusted:
         return
     for e in doc.entries:
-        name = e.element.outside()
+        name = e.element.external_code()
         if name:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",

@@ -19,7 +19,7 @@ class Constants(NamedTuple):
     """What a group keeps from step to step; a JAX PyTree.
 
     Attributes:
-        kernels: weights of the kernels, or their mixture after `settle`; empty without a convolution.
+        kernels: weights of the kernels, or their mixture after `hoist`; empty without a convolution.
         own: what the elements themselves prepared.
     """
 
@@ -62,9 +62,9 @@ class Functions:
         weights = interaction.prepare(element.kernels(), self.axes, at.dtype, self.choices)
         return Constants(weights, element.prepare(at))
 
-    def settle(self, element: Element, at: Setting, constants: Constants) -> Constants:
+    def hoist(self, element: Element, at: Setting, constants: Constants) -> Constants:
         """What stays the same from step to step although it depends on live parameters."""
-        own = element.settle(at, constants.own)
+        own = element.hoist(at, constants.own)
         if not self.convolves:
             return Constants((), own)
         return Constants(interaction.mix(element.kernels(), self.axes, constants.kernels), own)

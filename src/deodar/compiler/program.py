@@ -67,7 +67,7 @@ class Chunk(NamedTuple):
     Attributes:
         values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value
             for each sweep); the arrays of a world inside the step under `world`.
-        constants: for each group what `prepare` or `settle` made of them.
+        constants: for each group what `prepare` or `hoist` made of them.
         keys: noise keys of the noisy groups; of a world inside the step its own arrays, under `world`.
         sensed: readings of the sensors; of a world inside the step they are in the state.
         clock: `tick` and `origin` (uint32), `start` (document time at the tick `origin`), `dt`, `period` (of
@@ -137,11 +137,10 @@ class Program:
 
     # -------------------------------------------------------------------------------------------------- steps
 
-    def settle(self, values: Tree, constants: Tree) -> list[Any]:
+    def hoist(self, values: Tree, constants: Tree) -> list[Any]:
         """What groups make of their constants and of live parameters once a chunk."""
         return [
-            self._each(g, self.functions[g].settle, values, constants[g])
-            for g in range(len(self.plan.groups))
+            self._each(g, self.functions[g].hoist, values, constants[g]) for g in range(len(self.plan.groups))
         ]
 
     def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:

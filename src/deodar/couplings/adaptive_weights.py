@@ -71,13 +71,13 @@ class AdaptiveWeights(Coupling):
     def ports(self) -> tuple[str, ...]:
         return ("input", "post", *(("gate",) if self.gated else ()), *(("pre",) if self.apart else ()))
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         needed = shape(ins["input"]) + shape(self.axes)
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
             yield (
@@ -111,7 +111,7 @@ class AdaptiveWeights(Coupling):
         pre = x.reshape(x.shape + (1,) * len(self.axes))
         return {"weights": w + time.dt * speed * (inputs["post"] - w) * pre}
 
-    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
         return {"start": state["weights"]}
 
     @classmethod

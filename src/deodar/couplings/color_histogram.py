@@ -62,7 +62,7 @@ class ColorHistogram(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 2:
             yield (
@@ -84,7 +84,7 @@ class ColorHistogram(Coupling):
         kept = self._kept(at)
         return {"cells": cells(at.ins["input"][kept], self.axes[0], at.dtype)}
 
-    def settle(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting, constants: Any) -> Any:
         if is_neutral(self.sigma):
             return constants
         hue = self.axes[-1]

@@ -60,13 +60,13 @@ class ColorSpace(Coupling):
         0.15
     )
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 3:
             yield "needs a picture (two dimensions and three channels) and gives two dimensions and hue"

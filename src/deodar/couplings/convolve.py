@@ -46,9 +46,9 @@ class Convolve(Coupling):
     def kernels(self) -> Sequence[Kernel]:
         return self.kernel
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
+            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(ins["input"]))
 
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]

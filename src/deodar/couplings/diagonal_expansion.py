@@ -42,13 +42,13 @@ class DiagonalExpansion(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         given, own = shape(ins["input"]), shape(self.axes)
         if len(own) != 2:
             yield f"has {len(own)} axes; a diagonal lies between two", "Give two axes"

@@ -42,13 +42,13 @@ class DiagonalSum(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         given = shape(ins["input"])
         if len(given) != 2:
             yield f"needs an input of two axes, not of {len(given)}", "Put a Project before it"

@@ -68,13 +68,13 @@ class GainAdaptation(Coupling):
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:2]
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": (), "value": (), "gains": ins["input"]}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(ins["input"])
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
             yield (
@@ -106,7 +106,7 @@ class GainAdaptation(Coupling):
             speed = speed * jnp.maximum(inputs["gate"], 0.0)
         return {"gains": state["gains"] + speed * inputs["input"]}
 
-    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
         return {"start": state["gains"]}
 
     @classmethod

@@ -113,13 +113,13 @@ class Hebbian(Coupling):
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:2]
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
             yield (
@@ -164,7 +164,7 @@ class Hebbian(Coupling):
         )
         return {"weights": new.reshape(w.shape)}
 
-    def lasting(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
+    def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         w, post = state["weights"], len(self.axes)
         return {"start": np.moveaxis(w, range(w.ndim - post, w.ndim), range(post)) if post else w}
 

@@ -56,14 +56,14 @@ class Interaction(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": ins["input"], "total": ()}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(ins["input"]))
+            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(ins["input"]))
 
     def prepare(self, at: Setting) -> Any:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
 
-    def settle(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting, constants: Any) -> Any:
         return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
 
     def output(

@@ -66,7 +66,7 @@ class PopulationActivity(Coupling):
     def polarity(self) -> Sign:
         return product(sign_of(self.tuning), sign_of(self.amplitude))
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
             yield "axes", "is empty; neurons are tuned to something"
         given = self.tuning.shape if isinstance(self.tuning, FrozenArray) else ()
@@ -82,7 +82,7 @@ class PopulationActivity(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         arriving, neurons = (
             shape(ins["input"]),
             len(self.tuning.data) if isinstance(self.tuning, FrozenArray) else 0,

@@ -58,13 +58,13 @@ class Project(Coupling):
         """Whether the reduction is a sum."""
         return self.reduce in ("integral", "sum", "mean")
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         source, here = self._source(ins["input"]), {a.name: a for a in self.axes}
         for old in dict(self._renames()):
             if old not in [a.name for a in ins["input"]]:

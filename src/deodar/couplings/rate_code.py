@@ -65,13 +65,13 @@ class RateCode(Coupling):
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "strength": ("input",)}
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
             yield "axes", "is empty; a peak needs somewhere to stand"
         if 0.0 in (self.gain if isinstance(self.gain, tuple) else (self.gain,)):
             yield "gain", "is 0: then every number has the same place, and no place tells which"
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:

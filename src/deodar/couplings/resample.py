@@ -44,13 +44,13 @@ class Resample(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         there, here = [a.name for a in ins["input"]], [a.name for a in self.axes]
         if there != here:
             yield f"the source has the axes {there}, here are {here}; write Project to change dimensions"

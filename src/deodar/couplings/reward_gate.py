@@ -76,7 +76,7 @@ class RewardGate(Coupling):
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:1]
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:

@@ -76,11 +76,11 @@ class SpaceCode(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
             yield "axes", "is empty; a peak needs somewhere to stand"
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield (
                 f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes",

@@ -52,16 +52,16 @@ class SteeredShift(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "by")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "by")}
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.along:
             yield "along", "is empty; name at least one axis of the input"
         if len(set(self.along)) < len(self.along):
             yield "along", f"holds a name twice: {', '.join(self.along)}"
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "by" and len(self.along) == 1 else arriving
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         known, arriving = [a.name for a in ins["input"]], shape(ins["by"])
         for name in self.along:
             if name not in known:

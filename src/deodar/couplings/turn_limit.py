@@ -51,7 +51,7 @@ class TurnLimit(Coupling):
         "to_right": ("left", "right"),
     }
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:

@@ -47,13 +47,13 @@ class Weighting(Coupling):
     def polarity(self) -> Sign:
         return sign_of(self.weights)
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         if given != shape(self.axes):
             yield (

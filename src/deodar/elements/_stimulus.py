@@ -35,7 +35,7 @@ class Stimulus(Element):
         """The stimulus while it is on, over its axes."""
         raise NotImplementedError
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         for k, w in enumerate(self.windows):
             if w.stop < w.start:
                 yield (

@@ -70,13 +70,13 @@ class Attractor(Element):
 
     stateful: ClassVar[bool] = True
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if self.axis is None else (self.axis,)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": ()}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         found = ins["input"]
         if len(found) > 1:
             names = " or ".join(axis.name for axis in found)

@@ -108,11 +108,11 @@ class Field(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         if len(self.axes) > MOST_AXES:
             yield f"has {len(self.axes)} axes; a field has at most {MOST_AXES}"
         for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(tuple(self.axes)))
+            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(tuple(self.axes)))
         lengths = [float(v) for v in per_axis(self.noise_length, self.axes)]
         if any(lengths) and not all(lengths):
             yield "noise_length is 0 on one axis and not on another; give all of them or none"
@@ -184,7 +184,7 @@ class Field(Element):
         change = -u + h + s + self._interaction(at, self._output(u))
         return {"activation": euler(u, change, self.tau, time.dt, self._noise(noise, constants))}
 
-    def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+    def inject(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
 
     def _output(self, u: Any) -> Any:

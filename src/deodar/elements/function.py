@@ -58,7 +58,7 @@ class Function(Element):
 
     stateful: ClassVar[bool] = True
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         names: Any = self.ports_in
         for name in names:
             if not name.isidentifier() or name == "output":
@@ -115,7 +115,7 @@ class Function(Element):
             )
         return {"state": at.array(new)}
 
-    def outside(self) -> str:
+    def external_code(self) -> str:
         return str(self.function)
 
     def load(self) -> Callable[..., Any]:

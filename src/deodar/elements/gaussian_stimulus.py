@@ -70,8 +70,8 @@ class GaussianStimulus(Stimulus):
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        yield from super().misfits(ins)
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        yield from super().validate_axes(ins)
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes"
 

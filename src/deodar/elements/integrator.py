@@ -53,7 +53,7 @@ class Integrator(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes)
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
             yield (
@@ -74,5 +74,5 @@ class Integrator(Element):
     ) -> Arrays:
         return {"x": state["x"] + time.dt * self.rate * inputs["input"]}
 
-    def push(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+    def inject(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
         return {"x": state["x"] + dt * self.rate * amount}

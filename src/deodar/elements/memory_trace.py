@@ -84,10 +84,10 @@ class MemoryTrace(Element):
     def ports(self) -> tuple[str, ...]:
         return self.inputs if self.gated else self.inputs[:1]
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "gate" else tuple(self.axes)
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes)
         if isinstance(self.start, FrozenArray) and self.start.shape != needed:
             yield (
@@ -133,7 +133,7 @@ class MemoryTrace(Element):
             rate = jnp.maximum(inputs["gate"], 0.0) * rate
         return {"trace": p + time.dt * rate, "active": active.astype(p.dtype)}
 
-    def lasting(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
         return {"start": state["trace"]}
 
     @classmethod

@@ -69,7 +69,7 @@ class MovingGaussian(Stimulus):
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if isinstance(self.waypoints, FrozenArray):
             rows, columns = self.waypoints.data, 1 + len(self.axes)
             if rows.ndim != 2 or rows.shape[1] != columns or not rows.size:

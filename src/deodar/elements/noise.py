@@ -63,7 +63,7 @@ class Noise(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.amplitude) else tuple(self.axes)
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         lengths = [float(v) for v in per_axis(self.length, self.axes)]
         if any(lengths) and not all(lengths):
             yield "length is 0 on one axis and not on another; give all of them or none"

@@ -51,8 +51,8 @@ class Pattern(Stimulus):
     def polarity(self) -> Sign:
         return product(sign_of(self.values), sign_of(self.amplitude))
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        yield from super().misfits(ins)
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        yield from super().validate_axes(ins)
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         if given != shape(self.axes):
             yield (

@@ -64,7 +64,7 @@ class RateNode(Element):
     def recurrence(self) -> Mapping[str, Sign]:
         return {"self-excitation": sign_of(self.self_excitation)} if self.self_excitation else {}
 
-    def wants(self, port: str, arriving: Axes | None) -> Axes | None:
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:

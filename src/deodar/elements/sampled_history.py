@@ -59,7 +59,7 @@ class SampledHistory(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": (self.slots, *self.axes)}
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
             yield (
                 f"the slots are called {self.slots.name!r} like an axis of the input",

@@ -108,9 +108,9 @@ class SoftWinnerTakeAll(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.misfits(tuple(self.axes)))
+            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(tuple(self.axes)))
 
     def init(self, at: Setting) -> Arrays:
         return {"rate": at.full(tuple(self.axes), 0.0), "inhibition": at.full((), 0.0)}
@@ -118,7 +118,7 @@ class SoftWinnerTakeAll(Element):
     def prepare(self, at: Setting) -> Any:
         return {"kernel": interaction.prepare(self.kernel, tuple(self.axes), at.dtype)}
 
-    def settle(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting, constants: Any) -> Any:
         return {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
 
     def output(

@@ -86,15 +86,15 @@ class TimeSeries(Stimulus):
     def polarity(self) -> Sign:
         return product(sign_of(self.values), sign_of(self.amplitude))
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         times = self.times.data if isinstance(self.times, FrozenArray) else np.zeros(0)
         if times.ndim != 1 or not times.size:
             yield "times", f"has shape {list(times.shape)}; it is a list of moments, at least one"
         elif (np.diff(times) <= 0).any():
             yield "times", "does not rise; each moment is later than the one before"
 
-    def misfits(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        yield from super().misfits(ins)
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        yield from super().validate_axes(ins)
         given = self.values.shape if isinstance(self.values, FrozenArray) else ()
         needed = (*(self.times.shape if isinstance(self.times, FrozenArray) else ()), *shape(self.axes))
         if given != needed:

@@ -88,7 +88,7 @@ class Place(Action):
 
     world_method: ClassVar[str] = "place"
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center", "size")
 
     def apply(self, running: RunningTrial) -> None:
@@ -115,7 +115,7 @@ class Move(Action):
 
     world_method: ClassVar[str] = "move"
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center")
 
     def apply(self, running: RunningTrial) -> None:
@@ -273,7 +273,7 @@ class Snapshot(Action):
     def ports(self) -> Iterator[str]:
         yield from self.of
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.of:
             yield "of", "names no ports, so there is nothing to keep"
 
@@ -317,7 +317,7 @@ class End(Action):
     outcome: Annotated[str, Recompile(meaning="what the row says")]
     when: Annotated[str, WHEN] = ""
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.outcome:
             yield "outcome", "is empty, which is what a trial that runs has"
 

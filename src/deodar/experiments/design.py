@@ -80,7 +80,7 @@ class Design(Part):
             object.__setattr__(self, "world", "")
         super().__post_init__()
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not isinstance(self.model, (Model, str, Path)):
             yield "model", f"needs a model or the path of its document, not {show(self.model)}"
         if not isinstance(self.world, (World, str)):

@@ -159,7 +159,7 @@ class Appears(Event):
         )
         return (Observable(self.field, "max", near, self.radius, "activation"),)
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
             yield "radius", "is 0, and a place alone holds no sample; say how far around it"
 
@@ -268,7 +268,7 @@ class All(Event):
     def others(self) -> tuple[str, ...]:
         return tuple(self.of)
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if not self.of:
             yield "of", "names no events, so there is nothing that could hold"
 

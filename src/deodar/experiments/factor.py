@@ -36,7 +36,7 @@ class Factor(Part):
     ]
     path: Annotated[str, Recompile(meaning="the parameter whose values the levels are")] = ""
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         levels: Any = self.levels
         if isinstance(levels, (str, bytes)) or not isinstance(levels, (Mapping, Sequence, np.ndarray)):
             yield "levels", f"needs a list of values, or an object of named levels, not {show(levels)}"

@@ -90,7 +90,7 @@ class Measure(BaseMeasure):
         )
         return Observable(self.of, self.reduce, near, self.radius, threshold=self.threshold)
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
             yield "radius", "is 0, and a place alone holds no sample; say how far around it"
         if self.reduce != PLACE and self.threshold:

@@ -137,7 +137,7 @@ def _ports(cls: type, doc: Docstring, example: Part | None) -> dict[str, str]:
     if isinstance(example, Element):
         inputs = list(example.ports())
         try:
-            outputs = list(example.outputs({port: example.wants(port, ()) or () for port in inputs}))
+            outputs = list(example.outputs({port: example.input_axes(port, ()) or () for port in inputs}))
         except Exception:  # the same
             outputs = []
     return {**texts, **{port: texts.get(port, "") for port in [*inputs, *outputs]}}

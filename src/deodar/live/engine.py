@@ -219,7 +219,7 @@ class Engine:
         how(self._require())
         self._stale = True
 
-    def push(self, hand: Hand | None) -> None:
+    def inject(self, hand: Hand | None) -> None:
         """Reach into the running model; None lets go."""
         if hand is not None and self.session is not None:
             self.session.require_push(hand.element)
@@ -283,7 +283,7 @@ class Engine:
         hand = self.hand
         entry = session.document.by_id().get(hand.element) if hand is not None else None
         if hand is not None and entry is not None:
-            session.push(entry.path, hand.amount, n)
+            session.inject(entry.path, hand.amount, n)
         else:
             session.step(n)
 

@@ -122,7 +122,7 @@ class Document:
 
     def asks(self) -> bool:
         """Whether it names functions that nobody has said may be run."""
-        return self.foreign and any(e.element.outside() for e in self.entries)
+        return self.foreign and any(e.element.external_code() for e in self.entries)
 
     def by_id(self) -> Mapping[str, Entry]:
         """Entries by id."""

@@ -80,7 +80,7 @@ class Model:
         Whoever reads the pickle decides whether to trust them: `Model(document=model.document,
         trusted=True)`.
         """
-        plain = not any(e.element.outside() for d in self.history.documents for e in d.entries)
+        plain = not any(e.element.external_code() for d in self.history.documents for e in d.entries)
         return {**self.__dict__, "programs": {}, "_trusted": self._trusted and plain}
 
     # ----------------------------------------------------------------------------------------------- building
@@ -328,7 +328,7 @@ class Model:
         ]
 
     def _doubt(self, template: Model) -> None:
-        if not template.trusted and any(e.element.outside() for e in template.document.entries):
+        if not template.trusted and any(e.element.external_code() for e in template.document.entries):
             self._doubted = self.history.depth  # taken back, the change takes the doubt with it
 
     def _entry(self, what: Handle | str) -> Entry:

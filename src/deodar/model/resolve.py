@@ -193,9 +193,13 @@ class _Resolver:
             else:
                 self.join(node, port, closing)
             if port not in node.ins:
-                axes = node.element.wants(port, None)
+                axes = node.element.input_axes(port, None)
                 if axes is None and not node.reads[port]:
-                    if port == "input" and node.id not in self.failed and node.element.wants(port, ()) == ():
+                    if (
+                        port == "input"
+                        and node.id not in self.failed
+                        and node.element.input_axes(port, ()) == ()
+                    ):
                         self.problem(
                             node.id,
                             f"nothing is connected to {node.path}.{port}, so its axes are unknown",
@@ -261,7 +265,7 @@ class _Resolver:
 
     def attach(self, source: Node, slot: Slot, node: Node, port: str) -> None:
         axes = self.nodes[slot[0]].outs[slot[1]] if slot[0] in self.nodes else source.outs[slot[1]]
-        want = node.element.wants(port, axes)
+        want = node.element.input_axes(port, axes)
         if want is not None and want == axes and port in node.ins:
             want = node.ins[port]  # a port that takes what comes took the axes of its first connection
         if want is None:
@@ -336,7 +340,7 @@ class _Resolver:
             return
         if node.id in self.failed:
             return  # what does not arrive as it should would only show once more
-        for what in entry.element.misfits(node.ins):
+        for what in entry.element.validate_axes(node.ins):
             self.problem(node.id, *(what if isinstance(what, tuple) else self.between(node, what)))
         clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
         if clash:

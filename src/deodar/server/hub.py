@@ -139,7 +139,7 @@ class Hub:
         """A page is gone; the run goes on."""
         self.pages.discard(page)
         if self.engine.hand is not None and page.pushes:
-            self.engine.call(lambda: self.engine.push(None))
+            self.engine.call(lambda: self.engine.inject(None))
         self.watch()
 
     # ------------------------------------------------------------------------------------------------- ending

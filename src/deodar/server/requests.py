@@ -272,13 +272,13 @@ async def _push(hub: Hub, page: Page, m: to_server.Push) -> None:
         m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m)
     )
     page.pushes = True
-    await _engine(hub, page, lambda: engine.push(hand))
+    await _engine(hub, page, lambda: engine.inject(hand))
 
 
 @handles(to_server.Release)
 async def _release(hub: Hub, page: Page, m: to_server.Release) -> None:
     page.pushes = False
-    await _engine(hub, page, lambda: hub.engine.push(None))
+    await _engine(hub, page, lambda: hub.engine.inject(None))
 
 
 def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:

@@ -126,7 +126,7 @@ def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mappin
         inputs=list(e.element.ports()),
         outputs=find.outputs(e),
         axes={port: [named.get(a, a.name) for a in axes] for port, axes in ports.items()},
-        pushable=e.every == 1 and type(e.element).push is not Element.push,
+        pushable=e.every == 1 and type(e.element).inject is not Element.inject,
     )
 
 

@@ -255,7 +255,7 @@ def _alone(
 
     def run(given: _GroupArguments, n: Any) -> Any:
         values, clock, keys = given.values, given.clock, given.keys
-        settled = only(alone.settle(values | {"arrays": given.arrays}, [given.constants])[0])
+        settled = only(alone.hoist(values | {"arrays": given.arrays}, [given.constants])[0])
 
         def step(tick: Any, state: Tree, drawn: Tree) -> tuple[Tree, Any]:
             # without the barrier what depends on the inputs alone would be computed once, before the loop

@@ -16,7 +16,7 @@ def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
     found: dict[str, np.ndarray] = {}
     for entry in snapshot.document.entries:
         if entry.element.stateful:
-            for name, value in entry.element.lasting(snapshot.states[entry.id][0]).items():
+            for name, value in entry.element.learned_parameters(snapshot.states[entry.id][0]).items():
                 found[f"{entry.id}.{name}"] = np.array(value)
     return found
 

@@ -6,10 +6,11 @@ import dataclasses as dc
 import html
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import renamed
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.layout import require_range
 from deodar.compiler.plan import ways_of
@@ -65,6 +66,11 @@ class Session:
         journal: every change of a parameter or of dt, every reset and restore, every hand in the world, with
             its tick; with seed and document it repeats the session.
     """
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise renamed.no_member(self, name)
 
     def __init__(
         self,
@@ -143,7 +149,7 @@ class Session:
         self._run.seed = new
         self._run.reset()
 
-    def push(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
+    def inject(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
         """Inject an external input for `n` Euler steps, without adding an element.
 
         Exactly as if `amount` (over the element's axes, or one number) were added to its input, noise
@@ -156,7 +162,7 @@ class Session:
         for _ in range(n):
             dt = self.dt
             self.step()
-            self._run.put_row(g, r, entry.element.push(state := self._run.row(g, r), amount, dt) or state)
+            self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), amount, dt) or state)
 
     def _to_new_dt(self, most: int) -> int:
         """Steps taken until a changed dt may take effect: the next tick common to all parts."""
@@ -179,7 +185,7 @@ class Session:
         if entry is None or ident not in self.program.plan.row:
             raise UnknownName(f"the element with the id {ident} does not run")
         g, r = self.program.plan.row[ident]
-        if entry.every != 1 or entry.element.push(self._run.row(g, r), 0.0, self.dt) is None:
+        if entry.every != 1 or entry.element.inject(self._run.row(g, r), 0.0, self.dt) is None:
             raise ParameterError(
                 "takes no input from outside",
                 where=entry.path,

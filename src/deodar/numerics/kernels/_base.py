@@ -69,7 +69,7 @@ class Kernel(Part):
         """Whether it excites, inhibits, or does both at different distances."""
         return sign_of(*(term.amplitude for term in self.terms()))
 
-    def misfits(self, axes: Axes) -> Iterator[str]:
+    def validate_axes(self, axes: Axes) -> Iterator[str]:
         """What does not fit between this kernel and the axes of its field."""
         if self.boundary is not None and len(self.boundary) not in (1, len(axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"

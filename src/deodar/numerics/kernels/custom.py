@@ -87,8 +87,8 @@ class Custom(Kernel):
             weights = along(resampling.weights(grid, points, "linear", dtype), weights, d)
         return weights
 
-    def misfits(self, axes: Axes) -> Iterator[str]:
-        yield from super().misfits(axes)
+    def validate_axes(self, axes: Axes) -> Iterator[str]:
+        yield from super().validate_axes(axes)
         if isinstance(self.spacing, tuple) and len(self.spacing) != len(axes):
             yield f"spacing has {len(self.spacing)} values for {len(axes)} axes"
         shape = self.weights.shape if isinstance(self.weights, FrozenArray) else ()

@@ -52,7 +52,7 @@ class Shifted(Kernel):
 
         return along
 
-    def faults(self) -> Iterator[tuple[str, str]]:
+    def validate(self) -> Iterator[tuple[str, str]]:
         if type(self.kernel).__name__ == "Custom":
             yield "kernel", "a custom array cannot be shifted; shift the array itself"
         if self.kernel.boundary is not None:
@@ -61,6 +61,6 @@ class Shifted(Kernel):
                 "belongs to the shifted kernel: write Shifted(kernel, shift, boundary=...)",
             )
 
-    def misfits(self, axes: Axes) -> Iterator[str]:
-        yield from super().misfits(axes)
-        yield from self.kernel.misfits(axes)
+    def validate_axes(self, axes: Axes) -> Iterator[str]:
+        yield from super().validate_axes(axes)
+        yield from self.kernel.validate_axes(axes)
