@@ -81,27 +81,24 @@ class Sentence:
         self,
         value: float | None,
         n: int,
-        low: float,
-        high: float,
+        within: tuple[float, float],
         target: str,
         interval: Interval | None = None,
         quick: bool = False,
     ) -> Claim:
         """A number that lies between two bounds. Where so few runs cannot decide it is open."""
-        return self.judged(
-            value, target, statistics.decided(value, interval, n, low, high, quick), n, interval
-        )
+        return self.judged(value, target, statistics.decided(value, interval, n, *within, quick), n, interval)
 
     def median(self, values: np.ndarray, low: float, high: float, target: str, quick: bool = False) -> Claim:
         """A median that lies between two bounds."""
         value = float(np.median(values)) if len(values) else None
-        return self.bounds(value, len(values), low, high, target, statistics.median_interval(values), quick)
+        return self.bounds(value, len(values), (low, high), target, statistics.median_interval(values), quick)
 
     def share(self, rows: Sequence[Row], true: Callable[[Row], bool], least: float, quick: bool) -> Claim:
         """Something that is true of at least a share of the runs."""
         hits, n = count(rows, true)
         return self.bounds(
-            hits / n if n else None, n, least, 1.0, f">= {least:g}", statistics.wilson(hits, n), quick
+            hits / n if n else None, n, (least, 1.0), f">= {least:g}", statistics.wilson(hits, n), quick
         )
 
     def larger(

@@ -66,7 +66,7 @@ def _section_3(runs: Runs) -> list[Claim]:
     opposed = numbers(_planned(runs), "opposed")
     value = float(opposed.mean()) if len(opposed) else None
     text = "opposing behaviours are mutually exclusive: share of time in which both of a pair intend to go"
-    out = [Sentence("3.2", text).bounds(value, len(opposed), 0.0, 0.05, "<= 0.05", mean_interval(opposed))]
+    out = [Sentence("3.2", text).bounds(value, len(opposed), (0.0, 0.05), "<= 0.05", mean_interval(opposed))]
     for noise in NOISES:
         text = (
             "a goal may change at any time: runs in which it moves while the robot drives, and that reach"
@@ -110,7 +110,7 @@ def _section_5_1(runs: Runs) -> list[Claim]:
     )
     out.append(
         Sentence("5.1", text, assumes=REFLECTION).bounds(
-            max(arrivals, default=None), len(arrivals), 0, 2500, "<= 2500"
+            max(arrivals, default=None), len(arrivals), (0, 2500), "<= 2500"
         )
     )
     best = {
@@ -128,7 +128,9 @@ def _section_5_1(runs: Runs) -> list[Claim]:
             "following the carrot: no other speed and gain succeed more often in the Z-maze than"
             f" {mine.rpartition('/')[2]}"
         )
-        out.append(Sentence("", text).bounds(pairs[mine] / n, n, most / n - 1e-9, 1.0, f">= {most / n:.4g}"))
+        out.append(
+            Sentence("", text).bounds(pairs[mine] / n, n, (most / n - 1e-9, 1.0), f">= {most / n:.4g}")
+        )
     return out
 
 
@@ -346,7 +348,7 @@ def _section_6_2(runs: Runs) -> list[Claim]:
             "activation spreads with a constant speed: share of variance of planning time that is linear"
             " in Lo"
         )
-        out.append(Sentence("6.2", text).bounds(rest, len(far), 0.9, 1.0, ">= 0.9"))
+        out.append(Sentence("6.2", text).bounds(rest, len(far), (0.9, 1.0), ">= 0.9"))
         out.append(Sentence("6.2", "speed of the wave, cm a step").value(1 / slope, len(far)))
     switched = [r for noise in NOISES for r in between(runs.kept("full", noise), route=SWITCH)]
     text = "planning anew is shorter than planning: standing still over the time of the first plan"
@@ -437,7 +439,7 @@ def _section_6_4(runs: Runs) -> list[Claim]:
     value = free / stuck if stuck else None
     out.append(
         Sentence("6.4", text, assumes=REFLECTION).bounds(
-            value, stuck, 0.5, 1.0, ">= 0.5", statistics.wilson(free, stuck)
+            value, stuck, (0.5, 1.0), ">= 0.5", statistics.wilson(free, stuck)
         )
     )
     for maze in MAZE:

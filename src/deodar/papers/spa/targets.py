@@ -115,7 +115,7 @@ def _divergence(runs: Runs) -> list[Claim]:
             said.bounds(
                 value,
                 len(values),
-                *DIVERGENCE,
+                DIVERGENCE,
                 "{} to {}".format(*DIVERGENCE),
                 mean_interval(values),
                 runs.quick,
