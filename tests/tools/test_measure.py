@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -97,3 +98,14 @@ def test_the_command_prints_every_limit_and_says_which_is_broken(
     assert good.split() == ["good", "1", "at", "most", "2"] and free.split() == ["free", "9"]
     assert bad.split() == ["bad", "3.5", "s", "at", "most", "2", "s", "BROKEN"] and place.strip() == "here"
     assert measure.Figure("even", 2, 2).holds
+
+
+def test_only_public_calls_of_scripts_have_eight_and_more_parameters(measure: ModuleType) -> None:
+    found = {" ".join(line.split()[:2]) for line in measure.crowded(measure.trees(measure.SRC))}
+    assert {re.sub(r":\d+", "", place) for place in found} == {
+        "batch/simulate.py simulate",
+        "experiments/batch.py run_batch",
+        "experiments/run.py run_trial",
+        "session/session.py __init__",
+        "worlds/arena/arena.py __init__",
+    }

@@ -114,14 +114,15 @@ def compute(
     with stoppable() as check:
         more_points, more_trials = _missing(request.width, points, len(numbers))
         filled = Batch(
-            points.size + more_points if sweep else None, len(numbers) + more_trials if names else None
+            points.size + more_points if sweep else None,
+            len(numbers) + more_trials if names else None,
+            tuple(map(tuple, points.leaves)) if sweep else (),
         )
         program = executable(
             model,
             doc,
             precision,
             filled,
-            points.leaves if sweep else (),
             device,
             request.accuracy,
             embodied(doc, world),

@@ -61,10 +61,17 @@ BUFFER_BYTES = 16 * 2**20
 
 @dc.dataclass(frozen=True)
 class Batch:
-    """How many copies run at once: points of a sweep and trials; None where there is no such axis."""
+    """The copies that run at once.
+
+    Attributes:
+        points: number of points of a sweep; None without a sweep.
+        trials: number of trials; None without such an axis.
+        sweep: the leaves that differ between points, for each entry of the sweep.
+    """
 
     points: int | None = None
     trials: int | None = None
+    sweep: tuple[tuple[Leaf, ...], ...] = ()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -112,7 +119,6 @@ class Executable:
         doc: Document,
         precision: str,
         batch: Batch,
-        sweep: Sequence[Sequence[Leaf]],
         device: Any = None,
         exact: bool = False,
         body: Body | None = None,
@@ -121,12 +127,11 @@ class Executable:
         self.device: Any = device or devices.find()
         self.precision, self.exact = precision, exact
         self.batch = batch
-        self.sweep = tuple(tuple(s) for s in sweep)
-        lifted = frozenset(leaf for leafs in self.sweep for leaf in leafs)
+        lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
             doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None
         )
-        self.layout = Layout(self.plan, precision, self.sweep)
+        self.layout = Layout(self.plan, precision, batch.sweep)
         self.program = Program(self.plan, precision, self.layout.swept, body)
         self.body = body
         self.traced = 0
@@ -417,7 +422,6 @@ def executable(
     doc: Document | None = None,
     precision: str = "float32",
     batch: Batch | None = None,
-    sweep: Sequence[Sequence[Leaf]] = (),
     device: str | None = None,
     accuracy: str = "default",
     body: Body | None = None,
@@ -435,7 +439,7 @@ def executable(
         raise ParameterError(f"accuracy is {accuracy!r}; it is default or exact")
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
-    lifted = frozenset(leaf for leafs in sweep for leaf in leafs)
+    lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
     ways = () if exact else tuple(ways_of(doc, lifted, batch.size, body is not None).items())
@@ -446,7 +450,6 @@ def executable(
         precision,
         exact,
         batch,
-        tuple(map(tuple, sweep)),
         neutral,
         devices.name(place),
         body and body.key,
@@ -456,7 +459,7 @@ def executable(
             model.require()
         elif found := problems(doc):
             raise ModelError(found)
-        request = _Request(key, doc, precision, batch, tuple(map(tuple, sweep)), place, exact, body)
+        request = _Request(key, doc, precision, batch, place, exact, body)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]
         model.programs[key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
@@ -471,15 +474,12 @@ class _Request:
     doc: Document = dc.field(compare=False)
     precision: str = dc.field(compare=False)
     batch: Batch = dc.field(compare=False)
-    sweep: Sequence[Sequence[Leaf]] = dc.field(compare=False)
     device: Any = dc.field(compare=False)
     exact: bool = dc.field(compare=False)
     body: Body | None = dc.field(compare=False)
 
     def make(self) -> Executable:
-        return Executable(
-            self.doc, self.precision, self.batch, self.sweep, self.device, self.exact, self.body
-        )
+        return Executable(self.doc, self.precision, self.batch, self.device, self.exact, self.body)
 
 
 @functools.lru_cache(maxsize=48)

@@ -279,9 +279,10 @@ class _Flock:
         """A run of some trials at its start: trials of one batch, or, where parameters differ, points of a
         sweep.
         """
-        copies = Batch(len(rows), None) if self.leaves else Batch(None, len(rows))
+        sweep = tuple(map(tuple, self.leaves))
+        copies = Batch(len(rows), None, sweep) if sweep else Batch(None, len(rows))
         program = executable(
-            self.model, self.doc, self.precision, copies, self.leaves, body=embodied(self.doc, self.world)
+            self.model, self.doc, self.precision, copies, body=embodied(self.doc, self.world)
         )
         trials = [self.trials[r] for r in rows]
         if self.leaves:
