@@ -17,6 +17,8 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
+from deodar import __version__
+
 GROUPS = {
     "kinds": "elements, couplings, kernels and sigmoids, by the name of their class",
     "worlds": "worlds, by the name of their class",
@@ -85,10 +87,9 @@ def _entries(group: str) -> tuple[importlib.metadata.EntryPoint, ...]:
 @functools.cache
 def _misfit(package: str) -> str:
     """What is wrong where a package requires another version of deodar than this one."""
+    # start-up time
     from packaging.requirements import InvalidRequirement, Requirement
     from packaging.utils import canonicalize_name
-
-    from deodar import __version__
 
     for text in importlib.metadata.requires(package) or ():
         try:

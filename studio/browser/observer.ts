@@ -7,7 +7,7 @@ import type {
   Announced,
   Answer,
   Changed,
-  Clock,
+  RunClock,
   DocumentView,
   ElementView,
   Lost,
@@ -35,7 +35,7 @@ export function socketOf(url: string): string {
 
 export class Observer {
   document: DocumentView | null = null;
-  clock: Clock | undefined;
+  clock: RunClock | undefined;
   /** The world from above; where its bodies are after `watch_world`. */
   readonly world = new LiveWorld();
   private session = 0;

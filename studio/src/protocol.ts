@@ -10,6 +10,13 @@ export type AddKnob = {
   parameter: string;
 };
 
+// So many Euler steps, then stand still.
+export type Advance = {
+  type: "step";
+  request?: number;
+  n?: number;
+};
+
 // What a stream holds from now on: its shape, and the axes as they are thinned.
 //
 // `folded` names axes over which the maximum is taken, because an array has more than two dimensions;
@@ -33,7 +40,7 @@ export type Announced = {
 export type Answer = {
   type: "answer";
   request: number;
-  problems?: Problem[];
+  problems?: ListedProblem[];
   ask?: "" | "replace" | "unsaved";
   cost?: "" | "live" | "rebuild" | "recompile";
   file?: string;
@@ -129,39 +136,7 @@ export type Changed = {
 export type Checked = {
   type: "checked";
   version: number;
-  problems: Problem[];
-};
-
-// Where the run is. Sent after the frames of the same number, and whenever something changes.
-//
-// `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
-// possible); `abstract` time counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and
-// will catch up, `worst` the largest lag since it was played, `lost` what was given up; `overruns` counts how
-// often it fell behind. `longest` is the step up to which it may grow to keep up (None: it stays), and
-// `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
-// stopped; `world` what the sensors read.
-export type Clock = {
-  type: "clock";
-  frame: number;
-  running: boolean;
-  time: number;
-  tick: number;
-  dt: number;
-  seed: number;
-  speed: number | null;
-  factor: number;
-  steps: number;
-  lag: number;
-  worst: number;
-  lost: number;
-  overruns: number;
-  longest: number | null;
-  lengthened: number;
-  busy: string;
-  failure: Problem[];
-  world: string;
-  senses: boolean;
-  pushing: string;
+  problems: ListedProblem[];
 };
 
 // Close the document and go to the gallery.
@@ -201,7 +176,7 @@ export type Costs = {
   measuring: boolean;
   step: number;
   elements: CostView[];
-  problems: Problem[];
+  problems: ListedProblem[];
 };
 
 // Change general properties of the document; what is None stays.
@@ -229,7 +204,7 @@ export type DocumentView = {
   groups: string[][];
   knobs: KnobView[];
   layout: Record<string, unknown>;
-  problems: Problem[];
+  problems: ListedProblem[];
   unsaved: boolean;
   undo: number;
   redo: number;
@@ -346,11 +321,22 @@ export type ListFolder = {
   path?: string;
 };
 
+// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+//
+// A warning stops no run.
+export type ListedProblem = {
+  what: string;
+  where?: string;
+  fix?: string;
+  element?: string;
+  severity?: "problem" | "warning";
+};
+
 // A stream that gives nothing, and why: the element is gone, or the port cannot be read.
 export type Lost = {
   type: "lost";
   stream: number;
-  problem: Problem;
+  problem: ListedProblem;
 };
 
 // A place in the world that has a name, such as a goal; `fixed`: it cannot be moved.
@@ -479,20 +465,9 @@ export type Play = {
   request?: number;
 };
 
-// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
-//
-// A warning stops no run.
-export type Problem = {
-  what: string;
-  where?: string;
-  fix?: string;
-  element?: string;
-  severity?: "problem" | "warning";
-};
-
 // Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same
 // where it is None.
-export type Push = {
+export type PushInput = {
   type: "push";
   request?: number;
   element: string;
@@ -547,10 +522,42 @@ export type RemoveThing = {
 };
 
 // State, time and noise back to the start; with a seed, another one from then on. Parameters stay.
-export type Reset = {
+export type ResetRun = {
   type: "reset";
   request?: number;
   seed?: number | null;
+};
+
+// Where the run is. Sent after the frames of the same number, and whenever something changes.
+//
+// `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
+// possible); `abstract` time counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and
+// will catch up, `worst` the largest lag since it was played, `lost` what was given up; `overruns` counts how
+// often it fell behind. `longest` is the step up to which it may grow to keep up (None: it stays), and
+// `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
+// stopped; `world` what the sensors read.
+export type RunClock = {
+  type: "clock";
+  frame: number;
+  running: boolean;
+  time: number;
+  tick: number;
+  dt: number;
+  seed: number;
+  speed: number | null;
+  factor: number;
+  steps: number;
+  lag: number;
+  worst: number;
+  lost: number;
+  overruns: number;
+  longest: number | null;
+  lengthened: number;
+  busy: string;
+  failure: ListedProblem[];
+  world: string;
+  senses: boolean;
+  pushing: string;
 };
 
 // Write the document, to its own file where `path` is empty.
@@ -562,12 +569,6 @@ export type Save = {
   session?: number;
   path?: string;
   replace?: boolean;
-};
-
-// The world from above, whenever something in it was moved; None: there is nothing to see from above.
-export type Scene = {
-  type: "scene";
-  scene: SceneView | null;
 };
 
 // What stands in the world, in its unit of length; `border` is lower x, lower y, upper x, upper y.
@@ -583,7 +584,7 @@ export type SceneView = {
 //
 // `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that
 // share a `gesture` (not 0) are one step of undo: a slider that is dragged.
-export type Set = {
+export type SetParameter = {
   type: "set";
   request?: number;
   session?: number;
@@ -600,13 +601,6 @@ export type Speed = {
   factor: number | null;
 };
 
-// So many Euler steps, then stand still.
-export type Step = {
-  type: "step";
-  request?: number;
-  n?: number;
-};
-
 export type ToPage =
   | Welcome
   | Gallery
@@ -614,9 +608,9 @@ export type ToPage =
   | Trouble
   | Changed
   | Checked
-  | Clock
+  | RunClock
   | Costs
-  | Scene
+  | WorldScene
   | Bodies
   | Announced
   | Lost
@@ -633,7 +627,7 @@ export type ToServer =
   | Close
   | Save
   | ListFolder
-  | Set
+  | SetParameter
   | Describe
   | AddKnob
   | Link
@@ -646,12 +640,12 @@ export type ToServer =
   | Redo
   | Play
   | Pause
-  | Step
-  | Reset
+  | Advance
+  | ResetRun
   | Speed
   | Lengthen
   | MeasureCosts
-  | Push
+  | PushInput
   | Release
   | UseWorld
   | UseWorldContent
@@ -660,26 +654,15 @@ export type ToServer =
   | PlaceThing
   | RemoveThing
   | Watch
-  | Trace
+  | WatchTrace
   | Unwatch
   | Drawn;
-
-// Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its mean.
-export type Trace = {
-  type: "trace";
-  request?: number;
-  stream: number;
-  element: string;
-  port: string;
-  reduce?: "at" | "max" | "mean";
-  at?: number[];
-};
 
 // The file that could not be opened, with every problem in it; an empty list: no trouble any more.
 export type Trouble = {
   type: "trouble";
   file: string;
-  problems: Problem[];
+  problems: ListedProblem[];
 };
 
 // Take the last change back.
@@ -735,6 +718,17 @@ export type Watch = {
   most?: number;
 };
 
+// Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its mean.
+export type WatchTrace = {
+  type: "trace";
+  request?: number;
+  stream: number;
+  element: string;
+  port: string;
+  reduce?: "at" | "max" | "mean";
+  at?: number[];
+};
+
 // Send `bodies` from now on, or no longer.
 export type WatchWorld = {
   type: "watch_world";
@@ -749,4 +743,10 @@ export type Welcome = {
   root: string;
   kinds: Kind[];
   examples: ExampleView[];
+};
+
+// The world from above, whenever something in it was moved; None: there is nothing to see from above.
+export type WorldScene = {
+  type: "scene";
+  scene: SceneView | null;
 };

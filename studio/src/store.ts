@@ -4,13 +4,13 @@
 import { create } from "zustand";
 import type {
   Changed,
-  Clock,
+  RunClock,
   Costs,
   DocumentView,
   ElementView,
   Gallery,
   Kind,
-  Problem,
+  ListedProblem,
   ToPage,
   Trouble,
   Welcome,
@@ -23,7 +23,7 @@ export type Connection = "connecting" | "open" | "lost" | "refused";
 // What can be done about a notice, by a button.
 export type Offer = { label: string; run: () => unknown };
 
-export type Notice = { id: number; problem: Problem; level: "error" | "info"; offer?: Offer };
+export type Notice = { id: number; problem: ListedProblem; level: "error" | "info"; offer?: Offer };
 
 export type Studio = {
   connection: Connection;
@@ -36,14 +36,14 @@ export type Studio = {
   document: DocumentView | null;
   elements: Map<string, ElementView>;
   trouble: Trouble | null;
-  clock: Clock | null;
+  clock: RunClock | null;
   costs: Costs | null;
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
   connect: (connection: Connection) => void;
   select: (ids: string[]) => void;
-  notify: (problem: Problem, level?: Notice["level"], offer?: Offer) => void;
+  notify: (problem: ListedProblem, level?: Notice["level"], offer?: Offer) => void;
   dismiss: (id: number) => void;
 };
 

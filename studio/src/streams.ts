@@ -2,10 +2,10 @@
 // for each picture the browser draws, with the newest frame. Equal requests share one stream.
 
 import type { Frame } from "./frames";
-import type { Announced, Lost, Trace, Watch } from "./protocol";
+import type { Announced, Lost, WatchTrace, Watch } from "./protocol";
 import { History } from "./history";
 
-export type Wish = Omit<Watch, "stream" | "request"> | Omit<Trace, "stream" | "request">;
+export type Wish = Omit<Watch, "stream" | "request"> | Omit<WatchTrace, "stream" | "request">;
 
 export type Live = {
   // What the stream holds; null until the server has said it.
@@ -27,7 +27,7 @@ type Stream = {
   waiting: Set<Subscriber>;
 };
 
-type SendWish = (message: Watch | Trace | { type: "unwatch"; stream: number }) => void;
+type SendWish = (message: Watch | WatchTrace | { type: "unwatch"; stream: number }) => void;
 
 export class Streams {
   private byKey = new Map<string, Stream>();

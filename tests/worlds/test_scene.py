@@ -8,16 +8,19 @@ import numpy as np
 import pytest
 
 from deodar.errors import UnknownName, WorldError
-from deodar.worlds._scene import Body, Box, Mark, Scene
+from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
 from deodar.worlds.arena.arena import Arena
 
 GREY = (0.5, 0.5, 0.5)
 SCENE = Scene(
     "m",
     (0.0, 0.0, 2.0, 1.0),
-    (Box("wall", (1.0, 0.8), (0.1, 0.4), GREY, fixed=True), Box("crate", (0.3, 0.3), (0.2, 0.2), GREY)),
+    (
+        SceneBox("wall", (1.0, 0.8), (0.1, 0.4), GREY, fixed=True),
+        SceneBox("crate", (0.3, 0.3), (0.2, 0.2), GREY),
+    ),
     (Mark("goal", (1.8, 0.5)),),
-    (Body("robot", (1.5, 0.5), 0.0, 0.05),),
+    (SceneBody("robot", (1.5, 0.5), 0.0, 0.05),),
 )
 LAYOUT: dict[str, Any] = {
     "unit": "cm",

@@ -8,7 +8,12 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec
+from deodar import codec, papers
+from deodar.cli import _options, _rescue
+from deodar.cli._options import paragraph, shown, use_cores
+from deodar.errors import DeodarError, OutputError, OutputExists
+from deodar.model import output
+from deodar.recording import places
 
 if TYPE_CHECKING:
     from deodar.papers import Demonstration
@@ -18,9 +23,6 @@ HELP = "run the quick form of a paper: saliency on photographs, or spa, a robot 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command; each demonstration adds its own."""
-    from deodar import papers
-    from deodar.cli import _options
-
     demos = papers.demos()
     about = "; ".join(f"{name}: {demo.HELP}" for name, demo in demos.items())
     parser.add_argument("name", choices=tuple(demos), metavar="NAME", help=about)
@@ -50,10 +52,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if a required claim is false."""
-    from deodar.cli._options import use_cores
-    from deodar.errors import DeodarError
-    from deodar.recording import places
-
     strange = [
         (option, demo)
         for option, demo in args.owners.items()
@@ -72,10 +70,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _run(args: argparse.Namespace) -> Demonstration:
     """Run the demonstration with a progress bar on stderr."""
+    # start-up time
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
-
-    from deodar import papers
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
     console = Console(file=sys.stderr)
@@ -87,9 +84,8 @@ def _run(args: argparse.Namespace) -> Demonstration:
 
 
 def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
+    # start-up time: these bring JAX
     from deodar.analysis.claims import failed, results
-    from deodar.cli._options import paragraph, shown
-    from deodar.model import output
 
     settings: Mapping[str, Any] = {"demo": args.name, "seed": args.seed, **demo.settings}
     text = results(demo.claims, settings)
@@ -124,10 +120,6 @@ def _written(args: argparse.Namespace, out: Path, fill: Callable[[Path], None]) 
     """Write the folder, to a second place where this one fails; the place, and why it is not the one that was
     asked for.
     """
-    from deodar.cli import _rescue
-    from deodar.errors import OutputError, OutputExists
-    from deodar.recording import places
-
     try:
         places.write_folder(out, fill, replace=args.force)
         return out, ""
@@ -139,9 +131,6 @@ def claim(out: Path, force: bool) -> None:
     """Refuse, before the run, a folder that could not be written after it; `force` replaces only what a demo
     wrote.
     """
-    from deodar.errors import OutputExists
-    from deodar.recording import places
-
     places.claim_folder(out, force)
     if out.is_dir() and any(out.iterdir()) and not (out / "results.json").is_file():
         raise OutputExists(

@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses as dc
+import importlib.metadata
+import os
+import platform
+import re
 from typing import Any
 
-from deodar import codec
+import psutil
+
+from deodar import __version__, codec
+from deodar.cli import _sbom
+from deodar.errors import DocumentError
 
 HELP = (
     "tell what is installed, which devices there are, where compiled programs are kept, and what is missing"
@@ -36,8 +45,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Status 1 if something that deodar needs is missing."""
     if args.sbom:
-        from deodar.cli import _sbom
-
         print(codec.text(_sbom.bill()))
         return 0
     if args.plans:
@@ -52,8 +59,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _plans(as_json: bool) -> int:
     """The cost model of convolutions against this machine, on one core."""
-    import dataclasses as dc
-
+    # start-up time: these bring JAX
     from rich.console import Console
     from rich.progress import track
     from rich.table import Table
@@ -61,6 +67,7 @@ def _plans(as_json: bool) -> int:
     from deodar.batch.cores import use_cores
 
     use_cores(1)
+    # start-up time: these bring JAX
     from deodar.compiler.plans import CASES, measure
 
     console = Console(stderr=True)
@@ -97,14 +104,7 @@ def _plans(as_json: bool) -> int:
 
 def examine() -> dict[str, Any]:
     """Everything as plain data."""
-    import importlib.metadata
-    import os
-    import platform
-    import re
-
-    import psutil
-
-    from deodar import __version__
+    # start-up time: these bring JAX
     from deodar.compiler import cache, device
 
     def version(name: str) -> str | None:
@@ -148,7 +148,7 @@ def examine() -> dict[str, Any]:
 
 def _needs(path: str) -> dict[str, Any]:
     """The packages that a document needs and that are missing or of another version."""
-    from deodar.errors import DocumentError
+    # start-up time: these bring JAX
     from deodar.importers import opening
     from deodar.model import files
 
@@ -167,6 +167,7 @@ def _needs(path: str) -> dict[str, Any]:
 
 def _plugins() -> list[dict[str, str]]:
     """What installed packages add, each with what is wrong with it; "" where nothing is."""
+    # start-up time: these bring JAX
     from deodar import cli, papers, registry
     from deodar.experiments.measures import MEASURES
     from deodar.figures import _panels
@@ -184,6 +185,7 @@ def _plugins() -> list[dict[str, str]]:
 
 
 def _page(found: dict[str, Any]) -> str:
+    # start-up time: these bring JAX
     from deodar.compiler import device
 
     lines = [f"deodar {found['deodar']} on Python {found['python']}, {found['system']}"]

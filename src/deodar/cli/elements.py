@@ -26,6 +26,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """The list, or one page."""
+    # start-up time: these bring JAX
     from deodar import docstring, registry
     from deodar.kinds.description import describe
     from deodar.model.parts import schema

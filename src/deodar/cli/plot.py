@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
+from deodar.errors import RecordError, did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -86,6 +87,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Draw, write and say where."""
+    # start-up time: these bring JAX
     from deodar.recording import files, places
 
     where = {path: _number(args, value) for path, value in args.where or ()}
@@ -93,6 +95,7 @@ def run(args: argparse.Namespace) -> int:
     data = files.load_record(args.record)
     names = _variables(data, args.variables)
 
+    # start-up time: these bring JAX
     from deodar.figures import _files, _panels
     from deodar.figures._view import View
 
@@ -131,7 +134,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View]) -> Figure:
     """The path in the arena in which it was recorded, and the film of it where one is wanted."""
-    from deodar.errors import RecordError
+    # start-up time: these bring JAX
     from deodar.figures import path
     from deodar.recording.repeat import world_of
 
@@ -162,7 +165,6 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
 
 
 def _variables(data: xarray.Dataset, wished: list[str]) -> list[str]:
-    from deodar.errors import RecordError, did_you_mean
 
     known = list(map(str, data.data_vars))
     if not known:

@@ -9,9 +9,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec
-from deodar.cli import _options
+from deodar import codec, papers
+from deodar.cli import _options, _rescue
 from deodar.cli._bar import Bar
+from deodar.errors import OutputError, UnknownName, did_you_mean
+from deodar.experiments.jobs import carry_out
+from deodar.experiments.rows import Rows, claim
+from deodar.model import output
+from deodar.recording import places
 
 if TYPE_CHECKING:
     from deodar.experiments.jobs import Job
@@ -30,8 +35,6 @@ RESULTS = "results.json"
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    from deodar import papers
-
     parser.epilog = EPILOG
     parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.names())}")
     parser.add_argument(
@@ -66,11 +69,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Status 1 if a required claim is false, or if the runs were stopped."""
-    from deodar import papers
+    # start-up time: these bring JAX
     from deodar.compiler.device import find
-    from deodar.errors import OutputError
-    from deodar.experiments.jobs import carry_out
-    from deodar.recording import places
     from deodar.recording.provenance import made_by
 
     _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
@@ -110,8 +110,6 @@ def _again(args: argparse.Namespace, out: Path) -> str:
 
 def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
     """The jobs of the conditions that `--only` names, all without it."""
-    from deodar.errors import UnknownName, did_you_mean
-
     conditions = sorted({key.rpartition("/")[0] for job in jobs for key in job.keys})
     for name in args.only:
         if not any(c.startswith(name) for c in conditions):
@@ -121,18 +119,14 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
 
 def _open(out: Path, about: Mapping[str, Any], by_condition: Sequence[str]) -> Rows:
     """The rows in a folder: a new one, or one that an earlier call began; another folder is left alone."""
-    from deodar.experiments.rows import Rows, claim
-
     claim(out, ROWS, "a reproduction")
     return Rows(out / ROWS, about, by_condition)
 
 
 def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Any]) -> int:
+    # start-up time: these bring JAX
     from deodar.analysis.claims import failed, results
-    from deodar.cli import _rescue
-    from deodar.errors import OutputError
     from deodar.figures import _files
-    from deodar.model import output
 
     text = results(report.claims, settings)
 

@@ -21,7 +21,7 @@ from jax import lax
 from deodar.compiler import cache
 from deodar.compiler import device as devices
 from deodar.compiler.body import Body, batched
-from deodar.compiler.layout import Layout
+from deodar.compiler.layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Chunk, Port, Program, precision_context
@@ -131,7 +131,7 @@ class Executable:
         self.plan: Plan = plan(
             doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None
         )
-        self.layout = Layout(self.plan, precision, batch.sweep)
+        self.layout = LeafLayout(self.plan, precision, batch.sweep)
         self.program = Program(self.plan, precision, self.layout.swept, body)
         self.body = body
         self.traced = 0

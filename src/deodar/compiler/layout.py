@@ -17,7 +17,7 @@ from deodar.numerics.exact import LOW, split
 Tree = Any
 
 
-class Layout:
+class LeafLayout:
     """Places of the leaves of a plan.
 
     Attributes:

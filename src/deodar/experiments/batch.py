@@ -18,7 +18,7 @@ from deodar.experiments.events import Event
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
 from deodar.experiments.observations import DIVERGED, Observations
-from deodar.experiments.reader import Place, with_readers
+from deodar.experiments.reader import ReadPlace, with_readers
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
@@ -203,12 +203,12 @@ def _blank(values: np.ndarray, good: np.ndarray) -> np.ndarray:
     return np.where(bad.reshape(*bad.shape, *[1] * (values.ndim - 2)), 0, values) if bad.any() else values
 
 
-def _place(doc: Document, view: Observable) -> Place:
+def _place(doc: Document, view: Observable) -> ReadPlace:
     entry, port = view.place(doc)
     return entry.id, port
 
 
-def _anything(doc: Document) -> Place:
+def _anything(doc: Document) -> ReadPlace:
     """The smallest thing to read where only the time is looked at."""
     if not doc.entries:
         raise ParameterError("the model is empty, so there is nothing to run")

@@ -21,7 +21,7 @@ from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.peak import position
 from deodar.parameters import Recompile
 
-Place = tuple[str, str]
+ReadPlace = tuple[str, str]
 """An element by its id, and one of its ports."""
 
 _REDUCES = {"max": jnp.max, "min": jnp.min, "sum": jnp.sum}
@@ -65,13 +65,13 @@ class Reader(Coupling):
         return {"output": _REDUCES[self.reduce](y)}
 
 
-def with_readers(doc: Document, views: Sequence[Observable]) -> tuple[Document, dict[Observable, Place]]:
+def with_readers(doc: Document, views: Sequence[Observable]) -> tuple[Document, dict[Observable, ReadPlace]]:
     """The document with a reader for each view of a field that can have one, and where each of these is read.
 
     Views of single numbers, of input ports and of whole arrays are left out: they are read as they are.
     """
     nodes = {node.id: node for node in resolve(doc)[0]}
-    at: dict[Observable, Place] = {}
+    at: dict[Observable, ReadPlace] = {}
     for view in views:
         source, port = view.place(doc)
         axes = nodes[source.id].outs.get(port) if source.id in nodes else None

@@ -50,6 +50,7 @@ def bar(
 
 def _part(name: str, low: float, high: float) -> Colormap:
     """A piece of a diverging map; -1 and 1 are its ends, 0 its middle."""
+    # start-up time: matplotlib is needed for figures only
     import matplotlib
 
     whole = matplotlib.colormaps[name]

@@ -83,6 +83,7 @@ def animate_path(
         speed: time of the record over time of the film.
         force: whether a file of that name is replaced.
     """
+    # start-up time
     from PIL import Image, ImageDraw
 
     path, looked = Path(file), variable if isinstance(variable, View) else View(variable)

@@ -26,14 +26,14 @@ from deodar.server.project import Asks
 from deodar.server.to_page import (
     Answer,
     Checked,
-    Clock,
     Costs,
     Folder,
     Gallery,
+    ListedProblem,
     Opened,
-    Problem,
-    Scene,
+    RunClock,
     Trouble,
+    WorldScene,
 )
 from deodar.server.to_server import MESSAGES, Drawn
 
@@ -116,19 +116,19 @@ class PageConnection:
             answers = [Answer(request=message.request, problems=problems)]
         except OSError as error:
             what = f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}"
-            answers = [Answer(request=message.request, problems=[Problem(what=what)])]
+            answers = [Answer(request=message.request, problems=[ListedProblem(what=what)])]
         except Exception as error:
             logging.getLogger("deodar.studio").exception("a request of the page failed")
             what = (
                 f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the"
                 " studio tells more."
             )
-            answers = [Answer(request=message.request, problems=[Problem(what=what)])]
+            answers = [Answer(request=message.request, problems=[ListedProblem(what=what)])]
         self._answers.extend(a for a in answers if message.request)
         self.page.wake()
 
     def _refuse(self, request: int, what: str) -> None:
-        self._answers.append(Answer(request=request, problems=[Problem(what=what)]))
+        self._answers.append(Answer(request=request, problems=[ListedProblem(what=what)]))
         self.page.wake()
 
     # -------------------------------------------------------------------------------------------- to the page
@@ -210,7 +210,10 @@ class PageConnection:
         return out if moved is None else [*out, moved]
 
     def _new(
-        self, what: str, message: Gallery | Trouble | Checked | Clock | Costs | Scene, out: list[Message]
+        self,
+        what: str,
+        message: Gallery | Trouble | Checked | RunClock | Costs | WorldScene,
+        out: list[Message],
     ) -> None:
         if self._known.get(what) != message:
             self._known[what] = message

@@ -15,7 +15,7 @@ from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
-from deodar.server.to_page import Clock, Costs, CostView, Gallery, Welcome
+from deodar.server.to_page import Costs, CostView, Gallery, RunClock, Welcome
 from deodar.server.workspace import Workspace
 from deodar.session.meter import Meter
 from deodar.worlds._base import World
@@ -76,11 +76,11 @@ class Hub:
         await attempt(read)
         return self._gallery
 
-    def clock(self, frame: int) -> Clock:
+    def clock(self, frame: int) -> RunClock:
         """Where the run is."""
         engine, shot, session = self.engine, self.engine.shot, self.engine.session
         hand, meter = engine.hand, Meter() if session is None else engine.pace.meter(session)
-        return Clock(
+        return RunClock(
             frame=frame,
             running=engine.running,
             time=shot.time,

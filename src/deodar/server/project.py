@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
+from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
 from deodar.importers import examples, opening
@@ -24,14 +25,13 @@ from deodar.server.checker import Checker
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper
 from deodar.server.recent_changes import RecentChanges
-from deodar.server.to_page import Changed, DocumentView, Problem
+from deodar.server.to_page import Changed, DocumentView, ListedProblem
 from deodar.server.turns import Turns
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
 from deodar.worlds._base import World
 
 Ask = Literal["unsaved", "replace"]
-Cost = Literal["live", "rebuild", "recompile"]
 
 
 class Asks(Exception):
@@ -117,7 +117,7 @@ class OpenProject:
             and view.plain(self.model.document) != self._saved
         )
 
-    def failures(self) -> list[Problem]:
+    def failures(self) -> list[ListedProblem]:
         """Why nothing runs, if so."""
         doc = None if self.model is None else self.model.document
         found, paths = self.engine.failure

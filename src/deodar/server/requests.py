@@ -133,8 +133,8 @@ async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
 # ------------------------------------------------------------------------------------------------------ edits
 
 
-@handles(to_server.Set)
-async def _set(hub: Hub, page: Page, m: to_server.Set) -> Answer:
+@handles(to_server.SetParameter)
+async def _set(hub: Hub, page: Page, m: to_server.SetParameter) -> Answer:
     gesture = (page.number, m.gesture) if m.gesture else None
     cost = await hub.project.set(m.element, m.parameter, m.value, gesture)
     return Answer(request=m.request, cost=cost)
@@ -232,14 +232,14 @@ async def _pause(hub: Hub, page: Page, m: to_server.Pause) -> None:
     await _engine(hub, page, lambda: hub.engine.play(False))
 
 
-@handles(to_server.Step)
-async def _step(hub: Hub, page: Page, m: to_server.Step) -> None:
+@handles(to_server.Advance)
+async def _step(hub: Hub, page: Page, m: to_server.Advance) -> None:
     hub.project.require_run()
     await _engine(hub, page, lambda: hub.engine.step(m.n))
 
 
-@handles(to_server.Reset)
-async def _reset(hub: Hub, page: Page, m: to_server.Reset) -> None:
+@handles(to_server.ResetRun)
+async def _reset(hub: Hub, page: Page, m: to_server.ResetRun) -> None:
     await _engine(hub, page, lambda: hub.engine.reset(m.seed))
 
 
@@ -260,8 +260,8 @@ async def _measure_costs(hub: Hub, page: Page, m: to_server.MeasureCosts) -> Non
     await _engine(hub, page, hub.engine.measure)
 
 
-@handles(to_server.Push)
-async def _push(hub: Hub, page: Page, m: to_server.Push) -> None:
+@handles(to_server.PushInput)
+async def _push(hub: Hub, page: Page, m: to_server.PushInput) -> None:
     engine = hub.engine
     session = engine.session
     entry = None if session is None else session.document.by_id().get(m.element)
@@ -281,7 +281,7 @@ async def _release(hub: Hub, page: Page, m: to_server.Release) -> None:
     await _engine(hub, page, lambda: hub.engine.inject(None))
 
 
-def _blob(axes: Axes, m: to_server.Push) -> np.ndarray:
+def _blob(axes: Axes, m: to_server.PushInput) -> np.ndarray:
     """A Gaussian over axes, or the same everywhere."""
     if not math.isfinite(m.amplitude):
         raise ParameterError("needs a finite number", where="amplitude")
@@ -350,8 +350,8 @@ async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
     hub.watch()
 
 
-@handles(to_server.Trace)
-async def _trace(hub: Hub, page: Page, m: to_server.Trace) -> None:
+@handles(to_server.WatchTrace)
+async def _trace(hub: Hub, page: Page, m: to_server.WatchTrace) -> None:
     _require_room(hub, page, m.stream)
     place = (m.element, m.port)
     page.streams[m.stream] = Stream(m.stream, place, wish=Wish(place, m.reduce, tuple(m.at)))

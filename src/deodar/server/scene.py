@@ -5,17 +5,17 @@ way.
 from __future__ import annotations
 
 from deodar.live.track import Track, Trail
-from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, Scene, SceneView
+from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, SceneView, WorldScene
 from deodar.worlds import _scene
 
 DIGITS = 6
 """Digits of a place that are sent: more than a screen shows."""
 
 
-def scene(seen: _scene.Scene | None) -> Scene:
+def scene(seen: _scene.Scene | None) -> WorldScene:
     """What stands still, unless a hand moves it."""
     if seen is None:
-        return Scene(scene=None)
+        return WorldScene(scene=None)
     boxes = [
         BoxView(
             name=b.name,
@@ -29,7 +29,7 @@ def scene(seen: _scene.Scene | None) -> Scene:
         for b in seen.boxes
     ]
     marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
-    return Scene(scene=SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks))
+    return WorldScene(scene=SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks))
 
 
 class Follower:
@@ -59,7 +59,7 @@ class Follower:
         )
 
 
-def _body(body: _scene.Body) -> BodyView:
+def _body(body: _scene.SceneBody) -> BodyView:
     return BodyView(
         name=body.name, x=body.center[0], y=body.center[1], heading=body.heading, radius=body.radius
     )

@@ -11,7 +11,7 @@ MESSAGES = Family(Message)
 """Every message to the page, registered where it is declared."""
 
 
-class Problem(Data, frozen=True):
+class ListedProblem(Data, frozen=True):
     """One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
 
     A warning stops no run.
@@ -152,7 +152,7 @@ class DocumentView(Data, frozen=True):
     groups: list[list[str]]
     knobs: list[KnobView]
     layout: dict[str, Any]
-    problems: list[Problem]
+    problems: list[ListedProblem]
     unsaved: bool
     undo: int
     redo: int
@@ -208,7 +208,7 @@ class Trouble(Message, frozen=True, tag="trouble"):
     """The file that could not be opened, with every problem in it; an empty list: no trouble any more."""
 
     file: str
-    problems: list[Problem]
+    problems: list[ListedProblem]
 
 
 @MESSAGES.register
@@ -232,11 +232,11 @@ class Checked(Message, frozen=True, tag="checked"):
     """
 
     version: int
-    problems: list[Problem]
+    problems: list[ListedProblem]
 
 
 @MESSAGES.register
-class Clock(Message, frozen=True, tag="clock"):
+class RunClock(Message, frozen=True, tag="clock"):
     """Where the run is. Sent after the frames of the same number, and whenever something changes.
 
     `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
@@ -263,7 +263,7 @@ class Clock(Message, frozen=True, tag="clock"):
     longest: float | None
     lengthened: int
     busy: str
-    failure: list[Problem]
+    failure: list[ListedProblem]
     world: str
     senses: bool
     pushing: Id
@@ -293,7 +293,7 @@ class Costs(Message, frozen=True, tag="costs"):
     measuring: bool
     step: float
     elements: list[CostView]
-    problems: list[Problem]
+    problems: list[ListedProblem]
 
 
 class BoxView(Data, frozen=True):
@@ -339,7 +339,7 @@ class SceneView(Data, frozen=True):
 
 
 @MESSAGES.register
-class Scene(Message, frozen=True, tag="scene"):
+class WorldScene(Message, frozen=True, tag="scene"):
     """The world from above, whenever something in it was moved; None: there is nothing to see from above."""
 
     scene: SceneView | None
@@ -376,7 +376,7 @@ class Lost(Message, frozen=True, tag="lost"):
     """A stream that gives nothing, and why: the element is gone, or the port cannot be read."""
 
     stream: int
-    problem: Problem
+    problem: ListedProblem
 
 
 @MESSAGES.register
@@ -402,7 +402,7 @@ class Answer(Message, frozen=True, tag="answer"):
     """
 
     request: int
-    problems: list[Problem] = []
+    problems: list[ListedProblem] = []
     ask: Literal["", "unsaved", "replace"] = ""
     cost: Literal["", "live", "rebuild", "recompile"] = ""
     file: str = ""

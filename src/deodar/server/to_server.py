@@ -112,7 +112,7 @@ class ListFolder(Request, frozen=True, kw_only=True, tag="list_folder"):
 
 
 @MESSAGES.register
-class Set(DocumentRequest, frozen=True, kw_only=True, tag="set"):
+class SetParameter(DocumentRequest, frozen=True, kw_only=True, tag="set"):
     """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter
     of that name.
 
@@ -216,14 +216,14 @@ class Pause(Request, frozen=True, kw_only=True, tag="pause"):
 
 
 @MESSAGES.register
-class Step(Request, frozen=True, kw_only=True, tag="step"):
+class Advance(Request, frozen=True, kw_only=True, tag="step"):
     """So many Euler steps, then stand still."""
 
     n: Annotated[int, msgspec.Meta(ge=1, le=1_000_000)] = 1
 
 
 @MESSAGES.register
-class Reset(Request, frozen=True, kw_only=True, tag="reset"):
+class ResetRun(Request, frozen=True, kw_only=True, tag="reset"):
     """State, time and noise back to the start; with a seed, another one from then on. Parameters stay."""
 
     seed: Seed | None = None
@@ -253,7 +253,7 @@ class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
 
 
 @MESSAGES.register
-class Push(Request, frozen=True, kw_only=True, tag="push"):
+class PushInput(Request, frozen=True, kw_only=True, tag="push"):
     """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the
     same where it is None.
     """
@@ -333,7 +333,7 @@ class Watch(Request, frozen=True, kw_only=True, tag="watch"):
 
 
 @MESSAGES.register
-class Trace(Request, frozen=True, kw_only=True, tag="trace"):
+class WatchTrace(Request, frozen=True, kw_only=True, tag="trace"):
     """Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its
     mean.
     """

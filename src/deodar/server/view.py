@@ -26,7 +26,7 @@ from deodar.server.to_page import (
     Kind,
     KnobView,
     LinkView,
-    Problem,
+    ListedProblem,
 )
 
 BESIDE = ("kind", "id", "every")
@@ -93,16 +93,18 @@ def axis(a: Axis, key: str = "") -> AxisView:
     )
 
 
-def problems(found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()) -> list[Problem]:
+def problems(
+    found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()
+) -> list[ListedProblem]:
     """Problems as the page shows them, each with the element that it belongs to: named in `where`, or in
     `paths`.
     """
     entries = doc.entries if doc is not None else ()
-    out: list[Problem] = []
+    out: list[ListedProblem] = []
     for p in found:
         concerned = [e.id for path in (p.where, *paths) for e in entries if _names(path, e.path)] or [""]
         out += [
-            Problem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity)
+            ListedProblem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity)
             for ident in dict.fromkeys(concerned)
         ]
     return out

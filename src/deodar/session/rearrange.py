@@ -7,7 +7,7 @@ from typing import Any
 
 from deodar.errors import WorldError
 from deodar.worlds._base import World
-from deodar.worlds._scene import Box, Scene
+from deodar.worlds._scene import Scene, SceneBox
 
 
 def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tuple[str, Any]:
@@ -18,7 +18,7 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
         WorldError: it does not fit there, or the world is not seen from above.
     """
     thing = scene.thing(name)
-    scene.require_room(name, center, thing.size if isinstance(thing, Box) else None)
+    scene.require_room(name, center, thing.size if isinstance(thing, SceneBox) else None)
     world.move(name, center)
     return f"world.move {name}", tuple(center)
 
@@ -36,7 +36,7 @@ def place(
 
 def remove(world: World, scene: Scene, name: str) -> tuple[str, Any]:
     """Take a thing away; refused as in `move`."""
-    if not isinstance(scene.thing(name), Box):
+    if not isinstance(scene.thing(name), SceneBox):
         raise WorldError("is a mark; it can be moved, not taken away", where=name)
     world.remove(name)
     return f"world.remove {name}", None

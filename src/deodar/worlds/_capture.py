@@ -22,6 +22,7 @@ RATE = 5
 def opencv(purpose: str) -> Any:
     """OpenCV, or an error that says how to get it."""
     try:
+        # an extra
         import cv2
     except ImportError:
         raise MissingExtra("opencv-python-headless", "vision", purpose) from None

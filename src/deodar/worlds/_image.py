@@ -53,6 +53,7 @@ def sampled(pixels: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
         raise WorldError(
             f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor
         )
+    # start-up time
     from PIL import Image
 
     at = frame((pixels.shape[1], pixels.shape[0]), axes)
@@ -67,6 +68,7 @@ def sampled(pixels: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
 
 
 def _resized(picture: Any, box: tuple[float, float, float, float], size: tuple[int, int]) -> Any:
+    # start-up time
     from PIL import Image
 
     # each side is padded by whole pixels, so that the box lies inside; what is added is black

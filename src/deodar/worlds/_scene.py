@@ -15,7 +15,7 @@ TOUCH = 1e-5
 
 
 @dataclass(frozen=True)
-class Box:
+class SceneBox:
     """Something solid that stands parallel to both axes: its middle, its size, its colour (red, green, blue,
     0 to 1); `fixed`: no hand moves it.
     """
@@ -44,7 +44,7 @@ class Mark:
 
 
 @dataclass(frozen=True)
-class Body:
+class SceneBody:
     """Something round that moves by itself: its middle, where it looks (rad; 0 along x, counter-clockwise),
     its radius.
     """
@@ -67,11 +67,11 @@ class Scene:
 
     unit: str
     border: tuple[float, float, float, float]
-    boxes: tuple[Box, ...] = ()
+    boxes: tuple[SceneBox, ...] = ()
     marks: tuple[Mark, ...] = ()
-    bodies: tuple[Body, ...] = ()
+    bodies: tuple[SceneBody, ...] = ()
 
-    def thing(self, name: str) -> Box | Mark:
+    def thing(self, name: str) -> SceneBox | Mark:
         """What a hand may move, by its name."""
         things = {thing.name: thing for thing in (*self.marks, *self.boxes)}
         if name not in things:
@@ -96,7 +96,7 @@ class Scene:
         if size is None:
             return
         here, slack = (
-            Box(name, (x, y), pair(f"{name}.size", size), (0, 0, 0)),
+            SceneBox(name, (x, y), pair(f"{name}.size", size), (0, 0, 0)),
             TOUCH * max(right - left, high - low),
         )
         for other, radius in (*((b, b.radius) for b in self.bodies), *((m, 0.0) for m in self.marks)):

@@ -96,6 +96,7 @@ def _array(pixels: np.ndarray) -> np.ndarray:
 
 
 def _read(path: Path) -> np.ndarray:
+    # start-up time
     from PIL import Image, UnidentifiedImageError
 
     if not os.path.isfile(path):

@@ -1,12 +1,12 @@
 import { expect, test } from "vitest";
-import type { Clock } from "../protocol";
+import type { RunClock } from "../protocol";
 import { fakeDocument } from "./fakes";
 import { labelOf } from "./label";
 import { troubleOf, warningOf } from "./trouble";
 
 test("the failure of the run comes before the problems of the document", () => {
   const document = fakeDocument([], [], { problems: [{ what: "axes", fix: "Project", element: "u" }] });
-  const clock = { failure: [{ what: "not finite", element: "u" }] } as Clock;
+  const clock = { failure: [{ what: "not finite", element: "u" }] } as RunClock;
   expect(troubleOf("u", { document, clock: null })).toBe("axes\nProject");
   expect(troubleOf("u", { document, clock })).toBe("not finite");
   expect(troubleOf("v", { document, clock })).toBe("");

@@ -2,7 +2,7 @@
 // but probably not as it was meant.
 
 import { isWarning } from "../pages/problems";
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { useStudio, type Studio } from "../store";
 
 type Said = Pick<Studio, "document" | "clock">;
@@ -17,7 +17,7 @@ export function useWarning(element: string): string {
 
 // The failure of the run first, then the first problem of the document.
 export function troubleOf(element: string, { document, clock }: Said): string {
-  const own = (problem: Problem) => problem.element === element && !isWarning(problem);
+  const own = (problem: ListedProblem) => problem.element === element && !isWarning(problem);
   const problem = clock?.failure.find(own) ?? document?.problems.find(own);
   return problem === undefined ? "" : text(problem);
 }
@@ -29,6 +29,6 @@ export function warningOf(element: string, { document }: Said): string {
   return found.map(text).join("\n\n");
 }
 
-function text({ what, fix }: Problem): string {
+function text({ what, fix }: ListedProblem): string {
   return [what, fix].filter((line) => line !== undefined && line !== "").join("\n");
 }

@@ -3,7 +3,7 @@
 import { Textarea } from "@mantine/core";
 import { useState } from "react";
 
-import type { Describe, Problem } from "../protocol";
+import type { Describe, ListedProblem } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
 import { AxisLines } from "./forms/AxisLines";
@@ -18,7 +18,7 @@ import { timeText } from "./unit";
 export function DocumentInspector() {
   const document = useStudio((state) => state.document);
   const dt = useStudio((state) => state.clock?.dt);
-  const [problem, setProblem] = useState<Problem | null>(null);
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
   const [notes, setNotes] = useState<string | null>(null);
   if (document === null) {
     return null;

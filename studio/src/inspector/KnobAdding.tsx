@@ -4,7 +4,7 @@
 import { Button, Select, TextInput } from "@mantine/core";
 import { useMemo, useState, type FormEvent } from "react";
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
 import { useLateFocus } from "./lateFocus";
@@ -19,7 +19,7 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
   const field = useLateFocus();
   const [typed, setTyped] = useState("");
   const [chosen, setChosen] = useState<string | null>(null);
-  const [problem, setProblem] = useState<Problem | null>(null);
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
   const options = useOptions();
   const onSubmit = async (event: FormEvent) => {
     event.preventDefault();

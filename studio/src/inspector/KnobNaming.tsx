@@ -3,7 +3,7 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type FormEvent } from "react";
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { socket } from "../socket";
 import { useLateFocus } from "./lateFocus";
 import { ProblemLine } from "./ProblemLine";
@@ -13,7 +13,7 @@ type KnobNamingProps = { element: string; path: string; suggestion: string; onDo
 export function KnobNaming({ element, path, suggestion, onDone }: KnobNamingProps) {
   const field = useLateFocus();
   const [name, setName] = useState(suggestion);
-  const [problem, setProblem] = useState<Problem | null>(null);
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
   const onSubmit = async (event: FormEvent) => {
     event.preventDefault();
     const { answer } = await socket.ask({ type: "add_knob", name: name.trim(), element, parameter: path });

@@ -4,7 +4,7 @@
 import { TextInput } from "@mantine/core";
 import { useState, type KeyboardEvent } from "react";
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { numberText, typedNumber } from "./number";
 
 export type NumberBoxProps = {
@@ -19,7 +19,7 @@ export type NumberBoxProps = {
   onCommit: (value: number | null) => Promise<boolean>;
   onStep?: (direction: 1 | -1, coarse: boolean) => void;
   onForget: () => void;
-  onComplain: (problem: Problem) => void;
+  onComplain: (problem: ListedProblem) => void;
   onLeave?: () => void;
 };
 

@@ -2,7 +2,7 @@
 
 import { useCallback, useEffect, useRef, useState } from "react";
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { numberText } from "./number";
 import { NumberBox } from "./NumberBox";
 import { ProblemLine } from "./ProblemLine";
@@ -35,7 +35,7 @@ export function NumberControl({
   onRange,
 }: NumberControlProps) {
   const { value, problem, commit, move, end, nudge, forget } = setting;
-  const [complaint, setComplaint] = useState<Problem | null>(null);
+  const [complaint, setComplaint] = useState<ListedProblem | null>(null);
   const shown = useCalmRange(range, rangeKey, value);
   const wrong = complaint ?? problem;
   const later = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);

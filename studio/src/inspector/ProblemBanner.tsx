@@ -3,7 +3,7 @@
 import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
 
 import { isWarning } from "../pages/problems";
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 
 export function ProblemBanner({ element }: { element: string }) {
@@ -15,7 +15,7 @@ export function ProblemBanner({ element }: { element: string }) {
       ),
     ),
   );
-  const problems = JSON.parse(found) as Problem[];
+  const problems = JSON.parse(found) as ListedProblem[];
   if (problems.length === 0) {
     return null;
   }

@@ -1,8 +1,8 @@
 // What is wrong with the last try, beside the field.
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 
-export function ProblemLine({ problem }: { problem: Problem | null }) {
+export function ProblemLine({ problem }: { problem: ListedProblem | null }) {
   return (
     <div className="problem-line" role="alert" hidden={problem === null}>
       {problem !== null &&

@@ -4,13 +4,13 @@
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 
 import { Gesture } from "../gesture";
-import type { Answer, ParameterForm, Problem } from "../protocol";
+import type { Answer, ParameterForm, ListedProblem } from "../protocol";
 import { socket } from "../socket";
 import { noteChange } from "./lastChange";
 
 export type Setting<T = unknown> = {
   value: T;
-  problem: Problem | null;
+  problem: ListedProblem | null;
   // Send a value at once; true where it was taken.
   commit: (value: T) => Promise<boolean>;
   // A value while a pointer drags, and the end of the drag.
@@ -30,7 +30,7 @@ export function useSetting<T>(
   cost: ParameterForm["cost"],
 ): Setting<T> {
   const [own, setOwn] = useState<{ value: T } | null>(null);
-  const [problem, setProblem] = useState<Problem | null>(null);
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
   const latest = useRef<{ value: T } | null>(null);
 
   const send = useCallback(

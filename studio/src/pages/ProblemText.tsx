@@ -1,10 +1,10 @@
 // One thing that is wrong: where, what, what to do about it.
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { isWarning } from "./problems";
 import classes from "./ProblemText.module.css";
 
-export function ProblemText({ problem }: { problem: Problem }) {
+export function ProblemText({ problem }: { problem: ListedProblem }) {
   return (
     <div className={classes.problem}>
       {problem.where !== undefined && problem.where !== "" && (

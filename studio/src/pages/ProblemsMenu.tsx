@@ -3,13 +3,13 @@
 import { Button, Popover, UnstyledButton } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 import { countText, isWarning } from "./problems";
 import { ProblemText } from "./ProblemText";
 import classes from "./ProblemsMenu.module.css";
 
-const NONE: Problem[] = [];
+const NONE: ListedProblem[] = [];
 
 export function ProblemsMenu() {
   const problems = useStudio((state) => state.document?.problems ?? NONE);
@@ -46,7 +46,7 @@ export function ProblemsMenu() {
   );
 }
 
-function Entry({ problem }: { problem: Problem }) {
+function Entry({ problem }: { problem: ListedProblem }) {
   const element = problem.element ?? "";
   if (element === "") {
     return (

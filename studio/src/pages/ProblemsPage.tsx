@@ -4,7 +4,7 @@ import { Button, Group } from "@mantine/core";
 import { IconArrowLeft, IconFileAlert, IconRefresh } from "@tabler/icons-react";
 import { useState } from "react";
 
-import type { Problem, Trouble } from "../protocol";
+import type { ListedProblem, Trouble } from "../protocol";
 import { useStudio } from "../store";
 import { ProblemText } from "./ProblemText";
 import { leave } from "./flows";
@@ -65,7 +65,7 @@ export function ProblemsPage({ trouble }: { trouble: Trouble }) {
 }
 
 // The file is named above; where in it is what matters here.
-function within(file: string, problem: Problem): Problem {
+function within(file: string, problem: ListedProblem): ListedProblem {
   const where = problem.where ?? "";
   return {
     ...problem,

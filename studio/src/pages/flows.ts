@@ -8,7 +8,7 @@ import type {
   OpenFile,
   OpenPackage,
   OpenText,
-  Problem,
+  ListedProblem,
   Recover,
 } from "../protocol";
 import { request, socket } from "../socket";
@@ -151,7 +151,7 @@ export function done(answer: Answer): boolean {
   return problems.length === 0;
 }
 
-function refuse(problem: Problem): boolean {
+function refuse(problem: ListedProblem): boolean {
   useStudio.getState().notify(problem);
   return false;
 }

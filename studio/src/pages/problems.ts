@@ -1,13 +1,13 @@
 // Problems and warnings, counted in words and told apart.
 
-import type { Problem } from "../protocol";
+import type { ListedProblem } from "../protocol";
 
-export function isWarning(problem: Problem): boolean {
+export function isWarning(problem: ListedProblem): boolean {
   return problem.severity === "warning";
 }
 
 // "1 problem, 2 warnings"; empty without either.
-export function countText(found: readonly Problem[]): string {
+export function countText(found: readonly ListedProblem[]): string {
   const warnings = found.filter(isWarning).length;
   return [counted(found.length - warnings, "problem"), counted(warnings, "warning")]
     .filter((text) => text !== "")

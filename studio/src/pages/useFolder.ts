@@ -2,10 +2,10 @@
 
 import { useEffect, useState } from "react";
 
-import type { Folder, Problem } from "../protocol";
+import type { Folder, ListedProblem } from "../protocol";
 import { socket } from "../socket";
 
-type Listing = { folder: Folder | null; problem: Problem | null };
+type Listing = { folder: Folder | null; problem: ListedProblem | null };
 
 const WAITING: Listing = { folder: null, problem: null };
 

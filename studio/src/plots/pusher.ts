@@ -1,16 +1,16 @@
 // An input that a person adds to an element while a button is held: sent to the server at most once for each
 // picture of the browser.
 
-import type { Push, Release } from "../protocol";
+import type { PushInput, Release } from "../protocol";
 
 export type Spot = { center: number[] | null; sigma: number[] | null; amplitude: number };
 
 export class Pusher {
   private held: string | null = null;
-  private next: Push | null = null;
+  private next: PushInput | null = null;
   private due = 0;
 
-  constructor(private send: (message: Push | Release) => void) {}
+  constructor(private send: (message: PushInput | Release) => void) {}
 
   get pushing(): boolean {
     return this.held !== null;

@@ -2,7 +2,7 @@
 // component renders again only when what the streams hold changes.
 
 import { useEffect, useState } from "react";
-import type { Announced, Problem } from "../protocol";
+import type { Announced, ListedProblem } from "../protocol";
 import { socket } from "../socket";
 import type { Live, Wish } from "../streams";
 import { useLatest } from "./useLatest";
@@ -11,7 +11,7 @@ export type Streaming = {
   // What each stream holds; null as long as it is not known.
   forms: (Announced | null)[];
   // Why a stream gives nothing, if one does not.
-  lost: Problem | null;
+  lost: ListedProblem | null;
   // Whether anything came yet.
   seen: boolean;
 };

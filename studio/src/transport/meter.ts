@@ -1,10 +1,10 @@
 // How well the run keeps to real time, in words.
 
-import type { Clock } from "../protocol";
+import type { RunClock } from "../protocol";
 import { countText, unitText } from "./format";
 
 export type Kept = Pick<
-  Clock,
+  RunClock,
   "running" | "speed" | "dt" | "steps" | "lag" | "worst" | "lost" | "overruns" | "longest" | "lengthened"
 >;
 

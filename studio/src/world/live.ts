@@ -1,7 +1,7 @@
 // The world as the server showed it last: its objects, the positions of its bodies, and their paths.
 // Many pictures a second pass through here, so that React renders only static parts.
 
-import type { Bodies, BodyView, Scene, SceneView } from "../protocol";
+import type { Bodies, BodyView, WorldScene, SceneView } from "../protocol";
 
 export type Seen = { scene: SceneView | null; bodies: BodyView[]; way: number[][] };
 
@@ -21,7 +21,7 @@ export class LiveWorld {
     return () => this.listeners.delete(listener);
   };
 
-  take(message: Scene | Bodies): void {
+  take(message: WorldScene | Bodies): void {
     if (message.type === "scene") {
       this.seen = { ...this.seen, scene: message.scene };
     } else {

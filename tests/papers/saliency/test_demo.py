@@ -45,7 +45,7 @@ def test_another_seed_and_a_wrong_mark_shows() -> None:
     """The claim is computed: with the box elsewhere it is false."""
     chelsea = next(s for s in photographs() if s.name == "chelsea")
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
-    scene = scenes.Scene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
+    scene = scenes.CueScene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
     result = look(scene, seed=11)
     assert [c.holds for c in claims(result)] == [True, True, True, True, True, False, True, False, False]
     assert "1 of 2 cued colours" in sentence([result])

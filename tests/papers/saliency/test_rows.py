@@ -11,12 +11,12 @@ import xarray
 from deodar import papers
 from deodar.experiments.rows import Row
 from deodar.papers.saliency import targets, trials
-from deodar.papers.saliency.scenes import Outcome, Result, Scene
+from deodar.papers.saliency.scenes import CueScene, Outcome, SceneResult
 
 PAPER = papers.paper("saliency")
 
 
-def ideal(scene: Scene) -> Result:
+def ideal(scene: CueScene) -> SceneResult:
     """A result as the marks ask for: a peak at the middle of the region of a present colour, else none."""
     outcomes: list[Outcome] = []
     for cue in scene.cues:
@@ -24,10 +24,10 @@ def ideal(scene: Scene) -> Result:
         places = tuple(p for p in [inside(cue.holds, scene)] if corners)
         at = places[0] if places else (40.0, 40.0)
         outcomes.append(Outcome(cue, places, places, places, at, 0.5 if places else None, 0.0))
-    return Result(scene, -1.0, tuple(outcomes), record=xarray.Dataset())
+    return SceneResult(scene, -1.0, tuple(outcomes), record=xarray.Dataset())
 
 
-def inside(holds: Callable[[tuple[float, float]], bool], scene: Scene) -> tuple[float, float]:
+def inside(holds: Callable[[tuple[float, float]], bool], scene: CueScene) -> tuple[float, float]:
     """A pixel in a region."""
     width, height = scene.picture.size
     found = ((float(x), float(y)) for x in range(0, width, 5) for y in range(0, height, 5) if holds((x, y)))

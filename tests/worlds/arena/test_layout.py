@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from deodar.errors import WorldError
-from deodar.worlds.arena.layout import Layout, builtin, load
+from deodar.worlds.arena.layout import ArenaLayout, builtin, load
 
 ROOM: dict[str, Any] = {
     "arena": {"x": [0, 2], "y": [0, 1]},
@@ -153,4 +153,4 @@ def test_files_that_are_no_arena(tmp_path: Path, text: str, says: str) -> None:
 
 
 def test_a_layout_is_data() -> None:
-    assert isinstance(load("z"), Layout) and load("z") == load("z")
+    assert isinstance(load("z"), ArenaLayout) and load("z") == load("z")

@@ -33,6 +33,7 @@ __getattr__ = papers.files(__name__)
 
 def about(quick: bool) -> dict[str, Any]:
     """What makes the design: rows of another one are not mixed with its own."""
+    # start-up time: these bring JAX
     from deodar.papers.saliency import scenes, trials
 
     cues = {s.name: [[c.hue, c.expect] for c in s.cues] for s in trials.scenes(quick)}
@@ -41,6 +42,7 @@ def about(quick: bool) -> dict[str, Any]:
 
 def jobs(quick: bool) -> Sequence[Job]:
     """One job for each photograph; three photographs where it is to be quick, fifteen otherwise."""
+    # start-up time: these bring JAX
     from deodar.papers.saliency import trials
 
     return trials.jobs(quick)
@@ -53,6 +55,7 @@ def kept(row: Row) -> Row:
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
     """Claims and the overview of the photographs that were run."""
+    # start-up time: these bring JAX
     from deodar.figures.cues import overview
     from deodar.papers._report import Report
     from deodar.papers.saliency import targets, trials

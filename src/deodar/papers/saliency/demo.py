@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from deodar.papers import Demonstration, Show
 
 if TYPE_CHECKING:
-    from deodar.papers.saliency.scenes import Result, Scene
+    from deodar.papers.saliency.scenes import CueScene, SceneResult
 
 HELP = "a colour cue selects an object in a photograph"
 
@@ -51,6 +51,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, show: Show) -> Demonstration:
     """Run all cues on each picture."""
+    # start-up time: these bring JAX
     from deodar.figures._files import save_figure
     from deodar.figures.cues import overview
     from deodar.papers.saliency import targets
@@ -58,7 +59,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     from deodar.recording import files
 
     scenes = _scenes(args)
-    done: list[Result] = []
+    done: list[SceneResult] = []
     drawn = []
     for k, scene in enumerate(scenes):
         words = f"examining {scene.title}"
@@ -89,7 +90,8 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     )
 
 
-def _scenes(args: argparse.Namespace) -> list[Scene]:
+def _scenes(args: argparse.Namespace) -> list[CueScene]:
+    # start-up time: these bring JAX
     from deodar.papers.saliency import scenes
     from deodar.worlds.camera import Camera
 

@@ -69,7 +69,7 @@ class Cue:
 
 
 @dataclass(frozen=True)
-class Scene:
+class CueScene:
     """A picture and the cues to be tried on it.
 
     Of a video or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether
@@ -129,13 +129,13 @@ class Found:
     Before it is run `quiet` is None, and there are no outcomes.
     """
 
-    scene: Scene
+    scene: CueScene
     quiet: float | None = None
     outcomes: tuple[Outcome, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
-class Result(Found):
+class SceneResult(Found):
     """A scene that was run, with its record over time."""
 
     record: xarray.Dataset
@@ -166,7 +166,7 @@ def _inside(place: tuple[float, float], outline: Outline) -> bool:
     return inside
 
 
-def photographs(untuned: bool = False) -> list[Scene]:
+def photographs(untuned: bool = False) -> list[CueScene]:
     """The photographs that come with deodar, with what a person marked in them.
 
     Args:
@@ -177,7 +177,7 @@ def photographs(untuned: bool = False) -> list[Scene]:
     if untuned:
         folder = folder / "untuned"
     marks: dict[str, Any] = codec.parse((folder / "marks.json").read_text())
-    scenes: list[Scene] = []
+    scenes: list[CueScene] = []
     for name, entry in marks.items():
         with resources.as_file(folder / entry["picture"]) as path:
             picture = Picture(path)
@@ -185,7 +185,7 @@ def photographs(untuned: bool = False) -> list[Scene]:
             Cue(c["hue"], c["name"], c["expect"], c.get("object", ""), _outlines(c.get("outlines", [])))
             for c in entry["cues"]
         ]
-        scenes.append(Scene(name, entry["title"], picture, tuple(cues), tuned=not untuned))
+        scenes.append(CueScene(name, entry["title"], picture, tuple(cues), tuned=not untuned))
     return scenes
 
 
@@ -193,19 +193,19 @@ def _outlines(corners: Sequence[Sequence[Sequence[float]]]) -> tuple[Outline, ..
     return tuple(tuple((float(x), float(y)) for x, y in outline) for outline in corners)
 
 
-def own(file: Path, hues: Sequence[float]) -> Scene:
+def own(file: Path, hues: Sequence[float]) -> CueScene:
     """A picture of one's own, without marks."""
     cues = _cues(hues)
-    return Scene(file.stem, file.name, Picture(file), cues)
+    return CueScene(file.stem, file.name, Picture(file), cues)
 
 
-def filmed(file: Path, hues: Sequence[float]) -> Scene:
+def filmed(file: Path, hues: Sequence[float]) -> CueScene:
     """A video of one's own, from its beginning; after its end its last picture stays."""
     cues, film = _cues(hues), Video(file, period=PERIOD)
-    return Scene(file.stem, file.name, Picture(film.picture(DURATION)), cues, film)
+    return CueScene(file.stem, file.name, Picture(film.picture(DURATION)), cues, film)
 
 
-def watched(camera: Camera, hues: Sequence[float]) -> Scene:
+def watched(camera: Camera, hues: Sequence[float]) -> CueScene:
     """What a camera sees for as long as a run lasts, recorded by the wall clock, so that all cues are
     tried on the same.
     """
@@ -221,7 +221,7 @@ def watched(camera: Camera, hues: Sequence[float]) -> Scene:
 
     try:
         seen = simulate(eye, DURATION, record="eye.output", world=camera, progress=wait)
-        return Scene("camera", f"camera {camera.number}", Picture(camera.picture()), cues, Recording(seen))
+        return CueScene("camera", f"camera {camera.number}", Picture(camera.picture()), cues, Recording(seen))
     finally:
         camera.close()
 
@@ -236,8 +236,8 @@ def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
 
 
 def look(
-    scene: Scene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None
-) -> Result:
+    scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None
+) -> SceneResult:
     """All cues of a scene as one batch: first half a second without a cue, then three seconds with it.
 
     Args:
@@ -258,10 +258,10 @@ def look(
     step()
     before = record["seen.output"].sel(time=record["time"] < CUE_AT)
     outcomes = tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues)))
-    return Result(scene, float(before.max()), outcomes, record=record)
+    return SceneResult(scene, float(before.max()), outcomes, record=record)
 
 
-def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int) -> Outcome:
+def _outcome(scene_: CueScene, record: xarray.Dataset, end: xarray.Dataset, k: int) -> Outcome:
     x, y, hues = scene()
     point = {"cue.center": k}
     found = peaks(end["perceptual.activation"].isel(point).values, [x, y, hues])
@@ -276,5 +276,5 @@ def _outcome(scene_: Scene, record: xarray.Dataset, end: xarray.Dataset, k: int)
     return Outcome(scene_.cues[k], places, spatial_places, positions, pixels, gap, moved)
 
 
-def _places(scene: Scene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
+def _places(scene: CueScene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
     return tuple(scene.picture.to_pixels(axes, p.position[0], p.position[1]) for p in found)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.papers.saliency.scenes import Found, Outcome, Scene, look, photographs
+from deodar.papers.saliency.scenes import CueScene, Found, Outcome, look, photographs
 
 COST = 15.0
 """About how long a photograph takes, s."""
@@ -15,7 +15,7 @@ MEASURED = ("places", "spatial_places", "spatial", "motor", "gap", "moved")
 """Entries of a row that are attributes of an `Outcome`."""
 
 
-def scenes(quick: bool) -> list[Scene]:
+def scenes(quick: bool) -> list[CueScene]:
     """The photographs on which the parameters were found, and, unless it is to be quick, the untuned ones."""
     return [*photographs(), *([] if quick else photographs(untuned=True))]
 
@@ -47,7 +47,7 @@ def found(rows: Mapping[str, Row], quick: bool) -> list[Found]:
     return [_found(s, [rows[key] for key in _keys(s) if key in rows]) for s in scenes(quick)]
 
 
-def _found(scene: Scene, rows: Sequence[Row]) -> Found:
+def _found(scene: CueScene, rows: Sequence[Row]) -> Found:
     if len(rows) < len(scene.cues):
         return Found(scene)
     outcomes = tuple(
@@ -69,5 +69,5 @@ def _pairs(places: Sequence[Sequence[float]]) -> tuple[tuple[float, float], ...]
     return tuple((x, y) for x, y in places)
 
 
-def _keys(scene: Scene) -> tuple[str, ...]:
+def _keys(scene: CueScene) -> tuple[str, ...]:
     return tuple(f"{scene.name}/{k}" for k in range(len(scene.cues)))

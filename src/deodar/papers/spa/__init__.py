@@ -39,6 +39,7 @@ __getattr__ = papers.files(__name__)
 
 def about(quick: bool) -> dict[str, Any]:
     """What makes the design: rows of another one are not mixed with its own."""
+    # start-up time: these bring JAX
     from deodar.papers.spa import cases
 
     return {"paper": "spa", "quick": quick, **cases.design(quick)}
@@ -46,6 +47,7 @@ def about(quick: bool) -> dict[str, Any]:
 
 def jobs(quick: bool) -> Sequence[Job]:
     """All trials, the quick ones first."""
+    # start-up time: these bring JAX
     from deodar.papers.spa import trials
 
     return trials.jobs(quick)
@@ -61,6 +63,7 @@ def kept(row: Row) -> Row:
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
     """Claims, figures, tables and numbers of the trials that are there."""
+    # start-up time: these bring JAX
     from deodar.papers._report import Report
     from deodar.papers.spa import figures, sentences, tables, targets, variations
     from deodar.papers.spa.runs import Runs

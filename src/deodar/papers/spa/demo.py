@@ -33,6 +33,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, show: Show) -> Demonstration:
     """Run the narrative of the paper, or drive through the maze that is given."""
+    # start-up time: these bring JAX
     from deodar.architectures.spa import DIRECTIONS, maze
     from deodar.figures._files import save_figure
     from deodar.figures.film import film

@@ -76,7 +76,7 @@ SITES = (0, 500, 850, 1250)
 
 
 @dataclass(frozen=True)
-class Result:
+class Narrative:
     """One run, and what happened when, in steps; None: it did not.
 
     Attributes:
@@ -140,7 +140,7 @@ class Result:
         return plan_figure(self)
 
 
-def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Result:
+def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Narrative:
     """Case 3 of the paper with the obstacle that closes the northern route, at low noise."""
     arena = maze("z")
     center, size = OBSTACLES["full"]
@@ -157,7 +157,7 @@ def drive(
     seed: int = 0,
     duration: int = LONGEST,
     done: Callable[[int], None] = lambda _: None,
-) -> Result:
+) -> Narrative:
     """A run in any maze, which is made by `dd.architectures.maze`; nothing comes on the way."""
     if arena.goals is None:
         raise WorldError("the maze has no goal", where=arena.source, fix="Give one: --goal X Y, in cm")
@@ -170,7 +170,7 @@ def drive(
     return dc.replace(found, told=False)
 
 
-def read(record: xarray.Dataset, arena: Arena) -> Result:
+def read(record: xarray.Dataset, arena: Arena) -> Narrative:
     """What happened in a record, and when."""
     pose, times = record["pose.output"].values, record["time"].values
     assert arena.goals is not None
@@ -188,14 +188,14 @@ def read(record: xarray.Dataset, arena: Arena) -> Result:
     planned, left, north, south, arrived = (
         None if k is None else round(float(times[k])) for k in (planned, left, north, south, arrived)
     )
-    return Result(record, arena, planned, left, north, south, arrived)
+    return Narrative(record, arena, planned, left, north, south, arrived)
 
 
 def _first(holds: np.ndarray) -> int | None:
     return int(np.argmax(holds)) if holds.any() else None
 
 
-def claims(result: Result) -> list[Claim]:
+def claims(result: Narrative) -> list[Claim]:
     """What is claimed of the run, computed from it. Of a maze of one's own nothing is required."""
     r = result
     if not r.told:
@@ -258,7 +258,7 @@ def claims(result: Result) -> list[Claim]:
     ]
 
 
-def _reported(r: Result) -> list[Claim]:
+def _reported(r: Narrative) -> list[Claim]:
     gone = path_until(r.path, r.goal, NEAR)
     path = None if gone is None else round(path_length(gone), 1)
     arrives = f"it arrives within {NEAR:g} cm of the goal, at step"
@@ -274,7 +274,7 @@ def _within(value: int | None, target: float, share: float) -> bool:
     return value is not None and abs(value - target) <= share * target
 
 
-def sentence(result: Result) -> str:
+def sentence(result: Narrative) -> str:
     """The outcome in one line of plain words."""
     said: Sequence[tuple[str, int | None]] = (
         ("planned", result.planned),

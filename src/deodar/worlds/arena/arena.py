@@ -21,7 +21,7 @@ from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld, Tree
-from deodar.worlds._scene import Body, Box, Mark, Scene
+from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
 from deodar.worlds.arena.asked import asked
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
@@ -243,7 +243,7 @@ class Arena(PureWorld):
         scale, k = self.scale, trials[0]
         standing = self.furniture.there(now, k)
         boxes = tuple(
-            Box(
+            SceneBox(
                 t.name,
                 (t.center[0] / scale, t.center[1] / scale),
                 (t.size[0] / scale, t.size[1] / scale),
@@ -256,7 +256,7 @@ class Arena(PureWorld):
             Mark(GOAL if len(goals) == 1 else f"{GOAL} {n}", goal, len(goals) > 1)
             for n, goal in enumerate(goals)
         )
-        bodies: list[Body] = []
+        bodies: list[SceneBody] = []
         if state is not None:
             places, headings, name = (
                 np.asarray(state["position"]) / scale,
@@ -266,7 +266,7 @@ class Arena(PureWorld):
             for n, trial in enumerate(trials):
                 called = name if len(trials) == 1 else f"{name} {trial}"
                 bodies.append(
-                    Body(
+                    SceneBody(
                         called,
                         (float(places[n, 0]), float(places[n, 1])),
                         float(headings[n]),

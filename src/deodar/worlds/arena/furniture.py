@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from deodar.errors import UnknownName, WorldError, did_you_mean
-from deodar.worlds.arena.layout import Layout, Thing, make
+from deodar.worlds.arena.layout import ArenaLayout, Thing, make
 from deodar.worlds.arena.places import of, rows_of
 from deodar.worlds.arena.view import OUTSIDE
 
@@ -33,7 +33,7 @@ class Furniture:
             row, or one for each trial.
     """
 
-    def __init__(self, layout: Layout, period: float) -> None:
+    def __init__(self, layout: ArenaLayout, period: float) -> None:
         self.border = layout.border
         self.period = period
         self.room = len(layout.things) + SPARE

@@ -53,7 +53,7 @@ class Thing:
 
 
 @dataclass(frozen=True)
-class Layout:
+class ArenaLayout:
     """An arena: its inner faces, what stands in it, where a vehicle starts and where it is to go.
 
     Attributes:
@@ -90,7 +90,7 @@ def builtin() -> dict[str, Any]:
     return found
 
 
-def load(source: str | Path | Mapping[str, Any]) -> Layout:
+def load(source: str | Path | Mapping[str, Any]) -> ArenaLayout:
     """A layout from data, from the name of an arena that comes with deodar, or from `FILE` or `FILE#NAME`.
 
     Raises:
@@ -157,7 +157,7 @@ class _Faults(list[Problem]):
         return float(numbers[0] or 0), float(numbers[1] or 0)
 
 
-def _layout(data: Any, where: str) -> Layout:
+def _layout(data: Any, where: str) -> ArenaLayout:
     faults = _Faults(where)
     if not isinstance(data, Mapping):
         raise WorldError(f"is {show(data)}; an arena is an object with walls", where=where)
@@ -192,7 +192,7 @@ def _layout(data: Any, where: str) -> Layout:
     )
     if faults or border is None:
         raise WorldError(faults)
-    return Layout(border, things, None if start is None else (*start, float(heading or 0)), goal)
+    return ArenaLayout(border, things, None if start is None else (*start, float(heading or 0)), goal)
 
 
 def _border(

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.worlds.arena.layout import Layout
+from deodar.worlds.arena.layout import ArenaLayout
 
 FINE = 8
 """Cells of the grid in one radius of the disc."""
@@ -22,7 +22,7 @@ class Room:
     reach certainly is.
     """
 
-    def __init__(self, layout: Layout, radius: float, boxes: np.ndarray) -> None:
+    def __init__(self, layout: ArenaLayout, radius: float, boxes: np.ndarray) -> None:
         left, low, right, high = layout.border
         self.border, self.boxes, self.radius = layout.border, np.asarray(boxes, float).reshape(-1, 4), radius
         self.cell = max(radius / FINE, float(np.sqrt((right - left) * (high - low) / MOST_CELLS)))
@@ -58,6 +58,7 @@ class Room:
     def joined(self, start: Sequence[float], goal: Sequence[float]) -> bool:
         """Whether the middle of the disc gets from one place to within its radius of another."""
         if self._labels is None:
+            # start-up time
             from scipy.ndimage import label
 
             found: Any = label(self.gap > -self.cell, np.ones((3, 3)))
