@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import ast
 import dataclasses as dc
+import itertools
 import json
 import re
 import subprocess
@@ -150,27 +151,30 @@ def crowded(modules: Trees) -> list[str]:
 
 
 def inner_imports(root: Path, modules: Trees) -> list[str]:
-    """Imports in functions without a comment that says why: on the line, or above it or its neighbours."""
+    """Imports in functions without a comment that says why: in or above a run of them."""
     found: list[str] = []
     for path, module in modules.items():
         lines = (root / path).read_text(encoding="utf-8").splitlines()
         for function in ast.walk(module):
-            if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
-                continue
-            for node in ast.walk(function):
-                if isinstance(node, ast.Import | ast.ImportFrom) and not _explained(lines, node.lineno - 1):
-                    found.append(f"{path}:{node.lineno}")
+            if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+                for run in _runs(function):
+                    if "#" not in "".join(lines[run[0].lineno - 2 : run[-1].end_lineno]):
+                        found += [f"{path}:{node.lineno}" for node in run]
     return sorted(set(found))
 
 
-def _explained(lines: Sequence[str], at: int) -> bool:
-    if "#" in lines[at]:
-        return True
-    while at > 0 and re.match(r"\s*(from|import) ", lines[at]):
-        at -= 1
-        if "#" in lines[at]:
-            return True
-    return False
+def _runs(function: ast.AST) -> Iterator[list[ast.stmt]]:
+    """Imports of a function that follow each other."""
+    for node in ast.walk(function):
+        for name in ("body", "orelse", "finalbody"):
+            body = getattr(node, name, None)
+            for imports, run in itertools.groupby(body if isinstance(body, list) else (), _imports):
+                if imports:
+                    yield list(run)
+
+
+def _imports(node: ast.AST) -> bool:
+    return isinstance(node, ast.Import | ast.ImportFrom)
 
 
 # ---------------------------------------------------------------------------------------------------- imports

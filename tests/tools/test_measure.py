@@ -73,9 +73,10 @@ def test_an_import_in_a_function_needs_a_reason(measure: ModuleType, tmp_path: P
     root = package(
         tmp_path,
         a="def f():\n    # an extra\n    import cv2\n    import zmq\n"
-        "def g():\n    import json\n    import re  # why\n",
+        "def g():\n    import json\n\n    import re  # why\n"
+        "def h():\n    import json\n",
     )
-    assert measure.inner_imports(root, measure.trees(root)) == ["a.py:6"]
+    assert measure.inner_imports(root, measure.trees(root)) == ["a.py:10"]
 
 
 def test_the_words_of_the_optimiser_are_found_in_physics(measure: ModuleType, tmp_path: Path) -> None:

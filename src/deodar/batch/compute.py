@@ -151,9 +151,8 @@ def compute(
                 raise
             store.fill()
             nothing = error
-    from deodar.recording.diverged import (
-        marked,
-    )  # these import xarray, which takes 0.3 s: sessions do without
+    # start-up time: these import xarray, which takes 0.3 s; sessions do without
+    from deodar.recording.diverged import marked
     from deodar.recording.record import dataset
 
     times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)

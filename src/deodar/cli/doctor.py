@@ -10,8 +10,6 @@ import platform
 import re
 from typing import Any
 
-import psutil
-
 from deodar import __version__, codec
 from deodar.cli import _sbom
 from deodar.errors import DocumentError
@@ -104,6 +102,9 @@ def _plans(as_json: bool) -> int:
 
 def examine() -> dict[str, Any]:
     """Everything as plain data."""
+    # start-up time
+    import psutil
+
     # start-up time: these bring JAX
     from deodar.compiler import cache, device
 

@@ -116,9 +116,8 @@ def _profile(axes: Any, found: Regimes, pattern: np.ndarray, color: str, style: 
 
 
 def _phases(axes: Any, found: Regimes) -> None:
-    from deodar.analysis.phase import (
-        phase,  # start-up time: it brings the engine, other figures do not need it
-    )
+    # start-up time: it brings the engine, other figures do not need it
+    from deodar.analysis.phase import phase
 
     field = found.isolated.field
     inputs = [(0.0, COLOR.interval, "no input")]
