@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
+from jax import Array, lax
 
 from deodar import renamed
 from deodar.errors import ModelError
@@ -32,7 +32,7 @@ from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.signs import Sign
 from deodar.parameters import Part, Recompile
 
-Arrays = dict[str, Any]
+Arrays = dict[str, Array]
 
 
 @dc.dataclass(frozen=True)
@@ -317,13 +317,13 @@ class Element(Part):
         return constants
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         """Every output port at time t."""
         raise NotImplementedError
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         """The state at t + dt. `noise` holds standard normal deviates over `noise_axes`, or None."""
         return state
@@ -332,7 +332,9 @@ class Element(Part):
         """Output ports that show NaN where they have no value yet. Only these may do so in a record."""
         return ()
 
-    def inject(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+    def inject(
+        self, state: Mapping[str, np.ndarray], amount: np.ndarray | float, dt: float
+    ) -> Mapping[str, np.ndarray] | None:
         """Return the state after a step as if its input had been larger by `amount` (over the axes); for
         external inputs to a running model.
 

@@ -8,6 +8,8 @@ import dataclasses as dc
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from jax import Array
+
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.model.resolve import Node
 from deodar.numerics import interaction
@@ -40,7 +42,7 @@ class StepArguments(NamedTuple):
     state: Arrays
     inputs: Arrays
     constants: Constants
-    noise: Any
+    noise: Array | None
 
 
 class Functions:

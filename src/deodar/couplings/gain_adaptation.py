@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, cell, shape
@@ -88,7 +89,7 @@ class GainAdaptation(Coupling):
         }
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         gains, f = state["gains"], inputs["input"] * cell(at.ins["input"])
         drive, whole = jnp.sum(gains * f), jnp.sum(f)
@@ -99,7 +100,7 @@ class GainAdaptation(Coupling):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         speed = time.dt / self.tau * inputs["error"]
         if self.gated:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
@@ -139,7 +140,7 @@ class Hebbian(Coupling):
         return {"weights": (scale * (drawn if self.random else jnp.sign(drawn))).reshape(*pre, *post)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
         out = cell(at.ins["input"]) * plasticity.read(
@@ -152,7 +153,7 @@ class Hebbian(Coupling):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         w, pre = state["weights"], shape(at.ins["input"])
         step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
@@ -67,7 +68,7 @@ class Interaction(Coupling):
         return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         x, axes = inputs["input"], at.ins["input"]
         total = cell(axes) * jnp.sum(x)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.signs import Sign, sign_of
@@ -42,6 +43,6 @@ class Logarithm(Coupling):
         return sign_of(self.factor)
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": self.factor * jnp.log1p(jnp.maximum(inputs["input"], 0.0) / self.scale)}

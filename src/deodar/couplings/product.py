@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from jax import Array
+
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times
@@ -44,6 +46,6 @@ class Product(Coupling):
         return {"output": times(inputs["input"], inputs["factor"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": inputs["input"] * inputs["factor"]}

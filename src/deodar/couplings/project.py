@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import resampling
@@ -121,7 +122,7 @@ class Project(Coupling):
         return out
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         y, keep = inputs["input"], self._source(at.ins["input"])
         names = [a.name for a in self.axes]

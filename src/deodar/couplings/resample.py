@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
+from jax import Array
+
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis
@@ -86,7 +88,7 @@ class Resample(Coupling):
         return [resampling.weights(a, b.points, self.interpolation, at.dtype) for a, b in pairs]
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         y = inputs["input"]
         for d, weights in enumerate(constants):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, cell
@@ -86,7 +87,7 @@ class RewardGate(Coupling):
         return {"onset": at.full((), NEVER), "onset_low": at.full((), 0.0), "rewarded": at.full((), 0.0)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         reward = self._reward(at, inputs)
         with exact():
@@ -102,7 +103,7 @@ class RewardGate(Coupling):
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         reward, now = self._reward(at, inputs), time.moment
         begins = self._onset(state, reward)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.errors import did_you_mean
@@ -77,7 +78,7 @@ class SteeredShift(Coupling):
             )
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         y, names = inputs["input"], [a.name for a in at.ins["input"]]
         amounts = jnp.reshape(inputs["by"], (len(self.along),))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
@@ -45,7 +46,7 @@ class Threshold(Coupling):
         return {"output": ZERO if high <= self.level else hull(ZERO, (max(low, self.level), high))}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.where(x > self.level, x, jnp.zeros_like(x))}

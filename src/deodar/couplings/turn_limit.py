@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
@@ -58,7 +59,7 @@ class TurnLimit(Coupling):
         return {"to_left": (), "to_right": ()}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         left, right = self.speed * inputs["left"], self.speed * inputs["right"]
         share = self.limit / jnp.maximum(jnp.abs(left - right), self.limit)

@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
@@ -87,7 +88,7 @@ class Weights(Coupling):
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.tensordot(constants["weights"], x, axes=x.ndim, precision="highest")}

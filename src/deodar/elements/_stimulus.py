@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
+from jax import Array
+
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis
@@ -113,6 +115,6 @@ class Stimulus(Element):
         return {"output": tuple(self.axes)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": self.pattern(at) * gate(self.windows, time, at.dtype)}

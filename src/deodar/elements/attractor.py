@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
@@ -93,12 +94,12 @@ class Attractor(Element):
         return {"phi": at.full((), self.initial)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": state["phi"]}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         [axis] = at.ins["input"]
         phi, f, x = state["phi"], inputs["input"] * axis.step, at.points(axis)

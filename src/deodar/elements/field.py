@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+import numpy as np
+from jax import Array
 
 from deodar.element import Arrays, Convolution, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
@@ -171,20 +173,22 @@ class Field(Element):
         return {"noise": noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         u = state["activation"]
         g = self._output(u)
         return {"output": g, "activation": u, "interaction": self._interaction(at, g)}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         u, h, s = state["activation"], self.resting_level, inputs["input"]
         change = -u + h + s + self._interaction(at, self._output(u))
         return {"activation": euler(u, change, self.tau, time.dt, self._noise(noise, constants))}
 
-    def inject(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+    def inject(
+        self, state: Mapping[str, np.ndarray], amount: np.ndarray | float, dt: float
+    ) -> Mapping[str, np.ndarray] | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
 
     def _output(self, u: Any) -> Any:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Element, Setting, Time
@@ -82,7 +83,7 @@ class History(Element):
         return state | ({"count": at.full((), 0.0)} if self.empty == "nan" else {})
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         kept = jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)
         if self.empty == "nan":  # the state itself stays finite
@@ -91,7 +92,7 @@ class History(Element):
         return {"output": kept}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         # a ring whose newest place moves: one row is written in a step, however many there are
         kept, newest = state["kept"], state["newest"]

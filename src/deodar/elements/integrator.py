@@ -6,6 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
+import numpy as np
+from jax import Array
+
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
@@ -65,14 +68,16 @@ class Integrator(Element):
         return {"x": at.full(tuple(self.axes), self.initial) if self.start is None else at.array(self.start)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": state["x"]}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"x": state["x"] + time.dt * self.rate * inputs["input"]}
 
-    def inject(self, state: Arrays, amount: Any, dt: float) -> Arrays | None:
+    def inject(
+        self, state: Mapping[str, np.ndarray], amount: np.ndarray | float, dt: float
+    ) -> Mapping[str, np.ndarray] | None:
         return {"x": state["x"] + dt * self.rate * amount}

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
@@ -93,7 +94,7 @@ class MovingGaussian(Stimulus):
         return {} if self.waypoints is None else {"waypoints": at.exact(self.waypoints)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
         places = self._places(at, constants, time)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
@@ -75,7 +76,7 @@ class Noise(Element):
         return {"noise": noises.correlation(axes, per_axis(self.length, axes), at.dtype)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         if noise is None:
             return {"output": at.full(tuple(self.axes), 0.0)}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
@@ -122,7 +123,7 @@ class SoftWinnerTakeAll(Element):
         return {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {
             "output": state["rate"],
@@ -131,7 +132,7 @@ class SoftWinnerTakeAll(Element):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         r, v, axes = state["rate"], state["inhibition"], tuple(self.axes)
         u = inputs["input"] + self._interaction(state, constants) - self.threshold

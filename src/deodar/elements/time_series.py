@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Setting, Time
@@ -116,7 +117,7 @@ class TimeSeries(Stimulus):
         return {"times": at.exact(self.times), "values": at.array(self.values)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         values, last = constants["values"], len(constants["values"]) - 1
         hold = self.interpolation == "hold"

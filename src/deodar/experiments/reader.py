@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar import codec
 from deodar.element import Arrays, Coupling, Setting, Time
@@ -49,7 +50,7 @@ class Reader(Coupling):
         return {"output": (Axis("of", 0.0, float(count), count + 1),) if self.reduce == PLACE else ()}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         axes, y = at.ins["input"], inputs["input"]
         inside = mask(axes, *codec.parse(self.near)) if self.near else None

@@ -11,9 +11,10 @@ from __future__ import annotations
 from typing import Any
 
 import jax.numpy as jnp
+from jax import Array
 
 
-def euler(u: Any, rate: Any, tau: Any, dt: Any, noise: Any = None) -> Any:
+def euler(u: Any, rate: Any, tau: Any, dt: Any, noise: Array | None = None) -> Any:
     """One step of `tau du = rate dt + noise dW`: drift scaled by dt/tau, noise by sqrt(dt)/tau.
 
     Args:

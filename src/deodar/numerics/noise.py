@@ -16,6 +16,7 @@ from typing import Any
 
 import jax.numpy as jnp
 from jax import Array, lax
+from jax.typing import DTypeLike
 
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis, cell
@@ -33,7 +34,7 @@ _LOG = (0.9999990, -0.4999706, 0.3335, -0.2519, 0.20685, -0.1584, 0.0754)
 _SINE = (6.2831853, -41.341675, 81.60523, -76.70, 42.0)
 
 
-def threefry(x0: Any, x1: Any, k0: Any, k1: Any) -> tuple[Array, Array]:
+def threefry(x0: Array, x1: Array, k0: Array, k1: Array) -> tuple[Array, Array]:
     """Threefry-2x32 with 20 rounds: two uint32 counters and two uint32 key words to two uint32."""
     u32 = jnp.uint32
     keys = (k0, k1, k0 ^ k1 ^ u32(_PARITY))
@@ -58,13 +59,13 @@ def element_keys(seed: Any, trial: Any, idents: Any) -> Array:
     return jnp.stack(words, axis=-1)
 
 
-def bits(cells: int, key: Any, block: Any) -> tuple[Array, Array]:
+def bits(cells: int, key: Array, block: Array) -> tuple[Array, Array]:
     """Two uint32 for each cell: counter (cell, block)."""
     counter = jnp.arange(cells, dtype=jnp.uint32)
     return threefry(counter, jnp.full((cells,), block, jnp.uint32), key[0], key[1])
 
 
-def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
+def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> Array:
     """Standard normal deviates of one tick, computed in `dtype`.
 
     Block `tick // 2` gives two words a, b for each cell (in C order). With u = (a >> 9 + 1/2) / 2^23 and v
@@ -79,7 +80,7 @@ def normal(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> Array:
     return (radius * wave).reshape(shape)
 
 
-def pair(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> tuple[Array, Array]:
+def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> tuple[Array, Array]:
     """The deviates of both ticks of a block, the even one's first: what `normal` gives at each, for less than
     it takes twice.
     """
@@ -88,7 +89,7 @@ def pair(shape: tuple[int, ...], key: Any, tick: Any, dtype: Any) -> tuple[Array
     return (radius * _sine(turn, dtype)).reshape(shape), (radius * _cosine(turn, dtype)).reshape(shape)
 
 
-def correlation(axes: Axes, lengths: Sequence[Any], dtype: Any) -> list[Array]:
+def correlation(axes: Axes, lengths: Sequence[Any], dtype: DTypeLike) -> list[Array]:
     """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every
     point.
 
@@ -100,7 +101,7 @@ def correlation(axes: Axes, lengths: Sequence[Any], dtype: Any) -> list[Array]:
     return [_square_root(axis, length, dtype) for axis, length in zip(axes, lengths, strict=True)]
 
 
-def _square_root(axis: Axis, length: Any, dtype: Any) -> Array:
+def _square_root(axis: Axis, length: Any, dtype: DTypeLike) -> Array:
     x = jnp.asarray(axis.points, dtype)
     period = axis.range if axis.periodic else None
     wanted = profile(x[:, None] - x[None, :], length, period) / profile(jnp.zeros((), dtype), length, period)
@@ -111,7 +112,7 @@ def _square_root(axis: Axis, length: Any, dtype: Any) -> Array:
     )  # rounding leaves the variance 1 to 1e-6 in single precision
 
 
-def over(axes: Axes, deviates: Any, filters: Sequence[Array] | None) -> Any:
+def over(axes: Axes, deviates: Array, filters: Sequence[Array] | None) -> Array:
     """Noise of unit amplitude over a field: white with the inverse root of the cell, or correlated with
     variance 1.
     """
@@ -126,13 +127,13 @@ def _uniform(word: Array) -> Array:
     return one_to_two - jnp.float32(1.0 - 2.0**-24)
 
 
-def _radius(word: Array, dtype: Any) -> Array:
+def _radius(word: Array, dtype: DTypeLike) -> Array:
     if dtype == jnp.float64:
         return jnp.sqrt(-2.0 * jnp.log(_uniform(word).astype(dtype)))
     return jnp.sqrt(jnp.maximum(jnp.float32(-2.0) * _log(_uniform(word)), jnp.float32(0)))
 
 
-def _sine(turn: Array, dtype: Any) -> Array:
+def _sine(turn: Array, dtype: DTypeLike) -> Array:
     if dtype == jnp.float64:
         return jnp.sin(2 * jnp.pi * turn.astype(dtype))
     t = turn - jnp.float32(0.5)
@@ -140,7 +141,7 @@ def _sine(turn: Array, dtype: Any) -> Array:
     return -_sine_of_turn(jnp.where(a > 0.25, jnp.sign(t) * (jnp.float32(0.5) - a), t))
 
 
-def _cosine(turn: Array, dtype: Any) -> Array:
+def _cosine(turn: Array, dtype: DTypeLike) -> Array:
     if dtype == jnp.float64:
         return jnp.cos(2 * jnp.pi * turn.astype(dtype))
     return -_sine_of_turn(jnp.float32(0.25) - jnp.abs(turn - jnp.float32(0.5)))

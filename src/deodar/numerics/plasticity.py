@@ -9,12 +9,11 @@ places are read and written; a batch of copies is computed whole, and rests whil
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import jax
 import jax.numpy as jnp
-from jax import lax
+from jax import Array, lax
 from jax.custom_batching import custom_vmap
 
 SOURCE_RULES = ("outstar", "association", "hebb")
@@ -26,7 +25,7 @@ TARGET_RULES = ("instar", "oja")
 RULES = (*SOURCE_RULES, *TARGET_RULES)
 
 
-def read(weights: Any, pre: Any) -> Any:
+def read(weights: Array, pre: Array) -> Array:
     """sum_i pre_i W_ij: what arrives at each target place.
 
     Args:
@@ -36,7 +35,9 @@ def read(weights: Any, pre: Any) -> Any:
     return _read(weights, pre)
 
 
-def learn(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any, most: Any) -> Any:
+def learn(
+    rule: str, weights: Array, pre: Array, post: Array, speed: Array, loss: Array, most: Array
+) -> Array:
     """The weights one step later.
 
     Unchanged to the bit where both `speed` and `loss` are 0, or one side is silent.
@@ -55,7 +56,7 @@ def learn(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any, m
     return _many(rule)(*(jnp.asarray(a)[None] for a in (weights, pre, post, speed, loss, most)))[0]
 
 
-def after(value: Any, result: Any) -> Any:
+def after(value: Array, result: Array) -> Array:
     """The value, to be used only once `result` is there.
 
     A step that reads weights and changes them would keep a second copy of them if nothing said that the
@@ -66,7 +67,7 @@ def after(value: Any, result: Any) -> Any:
     )  # never true, which the compiler does not know
 
 
-def change(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any) -> Any:
+def change(rule: str, weights: Array, pre: Array, post: Array, speed: Array, loss: Array) -> Array:
     """New weights by the rule itself; all arguments of shapes that broadcast.
 
     A step longer than the relaxation time ends at the attractor and not beyond, where the rule has one that
@@ -89,11 +90,11 @@ def change(rule: str, weights: Any, pre: Any, post: Any, speed: Any, loss: Any) 
 # ---------------------------------------------------------------------------------- one copy: the active rows
 
 
-def _active(pre: Any, wanted: Any) -> tuple[Any, Any]:
+def _active(pre: Array, wanted: Array) -> tuple[Array, Array]:
     """The active places first, and how many they are; none unless wanted."""
     places = pre.shape[0]
 
-    def find() -> tuple[Any, Any]:
+    def find() -> tuple[Array, Array]:
         here = pre > 0
         return jnp.nonzero(here, size=places, fill_value=0)[0].astype(jnp.int32), jnp.sum(
             here, dtype=jnp.int32
@@ -103,10 +104,10 @@ def _active(pre: Any, wanted: Any) -> tuple[Any, Any]:
 
 
 @custom_vmap
-def _read(weights: Any, pre: Any) -> Any:
+def _read(weights: Array, pre: Array) -> Array:
     places, count = _active(pre, jnp.any(pre > 0))
 
-    def add(k: Any, total: Any) -> Any:
+    def add(k: Array, total: Array) -> Array:
         row = lax.dynamic_index_in_dim(weights, places[k], keepdims=False)
         return total + pre[places[k]] * row
 
@@ -114,12 +115,12 @@ def _read(weights: Any, pre: Any) -> Any:
 
 
 @functools.cache
-def _rows(rule: str) -> Callable[..., Any]:
+def _rows(rule: str) -> Callable[..., Array]:
     @custom_vmap
-    def rows(weights: Any, pre: Any, post: Any, speed: Any, loss: Any, most: Any) -> Any:
+    def rows(weights: Array, pre: Array, post: Array, speed: Array, loss: Array, most: Array) -> Array:
         places, count = _active(pre, _learns(pre, post, speed, loss))
 
-        def step(k: Any, weights: Any) -> Any:
+        def step(k: Array, weights: Array) -> Array:
             old = lax.dynamic_index_in_dim(weights, places[k], keepdims=False)
             new = jnp.minimum(change(rule, old, pre[places[k]], post, speed, loss), most)
             return lax.dynamic_update_index_in_dim(weights, new, places[k], 0)
@@ -127,13 +128,13 @@ def _rows(rule: str) -> Callable[..., Any]:
         return lax.fori_loop(0, count, step, weights)
 
     @rows.def_vmap
-    def _(size: int, batched: Any, *args: Any) -> tuple[Any, bool]:
+    def _(size: int, batched: Sequence[bool], *args: Array) -> tuple[Array, bool]:
         return _many(rule)(*_spread(size, batched, args)), True
 
     return rows
 
 
-def _learns(pre: Any, post: Any, speed: Any, loss: Any) -> Any:
+def _learns(pre: Array, post: Array, speed: Array, loss: Array) -> Array:
     return jnp.any(pre > 0) & jnp.any(post > 0) & (jnp.any(speed != 0) | jnp.any(loss != 0))
 
 
@@ -141,12 +142,12 @@ def _learns(pre: Any, post: Any, speed: Any, loss: Any) -> Any:
 
 
 @_read.def_vmap
-def _(size: int, batched: Any, *args: Any) -> tuple[Any, bool]:
+def _(size: int, batched: Sequence[bool], *args: Array) -> tuple[Array, bool]:
     return _read_many(*_spread(size, batched, args)), True
 
 
 @custom_vmap
-def _read_many(weights: Any, pre: Any) -> Any:
+def _read_many(weights: Array, pre: Array) -> Array:
     nothing = jnp.zeros((weights.shape[0], weights.shape[2]), weights.dtype)
     return lax.cond(
         jnp.any(pre > 0), lambda: jnp.einsum("bi,bij->bj", pre, weights, precision="highest"), lambda: nothing
@@ -154,17 +155,17 @@ def _read_many(weights: Any, pre: Any) -> Any:
 
 
 @_read_many.def_vmap
-def _(size: int, batched: Any, *args: Any) -> tuple[Any, bool]:
+def _(size: int, batched: Sequence[bool], *args: Array) -> tuple[Array, bool]:
     return _split(size, _read_many(*_joined(size, batched, args))), True
 
 
 @functools.cache
-def _many(rule: str) -> Callable[..., Any]:
+def _many(rule: str) -> Callable[..., Array]:
     """The rule for copies along the first axis of everything."""
 
     @custom_vmap
-    def many(weights: Any, pre: Any, post: Any, speed: Any, loss: Any, most: Any) -> Any:
-        def step(weights: Any) -> Any:
+    def many(weights: Array, pre: Array, post: Array, speed: Array, loss: Array, most: Array) -> Array:
+        def step(weights: Array) -> Array:
             x, y = pre[:, :, None], post[:, None, :]
             s, l, m = (a[:, None, None] for a in (speed, loss, most))
             here = (x if rule in SOURCE_RULES else y) > 0
@@ -179,23 +180,23 @@ def _many(rule: str) -> Callable[..., Any]:
         )
 
     @many.def_vmap
-    def _(size: int, batched: Any, *args: Any) -> tuple[Any, bool]:
+    def _(size: int, batched: Sequence[bool], *args: Array) -> tuple[Array, bool]:
         return _split(size, many(*_joined(size, batched, args))), True
 
     return many
 
 
-def _spread(size: int, batched: Any, args: Any) -> list[Any]:
+def _spread(size: int, batched: Sequence[bool], args: Sequence[Array]) -> list[Array]:
     """Every argument with the axis of copies."""
     return [
         a if has else jnp.broadcast_to(a, (size, *jnp.shape(a))) for a, has in zip(args, batched, strict=True)
     ]
 
 
-def _joined(size: int, batched: Any, args: Any) -> list[Any]:
+def _joined(size: int, batched: Sequence[bool], args: Sequence[Array]) -> list[Array]:
     """Copies of copies along one axis."""
     return [a.reshape(-1, *a.shape[2:]) for a in _spread(size, batched, args)]
 
 
-def _split(size: int, result: Any) -> Any:
+def _split(size: int, result: Array) -> Array:
     return jax.tree.map(lambda a: a.reshape(size, -1, *a.shape[1:]), result)
