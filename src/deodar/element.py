@@ -70,12 +70,12 @@ class Time:
         return self.step.high * self.ticks
 
     @property
-    def wide(self) -> Any:
+    def wide(self) -> Array:
         """The time in float64, inside `exact()`."""
         return wide(self.origin) + jnp.asarray(self.passed).astype(jnp.float64) * wide(self.step)
 
     @property
-    def wide_dt(self) -> Any:
+    def wide_dt(self) -> Array:
         """Step of the element in float64, inside `exact()`."""
         return wide(self.step) * self.ticks
 
@@ -93,7 +93,7 @@ class Time:
             )  # a cast there and back would be left out as superfluous
             return Exact(high.astype(dtype), (now - high).astype(dtype))
 
-    def since(self, moment: Any) -> Any:
+    def since(self, moment: Exact | Array | float) -> Array:
         """Time passed since `moment` (negative before it), in the working precision: exact to its last digit
         near the moment.
         """
@@ -102,7 +102,7 @@ class Time:
         return (now.high - m.high) + (now.low - m.low)
 
     @property
-    def now(self) -> Any:
+    def now(self) -> Array:
         """The time itself, in the working precision: in float32 it has 24 bits, so compare with moments by
         `since`.
         """
@@ -156,11 +156,11 @@ class Setting:
         def __getattr__(self, name: str) -> Any:
             raise renamed.no_member(self, name)
 
-    def full(self, axes: Axes, value: Any) -> Any:
+    def full(self, axes: Axes, value: Any) -> Array:
         """An array over the axes, filled with one value."""
         return jnp.full(shape(axes), value, self.dtype)
 
-    def array(self, values: Any) -> Any:
+    def array(self, values: Any) -> Array:
         """The values as an array in the working precision."""
         return jnp.asarray(getattr(values, "data", values), self.dtype)
 
@@ -172,7 +172,7 @@ class Setting:
             else Exact(*split(getattr(values, "data", values), self.dtype))
         )
 
-    def points(self, axis: Axis) -> Any:
+    def points(self, axis: Axis) -> Array:
         """Values at the samples of an axis, in the working precision."""
         return jnp.asarray(axis.points, self.dtype)
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
+from jax import Array, lax
 
 from deodar.compiler import cache
 from deodar.compiler import device as devices
@@ -233,13 +233,13 @@ class Executable:
 
     # ------------------------------------------------------------------------------------------------- traced
 
-    def _start(self, values: Tree, seed: Any, trials: Any) -> tuple[Tree, Tree]:
+    def _start(self, values: Tree, seed: Array, trials: Array) -> tuple[Tree, Tree]:
         one = self.program.init
         if self.batch.trials is not None:
             many = jax.vmap(one, in_axes=(None, None, 0))
         else:
 
-            def many(values: Tree, seed: Any, trial: Any) -> tuple[Tree, Tree]:
+            def many(values: Tree, seed: Array, trial: Array) -> tuple[Tree, Tree]:
                 return one(values, seed, trial[0])
 
         if self.batch.points is None:
@@ -310,12 +310,12 @@ class Executable:
         ):  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
-        def steps(n: Any, tick: Any, state: Tree) -> tuple[Any, Tree]:
-            def one(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
+        def steps(n: Array, tick: Array, state: Tree) -> tuple[Array, Tree]:
+            def one(_: Array, carry: tuple[Array, Tree]) -> tuple[Array, Tree]:
                 tick, state = carry
                 return tick + jnp.uint32(1), flat(program.step(chunk, full(state), {}, tick))
 
-            def two(_: Any, carry: tuple[Any, Tree]) -> tuple[Any, Tree]:
+            def two(_: Array, carry: tuple[Array, Tree]) -> tuple[Array, Tree]:
                 tick, state = carry
                 for drawn in program.draw(
                     chunk.keys, tick
@@ -333,8 +333,8 @@ class Executable:
             )
 
             def phase(
-                p: Any, carry: tuple[Any, Tree]
-            ) -> tuple[Any, Tree]:  # up to an even tick, pairs, what is left
+                p: Array, carry: tuple[Array, Tree]
+            ) -> tuple[Array, Tree]:  # up to an even tick, pairs, what is left
                 return lax.fori_loop(0, doubles[p], two, lax.fori_loop(0, singles[p], one, carry))
 
             return lax.fori_loop(0, 2, phase, (tick, state))
@@ -344,7 +344,7 @@ class Executable:
             return state, (), program.finite(state)
         buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
 
-        def segment(r: Any, carry: Any) -> Any:
+        def segment(r: Array, carry: Any) -> Any:
             tick, state, buffers = carry
             tick, state = steps(jnp.where(r == 0, head, every), tick, state)
             seen = program.observe(ports, chunk, full(state), tick)

@@ -21,13 +21,13 @@ from deodar.compiler.body import Body
 from deodar.compiler.functions import StepArguments
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
-from deodar.element import Setting, Time
+from deodar.element import Arrays, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.noise import element_keys, normal, pair
 
-Buffers = dict[tuple[int, str, int], Any]
+Buffers = dict[tuple[int, str, int], Array]
 Tree = Any
 
 
@@ -129,7 +129,7 @@ class Program:
                 out.append(self._prepared(g, values | {"swept": ()}))
         return out
 
-    def init(self, values: Tree, seed: Any, trial: Any) -> tuple[Tree, Tree]:
+    def init(self, values: Tree, seed: Array, trial: Array) -> tuple[Tree, Tree]:
         """State at the start, and the noise keys of a trial."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
         keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
@@ -151,7 +151,7 @@ class Program:
             self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
 
-    def draw(self, keys: Tree, tick: Any) -> tuple[Tree, Tree]:
+    def draw(self, keys: Tree, tick: Array) -> tuple[Tree, Tree]:
         """Noise of the fast groups for the two ticks of the block that `tick` lies in."""
         out: list[tuple[Array, Array]] = []
         for g in self.paired:
@@ -161,7 +161,7 @@ class Program:
             str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
         }
 
-    def step(self, chunk: Chunk, state: Tree, drawn: Tree, tick: Any) -> Tree:
+    def step(self, chunk: Chunk, state: Tree, drawn: Tree, tick: Array) -> Tree:
         """The state at tick + 1: every output at t is read, then all new states are committed together.
 
         `drawn`: noise of the fast groups.
@@ -179,7 +179,7 @@ class Program:
                 for port in group.like.element.reads_own_output:
                     inputs[port] = buffers[call.group, port, 0]
 
-                def run(g: int = call.group, inputs: Any = inputs, time: Time = time) -> Any:
+                def run(g: int = call.group, inputs: Arrays = inputs, time: Time = time) -> Any:
                     noise = drawn[str(g)] if str(g) in drawn else self._noise(g, chunk.keys, tick)
                     read = StepArguments(old[g], inputs, chunk.constants[g], noise)
                     return self._advance(g, chunk.values, read, time)
@@ -200,7 +200,7 @@ class Program:
             return chunk
         return chunk._replace(sensed={**chunk.sensed, **self.body.sensed(state["world"])})
 
-    def observe(self, ports: Sequence[Port], chunk: Chunk, state: Tree, tick: Any) -> tuple[Array, ...]:
+    def observe(self, ports: Sequence[Port], chunk: Chunk, state: Tree, tick: Array) -> tuple[Array, ...]:
         """Ports at the state's own time; connections that read `current` see that same state."""
         chunk = self._seeing(chunk, state)
         buffers = dict(chunk.still)
@@ -225,7 +225,7 @@ class Program:
         return self._each(g, self.functions[g].prepare, values, only="rebuild")
 
     def _output(
-        self, call: Call, buffers: Buffers, chunk: Chunk, shown: Any, tick: Any, now: bool = False
+        self, call: Call, buffers: Buffers, chunk: Chunk, shown: Arrays, tick: Array, now: bool = False
     ) -> None:
         g, group = call.group, self.plan.groups[call.group]
         time = self._time(chunk.clock, tick, group)
@@ -250,7 +250,7 @@ class Program:
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read.state)
 
     def _gated(
-        self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Any
+        self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Array
     ) -> Any:
         """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks
         later.
@@ -263,7 +263,7 @@ class Program:
         due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
-    def _noise(self, g: int, keys: Tree, tick: Any) -> Any:
+    def _noise(self, g: int, keys: Tree, tick: Array) -> Array | None:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
@@ -271,20 +271,18 @@ class Program:
         own = tick // jnp.uint32(group.like.every)
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
-    def _time(self, clock: Tree, tick: Any, group: RowGroup) -> Time:
+    def _time(self, clock: Tree, tick: Array, group: RowGroup) -> Time:
         if not clock:
             return Time.at(0.0, 0.0, self.dtype)
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
 
-    def _inputs(
-        self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False
-    ) -> dict[str, Any]:
+    def _inputs(self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False) -> Arrays:
         ports = [p for p in self.plan.groups[g].like.reads if only is None or p in only]
         return {p: self._sum(g, p, buffers, now) for p in ports}
 
-    def _sum(self, g: int, port: str, buffers: Buffers, now: bool) -> Any:
+    def _sum(self, g: int, port: str, buffers: Buffers, now: bool) -> Array:
         group = self.plan.groups[g]
-        total: Any = None
+        total: Array | None = None
         for read in self.plan.reads[g, port]:
             source, source_port, instant = read.source
             part = gather(buffers[source, source_port, 0 if now else instant], read)
@@ -317,7 +315,7 @@ class Program:
             return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
         return jax.vmap(one, axis_size=group.rows)(own, *args)
 
-    def _leaves(self, g: int, values: Tree) -> dict[str, Any]:
+    def _leaves(self, g: int, values: Tree) -> Arrays:
         group = self.plan.groups[g]
         out: dict[str, Any] = {}
         for path, offset in group.offset.items():
@@ -344,7 +342,7 @@ def array_key(g: int, path: str) -> str:
     return f"{g}:{path}"
 
 
-def gather(x: Any, read: Read) -> Any:
+def gather(x: Array, read: Read) -> Array:
     """Sum of the rows of the source that `read` names for each row; fixed order of summation."""
     table = read.table
     if table.shape[1] == 1 and read.whole:
