@@ -110,3 +110,11 @@ def test_only_public_calls_of_scripts_have_eight_and_more_parameters(measure: Mo
         "session/session.py __init__",
         "worlds/arena/arena.py __init__",
     }
+
+
+def test_no_class_or_alias_of_the_package_shares_its_name(measure: ModuleType) -> None:
+    assert measure.doubled(measure.trees(measure.SRC)) == []
+
+
+def test_every_import_in_a_function_says_why(measure: ModuleType) -> None:
+    assert measure.inner_imports(measure.SRC, measure.trees(measure.SRC)) == []

@@ -13,9 +13,8 @@ from jax import lax
 
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
+from deodar.numerics.pytree import PyTree
 from deodar.worlds._pure import PureWorld
-
-Tree = Any
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ class Body:
             *((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items())),
         )
 
-    def begin(self, shared: Tree, own: Tree, now: Tree) -> Tree:
+    def begin(self, shared: PyTree, own: PyTree, now: PyTree) -> PyTree:
         """The state of a copy whose world stands somewhere."""
         told = {
             name: jnp.zeros(signal.shape or (), jnp.result_type(float))
@@ -62,13 +61,13 @@ class Body:
         }
         return _rows({"now": now, "sensed": self._sensed(shared, own, now), "told": told})
 
-    def sensed(self, state: Tree) -> dict[str, Any]:
+    def sensed(self, state: PyTree) -> dict[str, Any]:
         """What the sensors show."""
         return {ident: value[0] for ident, value in state["sensed"].items()}
 
     def step(
-        self, shared: Tree, own: Tree, state: Tree, commands: Mapping[str, Any], tick: Any, period: Any
-    ) -> Tree:
+        self, shared: PyTree, own: PyTree, state: PyTree, commands: Mapping[str, Any], tick: Any, period: Any
+    ) -> PyTree:
         """The state at tick + 1: motors are told at multiples of the period, and what they do shows one
         period later.
         """
@@ -78,7 +77,7 @@ class Body:
             name = self.motors[ident].motor
             told[name] = jnp.where(listens, command[None].astype(told[name].dtype), told[name])
 
-        def advance() -> Tree:
+        def advance() -> PyTree:
             now = self.world.advance(shared, own, _copy(state["now"]), _copy(told))
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
             return _rows({"now": now, "sensed": self._sensed(shared, own, now)})
@@ -88,7 +87,7 @@ class Body:
         )
         return {**moved, "told": told}
 
-    def _sensed(self, shared: Tree, own: Tree, now: Tree) -> Tree:
+    def _sensed(self, shared: PyTree, own: PyTree, now: PyTree) -> PyTree:
         dtype = shared_dtype(shared)
         out: dict[str, Any] = {}
         for ident, sensor in self.sensors.items():
@@ -98,26 +97,26 @@ class Body:
         return out
 
 
-def shared_dtype(shared: Tree) -> Any:
+def shared_dtype(shared: PyTree) -> Any:
     """The precision of a world's arrays."""
     return next(a.dtype for a in jax.tree.leaves(shared) if a.dtype.kind == "f")
 
 
-def batched(tree: Tree, batch: Sequence[int]) -> Tree:
+def batched(tree: PyTree, batch: Sequence[int]) -> PyTree:
     """Arrays of copies (copies, ...) as arrays of a batch (points, trials, ...), or of one copy where there
     is no batch.
     """
     return jax.tree.map(lambda a: np.asarray(a).reshape(*batch, *np.shape(a)[1:]), tree)
 
 
-def unbatched(tree: Tree, batch: Sequence[int]) -> Tree:
+def unbatched(tree: PyTree, batch: Sequence[int]) -> PyTree:
     """The same back."""
     return jax.tree.map(lambda a: np.asarray(a).reshape(-1, *np.shape(a)[len(batch) :]), tree)
 
 
-def _rows(tree: Tree) -> Tree:
+def _rows(tree: PyTree) -> PyTree:
     return jax.tree.map(lambda a: jnp.asarray(a)[None], tree)
 
 
-def _copy(tree: Tree) -> Tree:
+def _copy(tree: PyTree) -> PyTree:
     return jax.tree.map(lambda a: a[0], tree)

@@ -31,9 +31,9 @@ from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
+from deodar.numerics.pytree import PyTree
 from deodar.worlds._pure import PureWorld
 
-Tree = Any
 PRECISIONS = ("float32", "float64")
 ACCURACIES = ("default", "exact")
 MOST_KEPT = 16
@@ -93,11 +93,11 @@ class ProgramArguments(NamedTuple):
         whole, real: the clock, as `packed` gives it.
     """
 
-    values: Tree
-    constants: Tree
-    state: Tree
-    keys: Tree
-    sensed: Tree
+    values: PyTree
+    constants: PyTree
+    state: PyTree
+    keys: PyTree
+    sensed: PyTree
     whole: Any
     real: Any
 
@@ -155,17 +155,17 @@ class Executable:
         """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
         return self.layout.holds(leaf)
 
-    def values(self, doc: Document, swept: Sequence[Any] | None = None) -> Tree:
+    def values(self, doc: Document, swept: Sequence[Any] | None = None) -> PyTree:
         """The parameters of a document of this structure, on the host."""
         return self.layout.values(doc, self.batch.points or 1, swept)
 
     # ---------------------------------------------------------------------------------------------- functions
 
-    def prepare(self, values: Tree) -> Tree:
+    def prepare(self, values: PyTree) -> PyTree:
         """Constants of the groups."""
         return self.call(self._prepare, values)
 
-    def embodied(self, world: Any, state: Tree, keys: Tree) -> tuple[Tree, Tree, Tree]:
+    def embodied(self, world: Any, state: PyTree, keys: PyTree) -> tuple[PyTree, PyTree, PyTree]:
         """What all copies share of a world inside the step, which has begun, and state and keys with what
         each has of it.
         """
@@ -185,7 +185,7 @@ class Executable:
             {**keys, "world": batched(own, self.batch.shape)},
         )
 
-    def init(self, values: Tree, seed: int, trials: Sequence[int]) -> tuple[Tree, Tree]:
+    def init(self, values: PyTree, seed: int, trials: Sequence[int]) -> tuple[PyTree, PyTree]:
         """State at the start and noise keys, for the given trials of a seed."""
         return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
 
@@ -233,13 +233,13 @@ class Executable:
 
     # ------------------------------------------------------------------------------------------------- traced
 
-    def _start(self, values: Tree, seed: Array, trials: Array) -> tuple[Tree, Tree]:
+    def _start(self, values: PyTree, seed: Array, trials: Array) -> tuple[PyTree, PyTree]:
         one = self.program.init
         if self.batch.trials is not None:
             many = jax.vmap(one, in_axes=(None, None, 0))
         else:
 
-            def many(values: Tree, seed: Array, trial: Array) -> tuple[Tree, Tree]:
+            def many(values: PyTree, seed: Array, trial: Array) -> tuple[PyTree, PyTree]:
                 return one(values, seed, trial[0])
 
         if self.batch.points is None:
@@ -249,7 +249,7 @@ class Executable:
     def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> Any:
         clock = unpacked(given.whole, given.real)
 
-        def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+        def one(values: PyTree, constants: PyTree, state: PyTree, keys: PyTree) -> Any:
             return self._run(
                 ports, capacity, self._begin(values, constants, keys, given.sensed, clock), state
             )
@@ -259,13 +259,13 @@ class Executable:
     def _read(self, ports: Sequence[Port], given: ProgramArguments) -> Any:
         clock = unpacked(given.whole, given.real)
 
-        def one(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+        def one(values: PyTree, constants: PyTree, state: PyTree, keys: PyTree) -> Any:
             chunk = self._begin(values, constants, keys, given.sensed, clock)
             return self.program.observe(ports, chunk, state, clock["tick"])
 
         return self._batched(one, given)
 
-    def _begin(self, values: Tree, constants: Tree, keys: Tree, sensed: Tree, clock: Tree) -> Chunk:
+    def _begin(self, values: PyTree, constants: PyTree, keys: PyTree, sensed: PyTree, clock: PyTree) -> Chunk:
         """What stays the same in a chunk of one copy."""
         constants = self.program.hoist(values, constants)
         still = self.program.steady(values, constants, sensed)
@@ -286,10 +286,10 @@ class Executable:
             values, constants, state, keys
         )
 
-    def _swept_axes(self, values: Tree) -> Tree:
+    def _swept_axes(self, values: PyTree) -> PyTree:
         return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
-    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: Tree) -> Any:
+    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: PyTree) -> Any:
         """`head` steps, a record, then `every` steps and a record until there are `records`; without ports
         `head` steps.
         """
@@ -298,24 +298,24 @@ class Executable:
         leaves_of, tree = jax.tree.flatten(state)
         shapes = [leaf.shape for leaf in leaves_of]
 
-        def full(flat: Tree) -> Tree:
+        def full(flat: PyTree) -> PyTree:
             return jax.tree.unflatten(
                 tree, [a.reshape(s) for a, s in zip(jax.tree.leaves(flat), shapes, strict=True)]
             )
 
         def flat(
-            state: Tree,
+            state: PyTree,
         ) -> (
-            Tree
+            PyTree
         ):  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
-        def steps(n: Array, tick: Array, state: Tree) -> tuple[Array, Tree]:
-            def one(_: Array, carry: tuple[Array, Tree]) -> tuple[Array, Tree]:
+        def steps(n: Array, tick: Array, state: PyTree) -> tuple[Array, PyTree]:
+            def one(_: Array, carry: tuple[Array, PyTree]) -> tuple[Array, PyTree]:
                 tick, state = carry
                 return tick + jnp.uint32(1), flat(program.step(chunk, full(state), {}, tick))
 
-            def two(_: Array, carry: tuple[Array, Tree]) -> tuple[Array, Tree]:
+            def two(_: Array, carry: tuple[Array, PyTree]) -> tuple[Array, PyTree]:
                 tick, state = carry
                 for drawn in program.draw(
                     chunk.keys, tick
@@ -333,8 +333,8 @@ class Executable:
             )
 
             def phase(
-                p: Array, carry: tuple[Array, Tree]
-            ) -> tuple[Array, Tree]:  # up to an even tick, pairs, what is left
+                p: Array, carry: tuple[Array, PyTree]
+            ) -> tuple[Array, PyTree]:  # up to an even tick, pairs, what is left
                 return lax.fori_loop(0, doubles[p], two, lax.fori_loop(0, singles[p], one, carry))
 
             return lax.fori_loop(0, 2, phase, (tick, state))
@@ -373,7 +373,7 @@ class Executable:
 
     def compile(
         self, function: Any, *args: Any, options: Mapping[str, Any] | None = None
-    ) -> tuple[Any, Tree]:
+    ) -> tuple[Any, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
         # full products everywhere: processors that multiply in fewer digits (TF32) would do so otherwise
@@ -410,7 +410,7 @@ def _form(a: Any) -> Any:
 def _alone(one: Any) -> Any:
     """The function of one trial as that of a batch of one: it has the bits of a single run."""
 
-    def single(values: Tree, constants: Tree, state: Tree, keys: Tree) -> Any:
+    def single(values: PyTree, constants: PyTree, state: PyTree, keys: PyTree) -> Any:
         out = one(values, constants, *jax.tree.map(lambda a: a[0], (state, keys)))
         return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
 

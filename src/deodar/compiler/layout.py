@@ -13,8 +13,7 @@ from deodar.errors import ParameterError
 from deodar.leaves import leaves
 from deodar.model.document import Document
 from deodar.numerics.exact import LOW, split
-
-Tree = Any
+from deodar.numerics.pytree import PyTree
 
 
 class LeafLayout:
@@ -44,7 +43,7 @@ class LeafLayout:
         group = self._group(leaf[0])
         return leaf[1] in group.offset or leaf[1] in group.arrays
 
-    def values(self, doc: Document, points: int = 1, swept: Sequence[Any] | None = None) -> Tree:
+    def values(self, doc: Document, points: int = 1, swept: Sequence[Any] | None = None) -> PyTree:
         """The parameters of a document of this structure, on the host; `swept`: the values of each entry of
         the sweep at its points.
         """

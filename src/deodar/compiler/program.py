@@ -26,9 +26,9 @@ from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.noise import element_keys, normal, pair
+from deodar.numerics.pytree import PyTree
 
 Buffers = dict[tuple[int, str, int], Array]
-Tree = Any
 
 
 @dc.dataclass(frozen=True)
@@ -75,11 +75,11 @@ class Chunk(NamedTuple):
         still: outputs that stay the same.
     """
 
-    values: Tree
-    constants: Tree
-    keys: Tree
-    sensed: Tree
-    clock: Tree
+    values: PyTree
+    constants: PyTree
+    keys: PyTree
+    sensed: PyTree
+    clock: PyTree
     still: Buffers
 
 
@@ -117,7 +117,7 @@ class Program:
 
     # --------------------------------------------------------------------------------------- prepare and init
 
-    def prepare(self, values: Tree) -> list[Any]:
+    def prepare(self, values: PyTree) -> list[Any]:
         """Constants of every group; with a sweep axis where a swept parameter rebuilds them."""
         out: list[Any] = []
         for g in range(len(self.plan.groups)):
@@ -129,7 +129,7 @@ class Program:
                 out.append(self._prepared(g, values | {"swept": ()}))
         return out
 
-    def init(self, values: Tree, seed: Array, trial: Array) -> tuple[Tree, Tree]:
+    def init(self, values: PyTree, seed: Array, trial: Array) -> tuple[PyTree, PyTree]:
         """State at the start, and the noise keys of a trial."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
         keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
@@ -137,13 +137,13 @@ class Program:
 
     # -------------------------------------------------------------------------------------------------- steps
 
-    def hoist(self, values: Tree, constants: Tree) -> list[Any]:
+    def hoist(self, values: PyTree, constants: PyTree) -> list[Any]:
         """What groups make of their constants and of live parameters once a chunk."""
         return [
             self._each(g, self.functions[g].hoist, values, constants[g]) for g in range(len(self.plan.groups))
         ]
 
-    def steady(self, values: Tree, constants: Tree, sensed: Tree) -> Buffers:
+    def steady(self, values: PyTree, constants: PyTree, sensed: PyTree) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
         buffers: Buffers = {}
         chunk = Chunk(values, constants, {}, sensed, {}, {})
@@ -151,7 +151,7 @@ class Program:
             self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
 
-    def draw(self, keys: Tree, tick: Array) -> tuple[Tree, Tree]:
+    def draw(self, keys: PyTree, tick: Array) -> tuple[PyTree, PyTree]:
         """Noise of the fast groups for the two ticks of the block that `tick` lies in."""
         out: list[tuple[Array, Array]] = []
         for g in self.paired:
@@ -161,7 +161,7 @@ class Program:
             str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
         }
 
-    def step(self, chunk: Chunk, state: Tree, drawn: Tree, tick: Array) -> Tree:
+    def step(self, chunk: Chunk, state: PyTree, drawn: PyTree, tick: Array) -> PyTree:
         """The state at tick + 1: every output at t is read, then all new states are committed together.
 
         `drawn`: noise of the fast groups.
@@ -195,12 +195,12 @@ class Program:
         )
         return {"groups": new, "held": held, "world": world}
 
-    def _seeing(self, chunk: Chunk, state: Tree) -> Chunk:
+    def _seeing(self, chunk: Chunk, state: PyTree) -> Chunk:
         if self.body is None:
             return chunk
         return chunk._replace(sensed={**chunk.sensed, **self.body.sensed(state["world"])})
 
-    def observe(self, ports: Sequence[Port], chunk: Chunk, state: Tree, tick: Array) -> tuple[Array, ...]:
+    def observe(self, ports: Sequence[Port], chunk: Chunk, state: PyTree, tick: Array) -> tuple[Array, ...]:
         """Ports at the state's own time; connections that read `current` see that same state."""
         chunk = self._seeing(chunk, state)
         buffers = dict(chunk.still)
@@ -209,7 +209,7 @@ class Program:
                 self._output(call, buffers, chunk, state["groups"][call.group], tick, now=True)
         return tuple(self._port(p, buffers) for p in ports)
 
-    def finite(self, state: Tree) -> tuple[Array, list[Array]]:
+    def finite(self, state: PyTree) -> tuple[Array, list[Array]]:
         """Whether all numbers are finite, and for each group of which rows."""
         out: list[Array] = []
         for g, group in enumerate(self.plan.groups):
@@ -221,7 +221,7 @@ class Program:
 
     # ---------------------------------------------------------------------------------------------- one group
 
-    def _prepared(self, g: int, values: Tree) -> Any:
+    def _prepared(self, g: int, values: PyTree) -> Any:
         return self._each(g, self.functions[g].prepare, values, only="rebuild")
 
     def _output(
@@ -245,7 +245,7 @@ class Program:
                 jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes))
             )
 
-    def _advance(self, g: int, values: Tree, read: StepArguments, time: Time) -> Any:
+    def _advance(self, g: int, values: PyTree, read: StepArguments, time: Time) -> Any:
         new = self._each(g, lambda e, at, read: self.functions[g].advance(e, at, read, time), values, read)
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read.state)
 
@@ -263,7 +263,7 @@ class Program:
         due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
-    def _noise(self, g: int, keys: Tree, tick: Array) -> Array | None:
+    def _noise(self, g: int, keys: PyTree, tick: Array) -> Array | None:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
@@ -271,7 +271,7 @@ class Program:
         own = tick // jnp.uint32(group.like.every)
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
-    def _time(self, clock: Tree, tick: Array, group: RowGroup) -> Time:
+    def _time(self, clock: PyTree, tick: Array, group: RowGroup) -> Time:
         if not clock:
             return Time.at(0.0, 0.0, self.dtype)
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
@@ -296,7 +296,7 @@ class Program:
         rows = buffers[p.group, p.name, 0] if shown else self._sum(p.group, p.name, buffers, now=True)
         return rows if p.row is None else rows[p.row]
 
-    def _each(self, g: int, fn: Callable[..., Any], values: Tree, *args: Any, only: str = "") -> Any:
+    def _each(self, g: int, fn: Callable[..., Any], values: PyTree, *args: Any, only: str = "") -> Any:
         """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""
         group, at = self.plan.groups[g], self.settings[g]
         own = self._leaves(g, values)
@@ -315,7 +315,7 @@ class Program:
             return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
         return jax.vmap(one, axis_size=group.rows)(own, *args)
 
-    def _leaves(self, g: int, values: Tree) -> Arrays:
+    def _leaves(self, g: int, values: PyTree) -> Arrays:
         group = self.plan.groups[g]
         out: dict[str, Any] = {}
         for path, offset in group.offset.items():

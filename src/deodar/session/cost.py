@@ -24,12 +24,12 @@ from deodar.compiler.plan import Plan
 from deodar.compiler.program import Chunk, Port, Program, array_key
 from deodar.errors import TimeError
 from deodar.model.document import Document
+from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
 
 if TYPE_CHECKING:
     from deodar.session.run import Run
 
-Tree = Any
 SECONDS = 1.0
 """Wall time for which all parts together are timed, beside compiling them."""
 
@@ -125,26 +125,26 @@ class StepInputs:
 
     program: Executable
     document: Document
-    values: Tree
-    constants: Tree
-    state: Tree
-    keys: Tree
-    sensed: Tree
-    clock: Tree
+    values: PyTree
+    constants: PyTree
+    state: PyTree
+    keys: PyTree
+    sensed: PyTree
+    clock: PyTree
 
 
 class _GroupArguments(NamedTuple):
     """The arguments of the step of one group; a JAX PyTree."""
 
-    values: Tree
-    arrays: Tree
-    constants: Tree
-    state: Tree
-    keys: Tree
-    inputs: Tree
-    shown: Tree
-    sensed: Tree
-    clock: Tree
+    values: PyTree
+    arrays: PyTree
+    constants: PyTree
+    state: PyTree
+    keys: PyTree
+    inputs: PyTree
+    shown: PyTree
+    sensed: PyTree
+    clock: PyTree
 
 
 def moment(run: Run) -> StepInputs:
@@ -257,7 +257,7 @@ def _alone(
         values, clock, keys = given.values, given.clock, given.keys
         settled = only(alone.hoist(values | {"arrays": given.arrays}, [given.constants])[0])
 
-        def step(tick: Any, state: Tree, drawn: Tree) -> tuple[Tree, Any]:
+        def step(tick: Any, state: PyTree, drawn: PyTree) -> tuple[PyTree, Any]:
             # without the barrier what depends on the inputs alone would be computed once, before the loop
             now, tick = lax.optimization_barrier((given.inputs, tick))
             buffers = {

@@ -18,6 +18,7 @@ from deodar.compiler.program import Port
 from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
 from deodar.model.limits import too_long
+from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
 from deodar.session.clock import Clock
 from deodar.session.exchange import Exchange, ExchangeInstant
@@ -25,7 +26,6 @@ from deodar.session.failure import first_steps, not_finite
 from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
-Tree = Any
 CHUNK_SECONDS = 0.2
 """Wall time of a chunk in seconds; between chunks: progress, Ctrl-C, the check for values that are not
 finite.
@@ -84,7 +84,7 @@ class Run:
         self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
         self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
-        self.shared: Tree = None
+        self.shared: PyTree = None
         if self.exchange.inside:
             self.shared, self.state, self.keys = self.program.embodied(
                 self.exchange.world, self.state, self.keys
@@ -188,7 +188,7 @@ class Run:
             )
         return seen
 
-    def _call(self, chunk: Any, state: Tree, counts: dict[str, int]) -> Any:
+    def _call(self, chunk: Any, state: PyTree, counts: dict[str, int]) -> Any:
         return self.program.call(
             chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts)
         )
@@ -233,7 +233,7 @@ class Run:
             about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype
         )
 
-    def _values(self) -> Tree:
+    def _values(self) -> PyTree:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
 
     def _chunk_steps(self) -> int:
@@ -286,20 +286,20 @@ class Run:
         if len(self.lost) > self.tolerated:
             raise next(iter(self.lost.values()))
 
-    def _report(self, before: Tree, used: int) -> None:
+    def _report(self, before: PyTree, used: int) -> None:
         """Find the first step at which a value was not finite, and raise."""
         step, names = self._search(before, used, [...])[...]
         self._go(before, step - 1)
         raise not_finite(self._without_state(...) or names, self.clock.after(1), self.doc.time_unit)
 
-    def _go(self, before: Tree, steps: int) -> None:
+    def _go(self, before: PyTree, steps: int) -> None:
         """Take the state and the clock from the start of a chunk to some step in it."""
         chunk, _ = self.program.chunk(())
         self.state, _, _ = self._call(chunk, before, {"head": steps, "every": 0, "records": 0})
         self.clock = self.clock.after(steps)
 
     def _diverged(
-        self, before: Tree, used: int, copies: Sequence[tuple[int, ...]]
+        self, before: PyTree, used: int, copies: Sequence[tuple[int, ...]]
     ) -> dict[tuple[int, ...], NotFinite]:
         """For each of these copies the first step at which a value was not finite, as an error."""
         found = self._search(before, used, copies)
@@ -315,7 +315,7 @@ class Run:
             self.state, self.clock = state, clock
         return {copy: out[copy] for copy in copies}
 
-    def _search(self, before: Tree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
+    def _search(self, before: PyTree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
         """For each copy (`...`: all as one) the first step of a chunk after which a value was not finite, and
         the elements where.
         """
@@ -389,7 +389,7 @@ class Run:
                     raise error(np.asarray(spoilt.reshape(-1, values.shape[lead]).any(0)))
                 self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)), end)})
 
-    def _require_finite_world(self, before: Tree, state: Tree, used: int) -> None:
+    def _require_finite_world(self, before: PyTree, state: PyTree, used: int) -> None:
         """Refuse a world inside the step whose sensors show values that are not finite: they would spoil the
         model later, and elsewhere.
         """
@@ -471,6 +471,6 @@ def whole(duration: Any, dt: float, what: str) -> int:
     return round(n)
 
 
-def host(tree: Tree) -> Tree:
+def host(tree: PyTree) -> PyTree:
     """A copy of a tree of arrays on the host."""
     return jax.tree.map(lambda a: np.array(a), tree)

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from deodar.compiler.executable import Executable
 from deodar.model.document import Document
+from deodar.numerics.pytree import PyTree
 from deodar.session.clock import Clock
 from deodar.session.exchange import WorldState
 from deodar.session.run import Run, host
 
-Tree = Any
 StateRow = Mapping[str, np.ndarray]
 """The state of one element: its arrays by name."""
 
@@ -41,7 +40,7 @@ class SessionSnapshot:
     world: WorldState | None = None
 
 
-def rows(program: Executable, state: Tree) -> dict[str, tuple[StateRow, StateRow]]:
+def rows(program: Executable, state: PyTree) -> dict[str, tuple[StateRow, StateRow]]:
     """The state of every element by id: what is shown, and what is held until it is due (the same where
     nothing is held).
     """
@@ -71,7 +70,7 @@ def fill(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
     run.forget()
 
 
-def _copy_row(source: StateRow, target: Tree, row: int) -> None:
+def _copy_row(source: StateRow, target: PyTree, row: int) -> None:
     for name, values in source.items():
         if name in target and target[name].shape[1:] == values.shape:
             target[name][row] = values

@@ -17,9 +17,8 @@ import numpy as np
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.noise import element_keys
+from deodar.numerics.pytree import PyTree
 from deodar.worlds._base import World
-
-Tree = Any
 
 
 class PureWorld(World):
@@ -50,15 +49,15 @@ class PureWorld(World):
         """Arrays of each copy, copies first, for the trial of each."""
         return {}
 
-    def start(self, shared: Tree, own: Tree) -> Tree:
+    def start(self, shared: PyTree, own: PyTree) -> PyTree:
         """The state at the start."""
         raise NotImplementedError
 
-    def read(self, shared: Tree, own: Tree, state: Tree, sensor: str, axes: Axes) -> Any:
+    def read(self, shared: PyTree, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Any:
         """What a sensor reads, over axes."""
         raise NotImplementedError
 
-    def advance(self, shared: Tree, own: Tree, state: Tree, motors: Mapping[str, Any]) -> Tree:
+    def advance(self, shared: PyTree, own: PyTree, state: PyTree, motors: Mapping[str, Any]) -> PyTree:
         """The state one period later, with what every motor was told."""
         raise NotImplementedError
 
@@ -70,7 +69,7 @@ class PureWorld(World):
         numbers = np.asarray([number(name) for name in self.noises], np.uint32)
         words = self.call("keys", _keys, np.uint32(seed), np.asarray(trials, np.uint32), numbers)
         self._keys = {name: np.asarray(words)[:, k] for k, name in enumerate(self.noises)}
-        self._state: Tree = self.call(
+        self._state: PyTree = self.call(
             "start", lambda world: jax.vmap(world.start, in_axes=(None, 0)), *self._values()
         )
 
@@ -79,7 +78,7 @@ class PureWorld(World):
         shared, own, state = *self._values(), self._now()
 
         def reading(world: PureWorld) -> Callable[..., Any]:
-            def read(shared: Tree, own: Tree, state: Tree) -> Any:
+            def read(shared: PyTree, own: PyTree, state: PyTree) -> Any:
                 return jnp.broadcast_to(world.read(shared, own, state, sensor, axes), shape(axes))
 
             return jax.vmap(read, in_axes=(None, 0, 0))
@@ -116,16 +115,16 @@ class PureWorld(World):
         """
         return id(self)
 
-    def parts(self) -> tuple[Tree, Tree, Tree]:
+    def parts(self) -> tuple[PyTree, PyTree, PyTree]:
         """What the functions see now: `shared`, `own` and `state`, the last two with copies first."""
         return *self._values(), self._now()
 
-    def _now(self) -> Tree:
+    def _now(self) -> PyTree:
         if not hasattr(self, "_state"):
             raise WorldError(f"the world {type(self).__name__} has not begun", fix="Type: world.reset(seed)")
         return self._state
 
-    def _values(self) -> tuple[Tree, Tree]:
+    def _values(self) -> tuple[PyTree, PyTree]:
         own = self.own(self._trials)
         return jax.tree.map(self._cast, self.shared()), {**jax.tree.map(self._cast, own), "keys": self._keys}
 

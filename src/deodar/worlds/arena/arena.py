@@ -17,10 +17,11 @@ from deodar import codec
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
+from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal
-from deodar.worlds._pure import PureWorld, Tree
+from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
 from deodar.worlds.arena.asked import asked
 from deodar.worlds.arena.contact import move
@@ -311,7 +312,7 @@ class Arena(PureWorld):
 
     # ----------------------------------------------------------------------------------------------- one copy
 
-    def start(self, shared: Tree, own: Tree) -> Tree:
+    def start(self, shared: PyTree, own: PyTree) -> PyTree:
         zero = jnp.zeros((), shared["boxes"].dtype)
         state = {
             "position": own["start"][:2],
@@ -322,7 +323,7 @@ class Arena(PureWorld):
         tick = jnp.uint32(0)
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
 
-    def advance(self, shared: Tree, own: Tree, state: Tree, motors: Mapping[str, Any]) -> Tree:
+    def advance(self, shared: PyTree, own: PyTree, state: PyTree, motors: Mapping[str, Any]) -> PyTree:
         boxes, tick = shared["boxes"], state["tick"] + jnp.uint32(1)
         deviates = self._deviates(own, tick, boxes.dtype)
         assert self.period is not None
@@ -346,7 +347,7 @@ class Arena(PureWorld):
         }
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
-    def _deviates(self, own: Tree, tick: Any, dtype: Any) -> dict[str, Any]:
+    def _deviates(self, own: PyTree, tick: Any, dtype: Any) -> dict[str, Any]:
         """Standard normal deviates of a period for each noise, as many as the largest needs: one graph for
         all compiles faster.
         """
@@ -355,8 +356,8 @@ class Arena(PureWorld):
         return dict(zip(self.noises, drawn, strict=True))
 
     def _sensed(
-        self, shared: Tree, own: Tree, body: Tree, tick: Any, deviates: Mapping[str, Any], held: Any
-    ) -> Tree:
+        self, shared: PyTree, own: PyTree, body: PyTree, tick: Any, deviates: Mapping[str, Any], held: Any
+    ) -> PyTree:
         """The state with what the noisy sensors read in it, so that one period has one reading."""
         boxes = shared["boxes"]
         seen = distances(
@@ -373,7 +374,7 @@ class Arena(PureWorld):
         infrared = readings(self.vehicle.infrared, seen, factor)
         return {**body, "tick": tick, "infrared": infrared, "place": jnp.where(fresh, place, held)}
 
-    def read(self, shared: Tree, own: Tree, state: Tree, sensor: str, axes: Axes) -> Any:
+    def read(self, shared: PyTree, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Any:
         if sensor in ("infrared", "heading", "encoders", "touching"):
             return state[sensor]
         if sensor in ("place", "goal"):
@@ -465,7 +466,7 @@ class Arena(PureWorld):
         return {"obstacles": plane, "above": (*plane, Axis("channel", 0, 2, 3))}.get(sensor, ())
 
 
-def _there(own: Tree, tick: Any) -> Any:
+def _there(own: PyTree, tick: Any) -> Any:
     now = tick.astype(jnp.int32)
     return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
 
