@@ -1,3 +1,3 @@
-"""The document: pure data, JSON in and out, check, edit with undo; and `Model`, the builder a script
-holds.
+"""The document (pure data, read from and written to JSON), its checks and edits, and `Model`, which builds
+it.
 """

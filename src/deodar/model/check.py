@@ -1,4 +1,4 @@
-"""Everything that is wrong with a document, at once, each with its path."""
+"""Collect all problems of a document, each with its path."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from deodar.registry import imported
 
 
 def check(doc: Document) -> list[Problem]:
-    """All problems of the structure; where there is none, what the single checks find: warnings, and problems
-    of the document's own step.
+    """Return all problems of the structure; without any, the warnings and the problems of the document's own
+    step.
     """
     found, nodes = _structure(doc)
     return found or judge(doc, nodes)
 
 
 def problems(doc: Document) -> list[Problem]:
-    """What stops every run, whatever its step: no warnings. None means that the document compiles."""
+    """Return the problems that prevent every run at any step, without warnings. An empty list: it
+    compiles.
+    """
     return _structure(doc)[0]
 
 
 def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
-    """What elements say about themselves, and what the files of `checks` find in the graph, in the order of
-    the elements.
-    """
+    """Return the warnings of each element and of each file of `checks`, in the order of the elements."""
     wiring = Wiring(doc, nodes)
     found = [
         Problem(n.path, what, fix, "warning")

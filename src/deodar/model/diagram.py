@@ -28,7 +28,7 @@ class Diagram:
 
     @property
     def svg(self) -> str:
-        """The picture as SVG; its text stays text, which an editor can change."""
+        """The picture as SVG; text is stored as text, which an editor can change."""
         return svg.write(self._scene)
 
     @property
@@ -37,20 +37,22 @@ class Diagram:
         return self._scene.width / paper.INCH, self._scene.height / paper.INCH
 
     def figure(self, width: float | None = None) -> Figure:
-        """The picture as a matplotlib figure; `width` in inches, none: its own size."""
+        """Return the picture as a matplotlib figure; `width` is in inches, by default the picture's own
+        width.
+        """
         return paper.figure(self._scene, width)
 
     def save(self, path: str | Path, width: float | None = None, force: bool = False) -> None:
         """Write the picture.
 
         Args:
-            path: a file that ends in .svg, .pdf or .png.
-            width: in inches, for example that of a column of a journal; none: its own size.
-            force: whether a file of that name is replaced.
+            path: a file name that ends in .svg, .pdf or .png.
+            width: in inches, for example that of a column of a journal; by default the picture's own width.
+            force: whether to replace an existing file.
 
         Raises:
-            RecordError: for another ending, or a width that is not above 0.
-            OutputExists: where the file exists.
+            RecordError: the ending is another one, or the width is not above 0.
+            OutputExists: the file exists.
         """
         where = output.location(path)
         format = where.suffix.lower().removeprefix(".")

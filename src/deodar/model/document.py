@@ -37,8 +37,8 @@ KEYS = (
 class Entry:
     """One element of a document.
 
-    `id` is its stored identity, `names` its path (groups, then its own name), `every` the number of ticks of
-    its step.
+    `id` is its stored identity, `names` its path (groups, then its own name), `every` the length of its step
+    in ticks.
     """
 
     id: str
@@ -53,13 +53,13 @@ class Entry:
 
     @property
     def group(self) -> PathNames:
-        """Names of the groups it stands in."""
+        """Names of the groups that contain it."""
         return self.names[:-1]
 
 
 @dc.dataclass(frozen=True)
 class Connection:
-    """From an output port to an input port, elements by id. `reads` is empty where nothing was stated."""
+    """From an output port to an input port, elements by id. `reads` is empty if the model states no value."""
 
     source: str
     source_port: str
@@ -69,13 +69,13 @@ class Connection:
 
     @property
     def ends(self) -> tuple[str, str, str, str]:
-        """What makes it the same connection, whatever it reads."""
+        """The identity of the connection: its element ids and ports, without `reads`."""
         return (self.source, self.source_port, self.target, self.target_port)
 
 
 @dc.dataclass(frozen=True)
 class SharedParameter:
-    """A named parameter of the document that drives parameters of elements: (id, path inside the element)."""
+    """A document parameter and the parameters of elements that it drives: (id, path inside the element)."""
 
     name: str
     value: float
@@ -84,8 +84,8 @@ class SharedParameter:
 
 @dc.dataclass(frozen=True)
 class Use:
-    """A group that stays linked to a template: (id in the template, id here) for each of its elements, and
-    the template's name.
+    """A group that stays linked to a template: its path, the template's name, and (id in the template, id
+    here) for each of its elements.
     """
 
     group: PathNames
@@ -95,12 +95,12 @@ class Use:
 
 @dc.dataclass(frozen=True)
 class Document:
-    """An architecture as data. Only `deodar.model.edit` makes new ones.
+    """An architecture as immutable data. Only `deodar.model.edit` makes new documents.
 
     Attributes:
-        foreign: whether it came from a file or another process, and nobody has said that functions it names
-            may be run. It is not written into files, is no part of what makes two documents equal, and is
-            passed on to every document that is made from this one.
+        foreign: whether the document came from a file or another process and the user has not allowed the
+            functions that it names to be run. It is not written to files, does not count when documents are
+            compared, and is copied to every document that is made from this one.
     """
 
     name: str
@@ -117,46 +117,48 @@ class Document:
     foreign: bool = dc.field(default=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
-        """What a pickle holds: trust stays in the process in which it was given."""
+        """Return the state for a pickle, without trust: trust is valid only in the process in which it was
+        given.
+        """
         return {**self.__dict__, "foreign": True}
 
     def asks(self) -> bool:
-        """Whether it names functions that nobody has said may be run."""
+        """Return whether the document names functions that the user has not allowed to be run."""
         return self.foreign and any(e.element.external_code() for e in self.entries)
 
     def by_id(self) -> Mapping[str, Entry]:
-        """Entries by id."""
+        """Return the entries by id."""
         return self._by_id
 
     def by_names(self) -> Mapping[PathNames, Entry]:
-        """Entries by path."""
+        """Return the entries by path."""
         return self._by_names
 
     def ends(self) -> Collection[tuple[str, str, str, str]]:
-        """The ends of all connections."""
+        """Return the ends of all connections."""
         return self._ends
 
     def connected(self, new: Connection) -> Document:
-        """This document with one more connection.
+        """Return this document with one more connection.
 
-        What is known of the entries is shared with it, and the set of ends is passed on to it: n connections
-        take n steps, not n^2.
+        The new document shares the mappings of the entries and takes over the set of ends, so that n
+        connections take O(n) time, not O(n^2).
         """
         ends = self.__dict__.pop("_ends", None)
         out = dc.replace(self, connections=(*self.connections, new))
         out.__dict__.update(
             {key: self.__dict__[key] for key in ("_by_id", "_by_names", "_index") if key in self.__dict__}
         )
-        if ends is not None:  # this document makes the set anew if it is asked again
+        if ends is not None:  # this document computes the set again if it is needed
             ends.add(new.ends)
             out.__dict__["_ends"] = ends
         return out
 
     def extended(self, new: Sequence[Entry], groups: tuple[PathNames, ...]) -> Document:
-        """This document with more entries and these groups.
+        """Return this document with more entries and these groups.
 
-        The mappings of its entries are copied and extended, which is many times quicker than to make them
-        anew; the set of ends is passed on.
+        The mappings of the entries are copied and extended, which is much faster than to build them again;
+        the new document takes over the set of ends.
         """
         ends = self.__dict__.pop("_ends", None)
         out = dc.replace(self, entries=(*self.entries, *new), groups=groups)
@@ -167,7 +169,7 @@ class Document:
         return out
 
     def index(self) -> Index:
-        """Names of the entries, to be looked up by path."""
+        """Return the names of the entries as an index for look-ups by path."""
         return self._index
 
     @functools.cached_property
@@ -187,10 +189,10 @@ class Document:
         return {e.names: e for e in self.entries}
 
     def links(self) -> dict[tuple[str, str], str]:
-        """The document parameter that drives each linked parameter."""
+        """Return the name of the document parameter that drives each linked parameter."""
         return {link: knob.name for knob in self.knobs for link in knob.links}
 
     @property
     def step(self) -> float:
-        """Euler step where a run states none: the document's own, else 1."""
+        """The Euler step of runs that state none: the document's own, else 1."""
         return 1.0 if self.dt is None else self.dt

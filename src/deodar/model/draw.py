@@ -9,24 +9,26 @@ from deodar.parameters import show
 
 
 def draw(model: Model, legend: bool = True, depth: int | None = None) -> Diagram:
-    """Draw an architecture: fields with their axes, nodes, stimuli, sensors and motors, couplings with their
-    signs, groups.
+    """Draw an architecture as a diagram.
 
-    Couplings with one connection in and one out are text on that connection. An arrow is excitation, a dot
-    inhibition, an arrow with a dot both. Loops above a field are its own interaction: of its kernels, and
-    global inhibition.
+    The diagram shows fields with their axes, nodes, stimuli, sensors and motors, couplings with their signs,
+    and groups.
+
+    A coupling with one input and one output is drawn as text on the connection. An arrow is excitation, a dot
+    inhibition, an arrow with a dot both. Loops above a field are its own interaction: kernels and global
+    inhibition.
 
     Args:
-        model: the model; one with problems is drawn too.
-        legend: whether the marks that occur are explained below the picture.
-        depth: how many levels of groups are drawn open; each group below is one box. With 0 every group is a
-            box; none: all are open.
+        model: the model; a model with problems can be drawn too.
+        legend: whether a legend below the picture explains the marks in it.
+        depth: number of levels of groups that are drawn open; a deeper group is drawn as one box. With 0
+            every group is a box. None: all groups are open.
 
     Returns:
-        A `Diagram`: a notebook shows it, `save` writes it.
+        A `Diagram`: a notebook displays it, `save` writes it to a file.
 
     Raises:
-        ModelError: this is no model, or `depth` is below 0.
+        ModelError: `model` is not a `Model`, or `depth` is below 0.
     """
     if not isinstance(model, Model):
         raise ModelError(f"expected a Model, got {show(model)}", fix="Give a model: dd.draw(model)")

@@ -1,6 +1,6 @@
-"""The operations that make a new document from a document. Nothing else does.
+"""Operations that make a new document from a document. No other module makes documents.
 
-Each is a pure function; ids survive rename, grouping and moves, a copy gets its own. `UndoHistory` adds undo
+Each is a pure function. Rename, grouping and moves preserve ids; a copy gets new ids. `UndoHistory` adds undo
 and redo.
 """
 
@@ -25,15 +25,17 @@ TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|
 
 GENERAL = ("name", "time_unit", "dt", "t0", "notes", "layout")
 MOST_TICKS = 1_000_000
-"""Longest step of a part, in ticks; a thousand seconds at 1 ms (a guess: longer is a slip of the pen)."""
+"""Longest step of an element in ticks: a thousand seconds at 1 ms (a guess: a longer one is probably a
+typo).
+"""
 
 
 def add(
     doc: Document, element: Element, group: PathNames = (), every: int = 1, after: Entry | None = None
 ) -> tuple[Document, Entry]:
-    """A document with one more element.
+    """Return a document with one more element.
 
-    Without a name it is called after what it follows: `u>Gain`, `u>Gain2`.
+    An element without a name is named after the element `after` that it reads: `u>Gain`, `u>Gain2`.
     """
     if isinstance(element, Element) and not element.name:
         group, base = (group or after.group, f"{after.names[-1]}>") if after else (group, "")
@@ -47,7 +49,9 @@ def add(
 def add_all(
     doc: Document, elements: Iterable[tuple[Element, PathNames, int]]
 ) -> tuple[Document, list[Entry]]:
-    """A document with more elements, each with its group and its step in ticks; every element has a name."""
+    """Return a document with more elements, given as (element, group, step in ticks); every element has a
+    name.
+    """
     entries: list[Entry] = []
     taken, ids, groups = dict(doc.by_names()), dict(doc.by_id()), set(doc.groups)
     for element, group, every in elements:
@@ -70,7 +74,7 @@ def add_all(
 
 
 def remove(doc: Document, ids: Iterable[str]) -> Document:
-    """A document without these elements, their connections and their links."""
+    """Return a document without these elements, their connections and their links."""
     gone = set(ids)
     knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.knobs)
     kept = tuple(c for c in doc.connections if not gone & {c.source, c.target})
@@ -85,14 +89,14 @@ def remove(doc: Document, ids: Iterable[str]) -> Document:
 
 
 def remove_group(doc: Document, group: PathNames) -> Document:
-    """A document without a group and everything in it."""
+    """Return a document without a group and its content."""
     doc = remove(doc, [e.id for e in doc.entries if e.names[: len(group)] == group])
     uses = tuple(u for u in doc.uses if u.group[: len(group)] != group)
     return dc.replace(doc, groups=tuple(g for g in doc.groups if g[: len(group)] != group), uses=uses)
 
 
 def move(doc: Document, ident: str, names: PathNames) -> Document:
-    """A document in which an element stands under another path; its id stays."""
+    """Return a document in which an element has another path; its id does not change."""
     entry = find.entry(doc, ident)
     if names == entry.names:
         return doc
@@ -104,7 +108,7 @@ def move(doc: Document, ident: str, names: PathNames) -> Document:
 
 
 def move_group(doc: Document, group: PathNames, to: PathNames) -> Document:
-    """A document in which a group, with everything in it, stands under another path."""
+    """Return a document in which a group with its content has another path."""
     if to[: len(group)] == group and to != group:
         raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
     if to == group:
@@ -127,7 +131,7 @@ def move_group(doc: Document, group: PathNames, to: PathNames) -> Document:
 
 
 def ungroup(doc: Document, group: PathNames) -> Document:
-    """A document in which a group's contents stand where the group stood."""
+    """Return a document in which the content of a group has moved to the parent of the group."""
     for e in [e for e in doc.entries if e.names[: len(group)] == group]:
         doc = move(doc, e.id, group[:-1] + e.names[len(group) :])
     groups = [group[:-1] + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
@@ -136,7 +140,7 @@ def ungroup(doc: Document, group: PathNames) -> Document:
 
 
 def group(doc: Document, names: PathNames) -> Document:
-    """A document with an (empty) group; where it stands already, the same document."""
+    """Return a document with one more (empty) group; the same document if the group exists."""
     if names in doc.groups:
         return doc
     _vacant(doc, names)
@@ -144,7 +148,7 @@ def group(doc: Document, names: PathNames) -> Document:
 
 
 def copy(doc: Document, ids: Iterable[str], place: Callable[[PathNames], PathNames]) -> Document:
-    """A document with copies of elements, each under `place(its path)`, and of the connections and links
+    """Return a document with copies of elements, each at `place(its path)`, and of the connections and links
     among them.
     """
     return insert(doc, doc, place, set(ids))
@@ -157,11 +161,13 @@ def insert(
     ids: set[str] | None = None,
     linked: bool = False,
 ) -> Document:
-    """A document with the elements of a template, copied: new ids, the same connections, and its document
+    """Return a document with copies of a template's elements, connections and document parameters.
+
+    The copies have new ids.
     parameters.
 
-    Where `linked`, the document remembers which element came from which (`uses.refresh`). What the template
-    itself uses stays linked too.
+    With `linked`, the document stores which element is a copy of which (`uses.refresh`). Groups of the
+    template that are linked to another template stay linked to it.
     """
     placed = [(e, place(e.names)) for e in template.entries if ids is None or e.id in ids]
     doc, entries = add_all(
@@ -202,7 +208,9 @@ def insert(
 def connect(
     doc: Document, source: Entry, source_port: str, target: Entry, target_port: str, reads: str = ""
 ) -> Document:
-    """A document with one more connection. Empty ports mean the default ones: the output, the first input."""
+    """Return a document with one more connection. An empty port means the default one: the output, the first
+    input.
+    """
     outs, ins = find.outputs(source), target.element.ports()
     if not ins:
         raise ModelError(f"{target.path} has no input port", where=f"{source.path} -> {target.path}")
@@ -231,7 +239,7 @@ def connect(
 
 
 def disconnect(doc: Document, source: str, source_port: str, target: str, target_port: str) -> Document:
-    """A document without one connection."""
+    """Return a document without one connection."""
     ends = (source, source_port, target, target_port)
     if all(c.ends != ends for c in doc.connections):
         by = doc.by_id()
@@ -242,7 +250,7 @@ def disconnect(doc: Document, source: str, source_port: str, target: str, target
 
 
 def put(doc: Document, ident: str, path: str, value: Any) -> Document:
-    """A document with another value of one parameter of an element, linked ones excepted."""
+    """Return a document with another value of one parameter of an element; a linked parameter is refused."""
     entry = find.entry(doc, ident)
     if path.split(".")[0] == "name":
         raise ParameterError(
@@ -258,7 +266,7 @@ def put(doc: Document, ident: str, path: str, value: Any) -> Document:
 
 
 def change(doc: Document, path: str, value: Any) -> Document:
-    """A document with another value of what a path names: a parameter of an element, or a document
+    """Return a document with another value at a path: of a parameter of an element, or of a document
     parameter.
     """
     found = find.target(doc, path)
@@ -270,7 +278,7 @@ def change(doc: Document, path: str, value: Any) -> Document:
 
 
 def change_all(doc: Document, values: Mapping[str, Any]) -> Document:
-    """A document with other values of all that the paths name; the error lists every one that is refused."""
+    """Return a document with other values at several paths; the error lists every value that is refused."""
     errors: list[DeodarError] = []
     for path, value in values.items():
         try:
@@ -285,9 +293,7 @@ def change_all(doc: Document, values: Mapping[str, Any]) -> Document:
 
 
 def assignments(path: Any, value: Any) -> Mapping[str, Any]:
-    """What `set` was called with, as values by their paths: `set(path, value)` or `set({path: value,
-    ...})`.
-    """
+    """Return the arguments of `set` as values by path: `set(path, value)` or `set({path: value, ...})`."""
     if isinstance(path, Mapping):
         if value is not ...:
             raise ParameterError(
@@ -309,7 +315,7 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
 
 
 def every(doc: Document, ident: str, ticks: int) -> Document:
-    """A document in which an element runs at another step."""
+    """Return a document in which an element has another step."""
     require_ticks(ticks, find.entry(doc, ident).path)
     return dc.replace(
         doc, entries=tuple(dc.replace(e, every=ticks) if e.id == ident else e for e in doc.entries)
@@ -317,9 +323,7 @@ def every(doc: Document, ident: str, ticks: int) -> Document:
 
 
 def knob(doc: Document, name: str, value: float) -> Document:
-    """A document with a named parameter of its own, new or changed, and everything linked to it at that
-    value.
-    """
+    """Return a document with a new or changed document parameter; every linked parameter gets its value."""
     number = real(value)
     if number is None or not math.isfinite(number):
         raise ParameterError(f"needs a finite number, not {show(value)}", where=str(name))
@@ -344,12 +348,12 @@ def knob(doc: Document, name: str, value: float) -> Document:
 
 
 def remove_knob(doc: Document, name: str) -> Document:
-    """A document without a document parameter; what it drove keeps its value."""
+    """Return a document without a document parameter; the parameters that it drove keep their values."""
     return dc.replace(doc, knobs=tuple(k for k in doc.knobs if k.name != name))
 
 
 def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
-    """A document in which a parameter of an element takes its value from a document parameter."""
+    """Return a document in which a document parameter drives a parameter of an element."""
     entry = find.entry(doc, ident)
     found = next((k for k in doc.knobs if k.name == name), None)
     if found is None:
@@ -369,13 +373,13 @@ def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
 
 
 def unlink(doc: Document, ident: str, leaf: str) -> Document:
-    """A document in which a parameter stands for itself again, at the value it had."""
+    """Return a document in which a parameter is no longer linked; it keeps its value."""
     knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x != (ident, leaf))) for k in doc.knobs)
     return dc.replace(doc, knobs=knobs)
 
 
 def describe(doc: Document, **values: Any) -> Document:
-    """A document with other general properties: name, time_unit, dt, t0, notes, layout."""
+    """Return a document with other general properties: name, time_unit, dt, t0, notes, layout."""
     strange = [key for key in values if key not in GENERAL]
     if strange:
         raise UnknownName(f"a document has no property {strange[0]!r}", fix=did_you_mean(strange[0], GENERAL))
@@ -402,12 +406,14 @@ def describe(doc: Document, **values: Any) -> Document:
 
 
 def arrange(doc: Document, layout: Mapping[str, Any]) -> Document:
-    """A document with another layout (places of boxes, panels, pinned sliders); the science stays."""
+    """Return a document with another layout (positions of boxes, panels, pinned sliders); nothing else
+    changes.
+    """
     return dc.replace(doc, layout=dict(layout))
 
 
 class UndoHistory:
-    """Documents one after the other, with undo and redo."""
+    """A sequence of documents, with undo and redo."""
 
     def __init__(self, document: Document) -> None:
         self._past: list[Document] = []
@@ -415,23 +421,23 @@ class UndoHistory:
         self.document = document
 
     def __copy__(self) -> UndoHistory:
-        """A history of the same documents, which goes its own way from here."""
+        """Return an independent history of the same documents."""
         other = UndoHistory(self.document)
         other._past, other._future = list(self._past), list(self._future)
         return other
 
     @property
     def documents(self) -> tuple[Document, ...]:
-        """Every document that is kept: the past, the present one, and what was undone."""
+        """All stored documents: the past ones, the present one, and those that were undone."""
         return (*self._past, self.document, *self._future)
 
     @property
     def depth(self) -> int:
-        """How many changes can be undone."""
+        """Number of changes that can be undone."""
         return len(self._past)
 
     def commit(self, document: Document) -> None:
-        """Take a new document; what was undone is forgotten."""
+        """Add a new document; documents that were undone are discarded."""
         if document is self.document:
             return
         self._past.append(self.document)
@@ -439,19 +445,20 @@ class UndoHistory:
         self.document = document
 
     def amend(self, document: Document) -> None:
-        """Take a new document in the place of the present one: one change made in many small ones, or one
-        that nobody would undo.
+        """Replace the present document by a new one without a new step of the history.
+
+        For a change that is made in many small ones, and for changes that no user would undo.
         """
         self.document = document
         self._future.clear()
 
     @property
     def ahead(self) -> int:
-        """How many changes were undone and can be made again."""
+        """Number of changes that were undone and can be redone."""
         return len(self._future)
 
     def undo(self) -> bool:
-        """Back to the document before; False where there is none."""
+        """Return to the previous document; False if it does not exist."""
         if not self._past:
             return False
         self._future.append(self.document)
@@ -459,7 +466,7 @@ class UndoHistory:
         return True
 
     def redo(self) -> bool:
-        """Forward again; False where nothing was undone."""
+        """Redo the last change that was undone; False if no change was undone."""
         if not self._future:
             return False
         self._past.append(self.document)
@@ -487,7 +494,9 @@ def _vacant(
     taken: Mapping[PathNames, Entry] | None = None,
     groups: Collection[PathNames] | None = None,
 ) -> None:
-    """Refuse a path that an element, a group or a document parameter has, or that leads into an element."""
+    """Refuse a path that is the path of an element, group or document parameter, or that leads into an
+    element.
+    """
     taken, groups = doc.by_names() if taken is None else taken, doc.groups if groups is None else groups
     if any(not isinstance(n, str) or not n or not is_text(n) for n in names):
         raise ModelError(
@@ -511,9 +520,7 @@ def _vacant(
 
 
 def _unambiguous(doc: Document, names: PathNames, element: Element) -> None:
-    """Refuse a place at which a parameter of the element would have the path that a document parameter is
-    called by.
-    """
+    """Refuse a path at which a parameter of the element would have the path of a document parameter."""
     path = display(names)
     for k in doc.knobs:
         if k.name.startswith(f"{path}.") and k.name[len(path) + 1 :] in [
@@ -526,7 +533,7 @@ def _unambiguous(doc: Document, names: PathNames, element: Element) -> None:
 
 
 def require_ticks(every: Any, where: str) -> None:
-    """Refuse what is no number of ticks that a part could run at."""
+    """Raise unless `every` is a valid step of an element in ticks."""
     if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= MOST_TICKS:
         raise ParameterError(
             f"the step is {show(every)} ticks; it is a whole number, 1 to {MOST_TICKS}", where=where

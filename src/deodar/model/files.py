@@ -1,8 +1,8 @@
-"""The document as JSON, with its arrays in one hashed file beside it, or both in one file, `NAME.deodar`.
+"""The document as JSON with its arrays in one hashed file beside it, or both in one file, `NAME.deodar`.
 
-Reading trusts nothing: sizes and nesting are bounded, numbers must be finite, arrays are plain numbers from a
-file of the document's own folder whose hash is written in the document, and user functions stay inert until
-they are trusted.
+Reading trusts no content: sizes and nesting are bounded, numbers must be finite, arrays are plain numbers
+from a file in the document's own folder whose hash the document states, and user functions are not imported
+until the user trusts the document.
 """
 
 from __future__ import annotations
@@ -28,19 +28,19 @@ from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
 
 MOST_BYTES = 64 * 2**20
-"""Longest document file; larger things are arrays (a guess, hundreds of times the largest known
-architecture).
+"""Largest size of a document file; larger data are stored as arrays (a guess, hundreds of times the largest
+known architecture).
 """
 
 ARRAY_SHARE = 0.5
-"""Share of the free memory that the arrays of a document may take (a guess that leaves room to run it)."""
+"""Share of the free memory that the arrays of a document may take (a guess that leaves memory for a run)."""
 
 
 # -------------------------------------------------------------------------------------------------------- out
 
 
 def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
-    """The document as plain data in a stable order of keys, and its arrays by key."""
+    """Return the document as plain data with keys in a stable order, and its arrays by key."""
     axes: dict[str, Axis] = {}
     arrays: dict[str, FrozenArray] = {}
 
@@ -92,7 +92,7 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
 
 
 def dumps(doc: Document, arrays_file: str = "") -> tuple[str, bytes | None]:
-    """The document as JSON text, and the content of its array file (None without arrays)."""
+    """Return the document as JSON text, and the content of its array file (None without arrays)."""
     data, arrays = to_data(doc)
     packed = pack(arrays) if arrays else None
     if packed is not None:
@@ -104,7 +104,7 @@ def dumps(doc: Document, arrays_file: str = "") -> tuple[str, bytes | None]:
 
 
 def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
-    """The content of an array file; the same arrays always give the same bytes."""
+    """Return the content of an array file; equal arrays always give equal bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as z:
         for key, array in arrays.items():
@@ -117,9 +117,9 @@ def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
 
 
 def save(doc: Document, path: str | Path, force: bool = False) -> None:
-    """Write the document, its array file first; refuses to replace a file unless `force`.
+    """Write the document, its array file first; an existing file is replaced only with `force`.
 
-    A name that ends in .deodar holds both in one file.
+    A file whose name ends in .deodar contains both.
     """
     path = output.claim(path, force)
     text, packed = dumps(doc, path.stem)
@@ -142,7 +142,7 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
 
 
 def _old_arrays(path: Path) -> Path | None:
-    """The array file of the document that stands at `path`, if it is one of ours."""
+    """Return the array file of the document at `path`, if deodar wrote it."""
     try:
         name = codec.parse(path.read_text())["arrays"]["file"]
         old = path.with_name(name)
@@ -177,7 +177,7 @@ def _axis_data(axis: Axis) -> dict[str, Any]:
 
 
 def load(path: str | Path) -> Document:
-    """Read a document; every problem is listed at once, nothing is half-loaded."""
+    """Read a document; the error lists every problem, and no partial document is returned."""
     if not isinstance(path, (str, Path)):
         raise DocumentError(f"needs the path of a file, not {show(path)}")
     path = Path(path)
@@ -211,12 +211,12 @@ def loads(content: bytes, beside: Callable[[str], bytes | None]) -> Document:
     """Read a document, or a package, from the content of its file.
 
     Args:
-        content: what the file holds.
-        beside: gives the content of the array file that a document names; None where there is none. A package
-            holds its own.
+        content: the content of the file.
+        beside: returns the content of the array file that a document names, or None if it does not exist. A
+            package contains its own array file.
 
     Raises:
-        DocumentError: with every problem found.
+        DocumentError: the document has problems; the error lists all.
     """
     if package.is_content(content):
         return _load_package(io.BytesIO(content))
@@ -233,7 +233,7 @@ def _load_package(file: Path | BinaryIO) -> Document:
 
 
 def _beside(path: Path) -> bytes | None:
-    """The content of an array file beside a document; None where there is none."""
+    """Return the content of an array file beside a document; None if it does not exist."""
     if path.is_symlink():
         raise DocumentError(
             f"the array file {path.name!r} lies outside the document's folder", where="arrays"
@@ -245,7 +245,7 @@ def _beside(path: Path) -> bytes | None:
 
 
 def require_room(size: int, name: str) -> None:
-    """Refuse arrays that would not fit into memory, before they are unpacked."""
+    """Refuse arrays that do not fit into memory, before they are unpacked."""
     free = psutil.virtual_memory().available
     if size > ARRAY_SHARE * free:
         what = f"the arrays in {name!r} take {size / 2**30:,.1f} GiB; {free / 2**30:,.1f} GiB are free"
@@ -253,7 +253,9 @@ def require_room(size: int, name: str) -> None:
 
 
 def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenArray]:
-    """The arrays that a document names; `read` gives the content of a file of its folder, or None."""
+    """Return the arrays that a document names; `read` returns the content of a file of its folder, or
+    None.
+    """
     entry = cast("dict[str, Any]", data).get("arrays") if isinstance(data, dict) else None
     if entry is None:
         return {}
@@ -280,7 +282,7 @@ def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenA
 
 
 def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
-    """The arrays of an array file; objects that would need pickle are refused."""
+    """Return the arrays of an array file; objects that need pickle are refused."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as z:
             require_room(sum(entry.file_size for entry in z.infolist()), name)

@@ -1,4 +1,4 @@
-"""From a path to what it names: an element, a port, a parameter, a document parameter."""
+"""Look up paths: of an element, a port, a parameter or a document parameter."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from deodar.parameters import parameters
 
 @dc.dataclass(frozen=True)
 class Target:
-    """What a parameter path names: a document parameter (`knob`), or a parameter of an element."""
+    """The target of a parameter path: a document parameter, or a parameter of an element."""
 
     entry: Entry | None
     parameter: str
@@ -21,7 +21,7 @@ class Target:
 
 
 def entry(doc: Document, ident: str) -> Entry:
-    """The entry of an id; an id whose element was removed is an error."""
+    """Return the entry of an id; the id of a removed element is an error."""
     found = doc.by_id().get(ident)
     if found is None:
         raise UnknownName(f"the element with the id {ident} was removed from the document")
@@ -29,7 +29,7 @@ def entry(doc: Document, ident: str) -> Entry:
 
 
 def element(doc: Document, path: str) -> Entry:
-    """The element at a path; an unknown one is an error that suggests the nearest."""
+    """Return the element at a path; the error of an unknown path suggests the nearest."""
     by = doc.by_names()
     found = [names for names, rest in readings(path, doc.index()) if not rest]
     if not found:
@@ -40,7 +40,7 @@ def element(doc: Document, path: str) -> Entry:
 
 
 def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]:
-    """The element and the port that a path names; a path without a port means the default one."""
+    """Return the element and the port at a path; a path without a port means the port `default`."""
     by = doc.by_names()
     found = readings(path, doc.index())
     for names, rest in found:
@@ -65,34 +65,35 @@ def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]
 
 
 def shown(doc: Document, path: str) -> tuple[Entry, str]:
-    """The element and the port whose values a path names, to record or to read: of a field without a port its
-    activation, else the default output.
+    """Return the element and the port whose values are recorded or read at a path.
 
-    In a connection a path without a port means the default output of every element: `port`.
+    Without a port this is the activation of a field, else the default output.
+
+    For connections a path without a port means the default output of every element: see `port`.
     """
     entry, name = port(doc, path, "")
     return entry, name or ("activation" if "activation" in outputs(entry) else outputs(entry)[0])
 
 
 def written(doc: Document, path: str) -> str:
-    """The same with its port, as text: `u` is `u.activation`."""
+    """Return a recorded path with its port, as text: `u` gives `u.activation`."""
     entry, name = shown(doc, path)
     return f"{entry.path}.{quote(name)}"
 
 
 def readable(entry: Entry) -> list[str]:
-    """Ports that can be read and recorded: outputs, then inputs."""
+    """Return the ports that can be read and recorded: outputs, then inputs."""
     return [*outputs(entry), *entry.element.ports()]
 
 
 def outputs(entry: Entry) -> list[str]:
-    """Names of the output ports."""
+    """Return the names of the output ports."""
     element = entry.element
     return list(element.outputs({port: () for port in element.ports()}))
 
 
 def target(doc: Document, path: str) -> Target:
-    """The parameter that a path names: `u.tau`, `u.kernel.0.sigma`, or the name of a document parameter."""
+    """Return the parameter at a path: `u.tau`, `u.kernel.0.sigma`, or the name of a document parameter."""
     by = doc.by_names()
     found = [(by[names], rest) for names, rest in readings(path, doc.index()) if rest]
     for entry, rest in found:
@@ -116,7 +117,7 @@ def target(doc: Document, path: str) -> Target:
 
 
 def number(doc: Document, ident: str, leaf: str) -> float:
-    """The value of a parameter of an element that a document parameter can drive; any other parameter is an
+    """Return the value of a parameter that a document parameter can drive; any other parameter is an
     error.
     """
     found = entry(doc, ident)

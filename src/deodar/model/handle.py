@@ -1,4 +1,4 @@
-"""The handle of an element or port, which a script holds: parameters are its attributes, ports its items."""
+"""Handles of elements and ports: parameters are attributes, ports are items."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _OWN = frozenset({"model", "id", "port", "path", "element"})
 
 
 class Builder(Owner, Protocol):
-    """What `>>` asks of the model."""
+    """The methods of a model that `>>` calls."""
 
     def connect(self, source: Handle, target: Handle) -> None:
         """Connect an output port to an input port."""
@@ -29,11 +29,12 @@ class Builder(Owner, Protocol):
 
 
 class Handle:
-    """An element of a model, or one of its ports: what `add` returns and `>>` connects.
+    """An element of a model or one of its ports, as `add` returns it and `>>` connects it.
 
     A parameter is an attribute: `u.tau` reads its present value in the model, `u.tau = 30` changes it as
     `model.set("u.tau", 30)` does. Kernels and sigmoids are read and changed inside: `u.kernel[0].sigma = 3`.
-    A parameter that is linked to a document parameter reads as the value of that, and refuses another value.
+    A parameter that is linked to a document parameter has the value of the document parameter and cannot be
+    set.
     A port is an item: `u["activation"]`.
 
     Attributes:
@@ -60,7 +61,7 @@ class Handle:
         return Handle(self.model, self.id, port)
 
     __iter__ = None
-    """A handle is no sequence of its ports."""
+    """A handle is not a sequence of its ports."""
 
     def __rshift__(self, other: Handle | Element) -> Handle:
         if isinstance(other, Handle):
@@ -69,19 +70,19 @@ class Handle:
         return self.model.follow(self, other)
 
     def _ipython_key_completions_(self) -> list[str]:
-        """Ports, for completion inside the brackets."""
+        """Return the ports, for completion inside the brackets."""
         return find.readable(self.model.entry(self.id))
 
     # ------------------------------------------------------------------------- the element and its parameters
 
     @property
     def path(self) -> str:
-        """The element's path now; it follows renames and moves."""
+        """The present path of the element, after renames and moves."""
         return self.model.entry(self.id).path
 
     @property
     def element(self) -> Element:
-        """The element as it now is."""
+        """The element in the present document."""
         return self.model.entry(self.id).element
 
     def __getattr__(self, name: str) -> Any:

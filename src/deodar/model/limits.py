@@ -10,13 +10,13 @@ from deodar.leaves import step_limits
 
 
 def too_long(where: str, element: Element, dt: float, every: int, unit: str) -> Iterator[Problem]:
-    """What a step is too long for: the same sentence for `check` and for a run.
+    """Report an Euler step that is too long for an element; `check` and runs use the same sentence.
 
     Args:
         where: path of the element.
         element: the element.
-        dt: step of the model.
-        every: step of the element as a multiple of it.
+        dt: Euler step of the model.
+        every: step of the element in ticks, as a multiple of `dt`.
         unit: unit of time of the document.
     """
     for limit in step_limits(element):

@@ -1,4 +1,4 @@
-"""Documents of older versions, rewritten as the present version: plain data in, plain data out.
+"""Convert documents of older versions to the present version: plain data in, plain data out.
 
 Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every
 axis. Version 3 renames parameters.
@@ -43,13 +43,13 @@ DEFAULTS_OF_1: Mapping[str, Mapping[str, tuple[AxisData, ...]]] = {
 """Axes that elements of version 1 had where a document left them out, by kind and parameter."""
 
 RENAMED_AFTER_2: Mapping[str, Mapping[str, str]] = {"MovingGaussian": {"path": "waypoints"}}
-"""Parameters of versions 1 and 2 that have another name since, by kind: old name to new name."""
+"""Parameters of versions 1 and 2 that version 3 renamed, by kind: old name to new name."""
 
 
 def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Rewrite a document of an older version; one of the present version is returned as it is.
+    """Convert a document of an older version; a document of the present version is returned unchanged.
 
-    What is not of the expected form is left to the reader, which reports it.
+    Data of an unexpected form are not changed: the reader reports them.
     """
     if data.get("deodar") == 1:
         data = _from_1(data)
@@ -57,12 +57,13 @@ def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def recorded(doc: Document, path: str) -> str:
-    """Rewrite a path that was recorded with versions 1 and 2, where the path of a field alone meant its
-    output, not its activation.
+    """Convert a recorded path of versions 1 and 2, where the path of a field alone meant its output.
+
+    Now it means the activation.
     """
     try:
         entry, port = find.port(doc, path, "")
-    except UnknownName:  # the sensor of a world, or a mistake that whoever reads the path reports
+    except UnknownName:  # the sensor of a world, or a mistake that the reader of the path reports
         return path
     return path if port or "activation" not in find.outputs(entry) else f"{path}.output"
 
@@ -99,7 +100,7 @@ def _from_2(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _key(axes: dict[str, Any], axis: AxisData) -> str:
-    """The key under which the document has the axis; it is added where it is not there."""
+    """Return the key of the axis in the document; an axis that the document lacks is added."""
     name, k = axis["name"], 1
     key = name
     while key in axes and axes[key] != axis:

@@ -23,15 +23,15 @@ from deodar.parameters import show
 
 
 class Model:
-    """An architecture being built.
+    """An architecture under construction.
 
     Args:
         name: name of the document.
         time_unit: unit of all times: us, ms, s, min, abstract, or steps such as "1 = 64 ms".
-        dt: Euler step where a run states none.
+        dt: Euler step of runs that state none.
         document: start from this document instead of an empty one.
-        trusted: whether user functions named in the document may be imported and run. None: if this process
-            made the document, or read it with trust; not if it came from a file, a pickle or a message.
+        trusted: whether user functions that the document names may be imported and run. None: yes if this
+            process made the document or read it with trust, no if it came from a file, a pickle or a message.
     """
 
     def __init__(
@@ -62,7 +62,9 @@ class Model:
             raise renamed.no_member(self, name)
 
     def __copy__(self) -> Model:
-        """An independent model with the same document, history and trust, without compiled programs."""
+        """Return an independent model with the same document, history and trust, without compiled
+        programs.
+        """
         other = object.__new__(type(self))
         other.__dict__.update(
             self.__dict__, history=copy.copy(self.history), declared=dict(self.declared), programs={}
@@ -70,14 +72,15 @@ class Model:
         return other
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Model:
-        """The same as `copy.copy`: documents never change, so that copies share them."""
+        """Return the same as `copy.copy`: documents are immutable, so copies share them."""
         memo[id(self)] = other = copy.copy(self)
         return other
 
     def __getstate__(self) -> dict[str, Any]:
-        """What a pickle holds: no compiled programs, and no trust in functions that a document names.
+        """Return the state for a pickle: no compiled programs, and no trust in functions that a document
+        names.
 
-        Whoever reads the pickle decides whether to trust them: `Model(document=model.document,
+        The code that reads the pickle decides whether to trust them: `Model(document=model.document,
         trusted=True)`.
         """
         plain = not any(e.element.external_code() for d in self.history.documents for e in d.entries)
@@ -89,9 +92,9 @@ class Model:
     def add(self, element: Element, group: str = "", ticks: int = 1, after: Handle | None = None) -> Handle:
         """Add an element and return its handle.
 
-        `ticks` is the length of its own step: with `ticks=10` it takes a step of 10 dt at every tenth tick.
-        Elements without a state (couplings, stimuli) have no step: they follow their inputs at every tick;
-        noise is drawn anew once in this number of ticks.
+        `ticks` is the length of the element's step: with `ticks=10` it takes a step of 10 dt at every tenth
+        tick. Elements without a state (couplings, stimuli) have no step: they follow their inputs at every
+        tick; noise draws new values every `ticks` ticks.
         """
         near = self.entry(after.id) if after is not None else None
         doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, near)
@@ -100,7 +103,7 @@ class Model:
         return Handle(self, entry.id)
 
     def follow(self, source: Handle, element: Element) -> Handle:
-        """Add an element that reads `source`, in one change: what `source >> element` does."""
+        """Add an element that reads `source`, as one change, like `source >> element`."""
         entry = self.entry(source.id)
         doc, new = edit.add(self.document, element, after=entry)
         self.commit(edit.connect(doc, entry, source.port, new, ""))
@@ -113,20 +116,20 @@ class Model:
         self.commit(edit.connect(self.document, *a, *b, reads))
 
     def disconnect(self, source: Handle | str, target: Handle | str) -> None:
-        """Take a connection away."""
+        """Remove a connection."""
         (a, a_port), (b, b_port) = self._end(source, "output"), self._end(target, "")
         a_port, b_port = a_port or find.outputs(a)[0], b_port or b.element.ports()[0]
         self.commit(edit.disconnect(self.document, a.id, a_port, b.id, b_port))
 
     def remove(self, what: Handle | str) -> None:
-        """Take an element, or a group with everything in it, away."""
+        """Remove an element, or a group with its content."""
         if isinstance(what, str) and split(what) in self.document.groups:
             self.commit(edit.remove_group(self.document, split(what)))
         else:
             self.commit(edit.remove(self.document, [self._entry(what).id]))
 
     def rename(self, what: Handle | str, name: str) -> None:
-        """Give an element, or a group, another name; its place stays."""
+        """Rename an element or a group; its group does not change."""
         if isinstance(what, str) and split(what) in self.document.groups:
             names = split(what)
             self.commit(edit.move_group(self.document, names, (*names[:-1], name)))
@@ -135,7 +138,7 @@ class Model:
             self.commit(edit.move(self.document, entry.id, (*entry.group, name)))
 
     def move(self, what: Handle | str, group: str) -> None:
-        """Put an element, or a group, into another group; "" is the top."""
+        """Move an element or a group into another group; "" is the top level."""
         to = split(group) if group else ()
         if isinstance(what, str) and split(what) in self.document.groups:
             names = split(what)
@@ -145,47 +148,49 @@ class Model:
             self.commit(edit.move(self.document, entry.id, (*to, entry.names[-1])))
 
     def group(self, path: str) -> None:
-        """Make a group."""
+        """Add a group."""
         self.commit(edit.group(self.document, split(path)))
 
     def ungroup(self, path: str) -> None:
-        """Put a group's contents where the group stands."""
+        """Move the content of a group to the parent of the group."""
         self._group(path)
         self.commit(edit.ungroup(self.document, split(path)))
 
     def copy(self, group: str, to: str) -> None:
-        """Copy a group, with the connections and links inside it, under another path.
+        """Copy a group, with the connections and links inside it, to another path.
 
-        One element is copied by `model.add(model["u"].element, group="other")`.
+        To copy one element: `model.add(model["u"].element, group="other")`.
         """
         names, target = self._group(group), split(to)
         inside = [e.id for e in self.document.entries if e.names[: len(names)] == names]
         self.commit(edit.copy(self.document, inside, lambda n: target + n[len(names) :]))
 
     def insert(self, template: Model, group: str, link: bool = False) -> None:
-        """Copy another model into this one, as a group; with `link` it stays one of the template's uses, for
-        `refresh`.
+        """Copy another model into this one as a group.
 
-        Document parameters come along; one whose name this model has already is shared, at the value it has
-        here. Functions of a model that nobody trusts are not trusted here either.
+        With `link` the group stays linked to the template, and `refresh` updates it.
+
+        Document parameters of the template are copied; where this model has one of the same name, both share
+        it at the value of this model. Functions of a model that is not trusted are not trusted here either.
         """
         target = split(group)
         self.commit(edit.insert(self.document, template.document, lambda n: target + n, linked=link))
         self._doubt(template)
 
     def refresh(self, template: Model) -> None:
-        """Make all groups that are linked to a template of this name as the template now is.
+        """Update all groups that are linked to a template of this name to its present content.
 
         Elements keep their ids, and so their states and noise; connections across the border of a group stay.
-        What was changed inside is made again as the template has it, except what document parameters drive.
-        Those keep their values here; new ones come along.
+        Changes inside a group are overwritten by the template, except parameters that document parameters
+        drive: these keep their values, and new document parameters are added.
         """
         self.commit(uses.refresh(self.document, template.document))
         self._doubt(template)
 
     def set(self, path: str | Mapping[str, Any], value: Any = ...) -> None:
-        """Change a parameter (`u.tau`, `u.kernel.0.sigma`) or a document parameter (`gain`), or several at
-        once: all or, after an error, none.
+        """Set a parameter (`u.tau`, `u.kernel.0.sigma`), a document parameter (`gain`), or several at once.
+
+        After an error no value is changed.
 
         For example `model.set("u.tau", 30)` or `model.set({"u.tau": 30, "v.tau": 10})`, which is one step of
         the history.
@@ -193,18 +198,18 @@ class Model:
         self.commit(edit.change_all(self.document, edit.assignments(path, value)))
 
     def get(self, path: str) -> Any:
-        """The value of a parameter."""
+        """Return the value of a parameter."""
         found = find.target(self.document, path)
         if found.entry is None:
             return next(k.value for k in self.document.knobs if k.name == found.knob)
         return get(found.entry.element, found.parameter)
 
     def set_ticks(self, what: Handle | str, ticks: int) -> None:
-        """Set the length of an element's own step, in ticks of the model."""
+        """Set the step of an element, in ticks of the model."""
         self.commit(edit.every(self.document, self._entry(what).id, ticks))
 
     def parameter(self, name: str, value: float) -> None:
-        """A named parameter of the document: one knob for everything linked to it."""
+        """Add or set a document parameter: one value that drives all parameters linked to it."""
         self.commit(edit.knob(self.document, name, value))
 
     def link(self, path: str, name: str) -> None:
@@ -215,34 +220,34 @@ class Model:
         self.commit(edit.link(self.document, found.entry.id, found.parameter, name))
 
     def unlink(self, path: str) -> None:
-        """Let a parameter stand for itself again."""
+        """Remove the link of a parameter to a document parameter; it keeps its value."""
         found = find.target(self.document, path)
         if found.entry is not None:
             self.commit(edit.unlink(self.document, found.entry.id, found.parameter))
 
     def describe(self, **values: Any) -> None:
-        """Change general properties: name, time_unit, dt, t0, notes."""
+        """Set general properties: name, time_unit, dt, t0, notes."""
         self.commit(edit.describe(self.document, **values))
 
     def commit(self, document: Document) -> None:
-        """Take a document that `deodar.model.edit` made from the present one: one step of the history."""
+        """Replace the document by one that `deodar.model.edit` made from it: one step of the history."""
         if self._doubted is not None and self.history.depth < self._doubted:
-            self._doubted = None  # the change that brought it was taken back, and is now forgotten
+            self._doubted = None  # the change that brought it was undone, and can no longer be redone
         self.history.commit(document)
 
     def undo(self) -> bool:
-        """Take the last change back; False where there is none."""
+        """Undo the last change; False if no change can be undone."""
         return self.history.undo()
 
     def redo(self) -> bool:
-        """Make the change again that was taken back; False where there is none."""
+        """Redo the last change that was undone; False if no change was undone."""
         return self.history.redo()
 
     # ------------------------------------------------------------------------------------------------ looking
 
     @property
     def document(self) -> Document:
-        """The immutable document as it now is."""
+        """The present immutable document."""
         return self.history.document
 
     @property
@@ -256,7 +261,7 @@ class Model:
         return self.document.name
 
     def entry(self, ident: str) -> Entry:
-        """The entry of an id."""
+        """Return the entry of an id."""
         found = self.document.by_id().get(ident)
         if found is None:
             raise UnknownName(f"the element with the id {ident} was removed from the model")
@@ -277,21 +282,20 @@ class Model:
         return iter([Handle(self, e.id) for e in self.document.entries])
 
     def check(self) -> list[Problem]:
-        """Problems and warnings, each with its path and the line that declared it; without a problem it
-        runs.
+        """Return problems and warnings, each with its path and the line that declared it.
+
+        A model without problems runs.
         """
         return self._placed(check(self.document))
 
     def require(self) -> None:
-        """Raise a `ModelError` with every problem that stops a run, if there is any; warnings do not
-        count.
-        """
+        """Raise a `ModelError` with every problem that prevents a run; warnings do not raise."""
         found = self._placed(problems(self.document))
         if found:
             raise ModelError(found)
 
     def to_json(self) -> str:
-        """The document as JSON text (arrays by name only; `save` writes them beside it)."""
+        """Return the document as JSON text (arrays by name only; `save` writes them to a file)."""
         return files.dumps(self.document)[0]
 
     def __repr__(self) -> str:
@@ -329,7 +333,7 @@ class Model:
 
     def _doubt(self, template: Model) -> None:
         if not template.trusted and any(e.element.external_code() for e in template.document.entries):
-            self._doubted = self.history.depth  # taken back, the change takes the doubt with it
+            self._doubted = self.history.depth  # if the change is undone, the doubt ends with it
 
     def _entry(self, what: Handle | str) -> Entry:
         if isinstance(what, str):
@@ -361,7 +365,7 @@ class Model:
 
 
 def path_of(what: Any) -> str:
-    """A path as text: given as such, or by a handle of an element or port."""
+    """Return a path as text, from text or from a handle of an element or port."""
     if isinstance(what, Handle):
         return f"{what.path}.{quote(what.port)}" if what.port else what.path
     if not isinstance(what, str):
@@ -373,21 +377,21 @@ def path_of(what: Any) -> str:
 
 
 def save(model: Model, path: str | Path, force: bool = False) -> None:
-    """Write a model as a document, its arrays first; refuses to replace a file unless `force`."""
+    """Write a model as a document, its arrays first; an existing file is replaced only with `force`."""
     files.save(model.document, path, force)
 
 
 def load(path: str | Path, trust: bool = False) -> Model:
-    """Read a document. `trust=True` allows it to import and run the functions it names.
+    """Read a document. With `trust=True` it may import and run the functions it names.
 
     Raises:
-        DocumentError: with every problem found, each with its path.
+        DocumentError: the document has problems; the error lists all, each with its path.
     """
     return Model(document=files.load(path), trusted=trust)
 
 
 def _caller() -> str:
-    """File and line outside this package that called."""
+    """Return the file and line of the first caller outside this package."""
     frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage]
     own = str(Path(__file__).parent.parent)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(own):

@@ -1,4 +1,4 @@
-"""The order of evaluation inside a step, and the loops that have none."""
+"""The order of evaluation in a step, and the loops that have no order."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from deodar.model.resolve import Instant, Node
 
 NodeRole = Literal["output", "advance"]
 Act = tuple[str, NodeRole, Instant]
-"""Element id, what is evaluated, and at which instant: outputs at t (0) or t + dt (1), an advance at t."""
+"""Element id, role, and instant: outputs at t (0) or t + dt (1), an advance at t."""
 
 
 def order(nodes: Sequence[Node]) -> tuple[list[Act], list[Problem]]:
-    """All evaluations of a step in topological order, with `level` set on each node.
+    """Return all evaluations of a step in topological order; sets `level` of each node.
 
-    A read of `current` makes the advance of its source come before it. Nodes of equal level can be evaluated
+    A read of `current` orders the advance of its source before it. Nodes of equal level can be evaluated
     together.
     """
     walk = _Walk(nodes)
@@ -29,7 +29,7 @@ def order(nodes: Sequence[Node]) -> tuple[list[Act], list[Problem]]:
     last = max(walk.depth.values(), default=0) + 1
     for act in walk.acts:
         if act[1] == "advance" and act[0] not in walk.ahead:
-            walk.depth[act] = last  # nobody waits for its new state: all such elements advance together
+            walk.depth[act] = last  # no element reads its new state: all such elements advance together
     for n in nodes:
         acts: tuple[Act, ...] = ((n.id, "output", 0), (n.id, "advance", 0), (n.id, "output", 1))
         n.level = tuple(walk.depth.get(act, -1) for act in acts)

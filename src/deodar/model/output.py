@@ -1,5 +1,7 @@
-"""The one writer of files. A file is written beside its final place, waited for until it is on the disk, and
-renamed; lines are appended whole or not at all. A file that exists is replaced only where the caller says so.
+"""The only writer of files.
+
+A file is written beside its final path, flushed to the disk, and renamed; lines are appended completely or
+not at all. An existing file is replaced only with `force`.
 """
 
 from __future__ import annotations
@@ -16,14 +18,14 @@ from typing import Any
 from deodar.errors import OutputError, OutputExists
 
 THREADS = 16
-"""Files whose way to the disk is waited for at a time (a guess)."""
+"""Number of files that are flushed to the disk at the same time (a guess)."""
 
 UNSUPPORTED = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
-"""What file systems answer that cannot be told to put something on the disk."""
+"""Errors of file systems that cannot flush to the disk."""
 
 
 def location(path: Any) -> Path:
-    """A path from what a script gave; what cannot be one is an error."""
+    """Return a path from the value that a script passed; raise if it cannot be one."""
     try:
         found = Path(path)
         os.fsencode(found)
@@ -35,7 +37,9 @@ def location(path: Any) -> Path:
 
 
 def claim(path: str | Path, force: bool = False) -> Path:
-    """The path, if it may be written: free, or a regular file that `force` allows to be replaced."""
+    """Return the path if it may be written: a new file, or a regular file that `force` allows to be
+    replaced.
+    """
     path = location(path)
     try:
         taken = path.is_symlink() or path.exists()
@@ -61,17 +65,16 @@ def claim(path: str | Path, force: bool = False) -> Path:
 def write(
     path: Path, content: bytes | Callable[[Path], None], durable: bool = True, private: bool = False
 ) -> None:
-    """Write beside the final place, wait until it is on the disk, and rename: the file is there whole, or not
-    at all.
+    """Write a file beside its final path, flush it to the disk, and rename it: it is complete or absent.
 
     Args:
-        path: the file; `claim` has said that it may be written.
-        content: its bytes, or what writes them into the path that it is given.
-        durable: wait for the disk; False is for files that can be made again, such as a cache.
+        path: the file; `claim` has checked that it may be written.
+        content: its bytes, or a function that writes them to the path that it receives.
+        durable: wait for the disk; False for files that can be made again, such as a cache.
         private: only this user may read the file; otherwise it gets the permissions of a new file.
 
     Raises:
-        OutputError: the system refused; a file that was there is as before.
+        OutputError: the system refused; an existing file is unchanged.
     """
     try:
         handle, name = tempfile.mkstemp(prefix=f".{path.name[:40]}.", suffix=path.suffix, dir=path.parent)
@@ -98,10 +101,10 @@ def write(
 
 
 def append(path: Path, content: bytes) -> None:
-    """Append to a file, or make it; the content is on the disk when this returns.
+    """Append to a file or create it; the content is on the disk when this returns.
 
     Raises:
-        OutputError: the system refused; the file ends where it ended before.
+        OutputError: the system refused; the file has its previous length.
     """
     new = not path.exists()
     size = 0 if new else path.stat().st_size
@@ -114,12 +117,12 @@ def append(path: Path, content: bytes) -> None:
             sync_folder(path.parent)
     except OSError as error:
         with contextlib.suppress(OSError):
-            os.truncate(path, size)  # no half of a line, which the next one would continue
+            os.truncate(path, size)  # no partial line, which the next append would continue
         raise failed(path, error) from None
 
 
 def failed(path: Path, error: OSError) -> OutputError:
-    """Return the error of a write that the system refused; who asked for it still has the data."""
+    """Return the error of a write that the system refused; the caller still has the data."""
     room = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
     fix = "The data are still in memory: make room, or write them to another disk" if room else ""
     return OutputError(f"cannot be written: {error.strerror or error}", where=str(path), fix=fix)
@@ -129,7 +132,7 @@ def sync(path: Path) -> None:
     """Wait until the content of a file is on the disk.
 
     Raises:
-        OSError: the disk is full or broken, which some file systems say only now.
+        OSError: the disk is full or broken; some file systems report this only here.
     """
     _sync(path, os.O_RDWR)
 
@@ -141,8 +144,9 @@ def sync_folder(path: Path) -> None:
 
 
 def sync_tree(path: Path) -> None:
-    """Wait until a folder is on the disk with everything below it; several files at a time, which a disk does
-    in about the time of one.
+    """Wait until a folder and everything below it are on the disk.
+
+    Several files at a time: a disk takes about as long as for one.
     """
     found = list(os.walk(path, topdown=False))
     with ThreadPoolExecutor(THREADS) as pool:
@@ -151,7 +155,7 @@ def sync_tree(path: Path) -> None:
 
 
 def sync_open(handle: int) -> None:
-    """Wait until what an open file or folder holds is on the disk, where the file system can tell.
+    """Wait until the content of an open file or folder is on the disk, if the file system can report it.
 
     Raises:
         OSError: the disk is full or broken.

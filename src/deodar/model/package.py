@@ -1,8 +1,9 @@
-"""A document and its arrays in one file, `NAME.deodar`: a zip file that holds `NAME.json` and the array file
-which that names.
+"""A document and its arrays in one file, `NAME.deodar`.
 
-Reading trusts nothing: a package holds these two and nothing else, under plain names, and no more bytes than
-its table of contents says.
+The file is a zip file that contains `NAME.json` and the array file which the document names.
+
+Reading trusts no content: a package contains these two files only, under plain names, and no more bytes than
+its table of contents states.
 """
 
 from __future__ import annotations
@@ -18,17 +19,17 @@ from deodar.errors import DocumentError
 
 SUFFIX = ".deodar"
 MAGIC = b"PK\x03\x04"
-"""Bytes that a package begins with."""
+"""First bytes of a package."""
 
 EMPTY = b"PK\x05\x06"
-"""Bytes that a zip file without content begins with."""
+"""First bytes of an empty zip file."""
 
 DATE = (1980, 1, 1, 0, 0, 0)
-"""Date of every entry, so that the same document gives the same bytes."""
+"""Date of every entry: constant, so that the same document gives the same bytes."""
 
 
 def pack(entries: Mapping[str, bytes]) -> bytes:
-    """Return the content of a package that holds these files."""
+    """Return the content of a package that contains these files."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as z:
         for name, content in entries.items():
@@ -41,13 +42,13 @@ def pack(entries: Mapping[str, bytes]) -> bytes:
 
 
 def is_package(path: Path) -> bool:
-    """Tell whether a file is a zip file, by what it begins with."""
+    """Return whether a file is a zip file, by its first bytes."""
     with path.open("rb") as file:
         return is_content(file.read(4))
 
 
 def is_content(content: bytes) -> bool:
-    """Tell whether content, or the beginning of it, is that of a zip file."""
+    """Return whether content, or its beginning, is that of a zip file."""
     return content[:4] in (MAGIC, EMPTY)
 
 
@@ -55,16 +56,16 @@ class Package:
     """A package that is open for reading.
 
     Args:
-        file: the file, by its path or open.
+        file: the path of the file, or the open file.
         most: largest size of the document in bytes.
-        require_room: called with the size in bytes and the name of each entry; raises if it would not fit
-            into memory.
+        require_room: called with the size in bytes and the name of each entry; raises if it does not fit into
+            memory.
 
     Attributes:
-        document: name of the document in it.
+        document: name of the document in the package.
 
     Raises:
-        DocumentError: it is damaged, or holds something else than a document.
+        DocumentError: the file is damaged, or contains something else than a document.
     """
 
     def __init__(self, file: Path | BinaryIO, most: int, require_room: Callable[[int, str], None]) -> None:
@@ -106,13 +107,13 @@ class Package:
         self._zip.close()
 
     def require_only(self, arrays: str) -> None:
-        """Refuse a package that holds another file than the document and its array file."""
+        """Refuse a package that contains a file other than the document and its array file."""
         strange = [name for name in self._entries if name not in (self.document, arrays)]
         if strange:
             raise DocumentError(f"holds {strange[0]!r}, which the document does not name")
 
     def read(self, name: str) -> bytes | None:
-        """Return the content of a file in it; None where it holds none of that name."""
+        """Return the content of a file in the package; None if the package has no file of that name."""
         entry = self._entries.get(name)
         if entry is None:
             return None

@@ -1,4 +1,4 @@
-"""Handles of parts inside an element of a model: what `u.kernel`, `u.kernel[0]` and `u.sigmoid` are."""
+"""Handles of parts inside an element of a model, such as `u.kernel`, `u.kernel[0]` and `u.sigmoid`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from deodar.parameters import Part, Reference, normal, parameter, parameters, sh
 
 
 class Owner(Protocol):
-    """What handles ask of the model that they belong to."""
+    """The members of a model that its handles use."""
 
     @property
     def document(self) -> Document:
@@ -21,7 +21,7 @@ class Owner(Protocol):
         ...
 
     def entry(self, ident: str) -> Entry:
-        """The entry of an id."""
+        """Return the entry of an id."""
         ...
 
     def commit(self, document: Document) -> None:
@@ -33,7 +33,7 @@ class PartHandle(Reference):
     """A kernel, a sigmoid or another part inside an element of a model.
 
     `u.kernel[0].sigma` reads the present value, `u.kernel[0].sigma = 3` changes it in the model. Where a part
-    is needed, it counts as the part that the model has at that moment: `v.sigmoid = u.sigmoid`.
+    is expected, the handle stands for the present part of the model: `v.sigmoid = u.sigmoid`.
     """
 
     def __init__(self, model: Owner, ident: str, leaf: str) -> None:
@@ -81,7 +81,7 @@ class PartHandle(Reference):
 
 
 class PartsHandle(Reference):
-    """The kernels, windows or other parts inside an element of a model, in their order: items are handles of
+    """The kernels, windows or other parts inside an element of a model, in order; items are handles of
     parts.
     """
 
@@ -160,7 +160,7 @@ class PartsHandle(Reference):
 
 
 def inside(model: Owner, ident: str, part: Part, leaf: str, name: str) -> Any:
-    """The value of a parameter of an element, or of a part at the path `leaf` inside it; parts as handles."""
+    """Return a parameter of an element, or of a part at the path `leaf` inside it; parts as handles."""
     form, path = parameter(type(part), name).form, f"{leaf}.{name}" if leaf else name
     value = getattr(part, name)
     if form == "parts":
@@ -169,8 +169,10 @@ def inside(model: Owner, ident: str, part: Part, leaf: str, name: str) -> Any:
 
 
 def brief(part: Part, links: Mapping[str, str], leaf: str = "") -> list[str]:
-    """`name=value` of every parameter that differs from its default or is linked to a document parameter;
-    neither the name nor axes of an element.
+    """Return `name=value` of every parameter that differs from its default or is linked to a document
+    parameter.
+
+    The name and the axes of an element are left out.
     """
     out: list[str] = []
     for p in parameters(type(part)):
@@ -198,7 +200,7 @@ def _are_parts(value: Any) -> TypeGuard[tuple[Part, ...]]:
 def _is_default(p: Any, value: Any) -> bool:
     try:
         return value == normal(p, p.default)
-    except ValueError:  # a parameter that is required
+    except ValueError:  # a required parameter
         return False
 
 
@@ -210,7 +212,7 @@ def _shown(model: Owner, ident: str, leaf: str, value: Any) -> str:
 
 
 def links_of(model: Owner, ident: str) -> dict[str, str]:
-    """The document parameter that drives each linked parameter of an element."""
+    """Return the document parameter that drives each linked parameter of an element."""
     return {leaf: name for (i, leaf), name in model.document.links().items() if i == ident}
 
 

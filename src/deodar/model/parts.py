@@ -1,4 +1,4 @@
-"""Parts as JSON: their schema, out, and in again with every problem listed."""
+"""Parts as JSON: their schema, writing, and reading that lists every problem."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, p
 
 
 def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
-    """JSON Schema of a part; `reference(base)` gives the schema of the parts that may stand in its place."""
+    """Return the JSON Schema of a part; `reference(base)` returns the schema of the parts that are valid as
+    `base`.
+    """
     properties: dict[str, Any] = {"kind": {"const": cls.__name__}}
     for p in parameters(cls):
         if p.name == "name":
@@ -78,7 +80,7 @@ def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[st
 def to_json(
     part: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]
 ) -> dict[str, Any]:
-    """Plain data of a part: its kind and every parameter, in the order of the fields."""
+    """Return a part as plain data: its kind and every parameter, in the order of the fields."""
     out: dict[str, Any] = {"kind": type(part).__name__}
     for p in parameters(type(part)):
         if p.name != "name":
@@ -175,7 +177,7 @@ def _value(
     arrays: Mapping[str, FrozenArray],
     problems: list[Problem],
 ) -> Any:
-    """The value of one parameter; None where it cannot be read, with a problem."""
+    """Return the value of one parameter; None with a problem if it cannot be read."""
     match p.form:
         case _ if value is None:
             return None
@@ -218,7 +220,7 @@ def _value(
 def _faulty_values(
     known: Mapping[str, Parameter], values: Mapping[str, Any], where: str
 ) -> Iterator[Problem]:
-    """What else is wrong, as far as it can be told without the parts that failed."""
+    """Return the other problems of the values that do not depend on the parts that failed."""
     for name, value in values.items():
         if name in known and known[name].form in PLAIN:
             try:
@@ -228,8 +230,9 @@ def _faulty_values(
 
 
 def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
-    """The line of a document that gives a parameter its axes: a letter stands for any axis that the document
-    has, a word for one of its own.
+    """Return the line of a document that gives a parameter its axes.
+
+    A letter means any axis of the document, a word an axis of this name.
     """
     free = [key for key in axes if key not in like.names]
     keys = [free.pop(0) if len(name) == 1 and name not in axes and free else name for name in like.names]
@@ -256,7 +259,7 @@ def part_from_json(
     base: type[Any],
     name: str,
 ) -> Any:
-    """The named part that plain data describe; raises with every problem found, each with its path."""
+    """Return the named part that plain data describe; the error lists every problem with its path."""
     problems: list[Problem] = []
     part = _from_json(data, where, axes, arrays, base, problems, {"name": name})
     if problems:
@@ -267,8 +270,9 @@ def part_from_json(
 def value_from_json(
     part: Any, path: str, data: Any, where: str, axes: Mapping[str, Any], arrays: Mapping[str, FrozenArray]
 ) -> Any:
-    """The value that plain data describe for one parameter of a part (`tau`, `kernel`, `kernel.0`,
-    `kernel.0.sigma`), not yet checked against it.
+    """Return the value that plain data describe for one parameter of a part, not yet checked against it.
+
+    The path is of the form `tau`, `kernel`, `kernel.0` or `kernel.0.sigma`.
     """
     p, whole = _declared(part, path)
     problems: list[Problem] = []
@@ -300,7 +304,9 @@ def value_from_json(
 
 
 def _declared(part: Any, path: str) -> tuple[Parameter, bool]:
-    """The declaration that a path ends in, and whether it means the whole value (not an item of it)."""
+    """Return the declaration at the end of a path, and whether it means the whole value (not an item of
+    it).
+    """
     *before, last = path.split(".")
     holder, p = part, None
     for step in before:
@@ -317,7 +323,7 @@ def _declared(part: Any, path: str) -> tuple[Parameter, bool]:
 
 
 def kinds_in(data: Any) -> Iterator[str]:
-    """The kinds of all parts in plain data, at every depth."""
+    """Yield the kinds of all parts in plain data, at every depth."""
     if isinstance(data, Mapping):
         found = typing.cast("Mapping[str, Any]", data)
         if isinstance(found.get("kind"), str):

@@ -1,7 +1,7 @@
 """Names and paths: `group.element.port`, `group.element.parameter`.
 
-Names may be any text. In a path a name stands as it is where that is unambiguous; `quote` gives the form that
-always is.
+Names may be any text. In a path a name may be written without quotation marks where that is unambiguous;
+`quote` gives a form that always is.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ PathNames = tuple[str, ...]
 
 
 def quote(name: str) -> str:
-    """The safe form of a name in a path: plain identifiers as they are, others in double quotes.
+    """Return the safe form of a name in a path: plain identifiers unchanged, others in double quotes.
 
     >>> quote("u")
     'u'
@@ -28,12 +28,12 @@ def quote(name: str) -> str:
 
 
 def display(names: Sequence[str]) -> str:
-    """The path of an element as messages, records and documents write it."""
+    """Return the path of an element as messages, records and documents write it."""
     return ".".join(quote(n) if ("." in n or '"' in n or n == "") else n for n in names)
 
 
 def split(path: str) -> PathNames:
-    """The names of a path; quoted ones are taken as a whole."""
+    """Return the names of a path; a quoted name is not split."""
     names: list[str] = []
     at = 0
     while at <= len(path):
@@ -57,13 +57,13 @@ def split(path: str) -> PathNames:
 
 @dc.dataclass(frozen=True)
 class Index:
-    """Names that paths may begin with, made once for many look-ups.
+    """Names that paths may begin with, indexed for many look-ups.
 
     Attributes:
         names: all of them.
-        texts: each joined by dots without quotation marks, with its position among all of them.
-        depth: most parts of a name.
-        longest: most characters of a text.
+        texts: each name joined by dots without quotation marks, with its position in `names`.
+        depth: largest number of parts of a name.
+        longest: largest number of characters of a text.
     """
 
     names: Collection[PathNames]
@@ -73,7 +73,7 @@ class Index:
 
     @classmethod
     def of(cls, names: Collection[PathNames]) -> Index:
-        """The index of some names."""
+        """Return the index of names."""
         texts: dict[str, list[tuple[int, PathNames]]] = {}
         for k, parts in enumerate(names):
             texts.setdefault(".".join(parts), []).append((k, parts))
@@ -81,7 +81,7 @@ class Index:
 
 
 def readings(path: str, known: Index) -> list[tuple[PathNames, str]]:
-    """Every way to read `path` as a known name followed by a rest; the quoted reading first."""
+    """Return every way to read `path` as a known name followed by a rest, the quoted reading first."""
     found: list[tuple[PathNames, str]] = []
     parts = split(path)
     for k in range(min(len(parts), known.depth), 0, -1):
@@ -95,9 +95,11 @@ def readings(path: str, known: Index) -> list[tuple[PathNames, str]]:
 
 
 def stored_id(path: str, taken: Iterable[str]) -> str:
-    """Eight hex digits: a hash of the path an element was created under. Rename, grouping and moves keep it.
+    """Return eight hex digits: a hash of the path an element was created under.
 
-    The same script gives the same ids in any order of declaration; noise is keyed by them.
+    Rename, grouping and moves preserve the id.
+
+    The same script gives the same ids in any order of declaration; ids key the noise.
     """
     used = taken if isinstance(taken, (set, frozenset, Mapping)) else set(taken)
     n = 0

@@ -1,6 +1,4 @@
-"""From plain data to a document: everything is checked, every problem is listed at once, nothing is
-half-read.
-"""
+"""Convert plain data to a document: every problem is listed, and no partial document is returned."""
 
 from __future__ import annotations
 
@@ -33,13 +31,13 @@ PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99} [0-9A-Za-z][0-9A-Za-z.!+_
 """A package and its version, as a document states them."""
 
 MOST_PROBLEMS = 100
-"""Connections with problems that are listed: each is compared with all names there are, which takes long
-where both are many.
+"""Largest number of connections whose problems are listed: each is compared with all names, which takes long
+if both are many.
 """
 
 
 def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
-    """The document that plain data describe; raises with every problem found."""
+    """Return the document that plain data describe; the error lists every problem."""
     return _Reader(data, arrays).read()
 
 
@@ -72,7 +70,7 @@ class _Reader:
         doc = self.groups(doc)
         if (
             not self.problems
-        ):  # connections and links of elements that could not be read would only repeat their problems
+        ):  # connections and links of elements that failed would only repeat their problems
             doc = self.uses(self.knobs(self.connections(doc)))
         needed = self.packages()
         if self.problems:
@@ -114,7 +112,7 @@ class _Reader:
         return cast("list[Any]", value)
 
     def packages(self) -> dict[str, str]:
-        """For each kind that comes from a package: the package and its version."""
+        """Return the package and its version for each kind that comes from a package."""
         found: dict[str, str] = {}
         for kind, text in self.table("packages").items():
             if isinstance(text, str) and PACKAGE.fullmatch(text):
@@ -128,8 +126,8 @@ class _Reader:
 
     @staticmethod
     def unfit_packages(needed: Mapping[str, str]) -> Iterator[Problem]:
-        """Packages that the document was saved with and that are missing, or of another version: the cause of
-        other problems.
+        """Report packages of the document that are missing or have another version: the cause of other
+        problems.
         """
         for kind, package in needed.items():
             where = f"packages.{kind}"

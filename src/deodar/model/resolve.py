@@ -1,7 +1,7 @@
-"""From a document to nodes: axes inferred at every port, connections fitted, every problem listed at once.
+"""Convert a document to nodes: infer axes at every port, fit connections, list every problem.
 
-Implicit resampling, contraction, expansion and delays become nodes of their own, so that what follows sees
-plain connections between equal axes.
+Implicit resampling, contraction, expansion and delays become nodes of their own, so that later stages see
+only connections between equal axes.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from deodar.parameters import parameters
 
 Instant = Literal[0, 1]
 Slot = tuple[str, str, Instant]
-"""Element id, output port, and when it is read: 0 at time t, 1 at t + dt."""
+"""Element id, output port, and the time of reading: 0 at time t, 1 at t + dt."""
 
 
 @dc.dataclass
 class Node:
-    """One element, resolved."""
+    """One resolved element."""
 
     id: str
     path: str
@@ -40,20 +40,20 @@ class Node:
     declared: bool = True
 
     def axes(self, port: str) -> Axes:
-        """Axes at a port, an output or an input."""
+        """Return the axes at a port, an output or an input."""
         return self.outs[port] if port in self.outs else self.ins[port]
 
     def passes(self, port: str) -> Sequence[str]:
-        """Input ports that an output port passes on in the same instant."""
+        """Return the input ports that an output port passes on in the same instant."""
         return type(self.element).direct.get(port, ())
 
     def shows_state(self, port: str) -> bool:
-        """Whether an output port shows the state, so that it may be read before and after a step."""
+        """Return whether an output port shows the state, so that it may be read before and after a step."""
         return self.element.stateful and not self.passes(port)
 
     @property
     def deferred(self) -> bool:
-        """Whether its outputs wait for inputs of the same instant."""
+        """Whether its outputs depend on inputs of the same instant."""
         return any(self.passes(port) for port in self.outs)
 
 
@@ -93,8 +93,9 @@ class _Resolver:
         return list(self.nodes.values())
 
     def upstream_first(self) -> list[str]:
-        """Every element after those whose axes it takes over (loops last): however long a chain is, no visit
-        goes deep.
+        """Return every element after those whose axes it takes over, elements of loops last.
+
+        This order bounds the depth of the recursion of `visit` for chains of any length.
         """
         ports = {e.id: self._direct_ports(e.element) for e in self.doc.entries}
         waits = {
@@ -106,7 +107,7 @@ class _Resolver:
             for source in {c.source for p in found for c in self.into.get((i, p), [])}:
                 feeds[source].append(i)
         ready = [i for i, sources in waits.items() if not sources]
-        for i in ready:  # grows while it is read
+        for i in ready:  # the list grows during the loop
             for follower in feeds[i]:
                 if i in waits[follower]:
                     waits[follower].discard(i)
@@ -116,14 +117,16 @@ class _Resolver:
         return ready + [i for i in ports if i not in done]
 
     def visit(self, ident: str) -> Node | None:
-        """The node of an element; deferred ones after their sources, whose axes they may take over."""
+        """Return the node of an element; visit deferred ones after their sources, whose axes they may take
+        over.
+        """
         if ident in self.nodes:
             return self.nodes[ident]
         entry = self.entries[ident]
         if ident in self.visiting:
             ring = self.visiting[self.visiting.index(ident) :][::-1]
             first = ring.index(min(ring, key=lambda i: self.entries[i].path))
-            ring = ring[first:] + ring[:first]  # told once, whichever of its elements was met first
+            ring = ring[first:] + ring[:first]  # reported once, with the same first element in any order
             loop = " -> ".join(self.entries[i].path for i in [*ring, ring[0]])
             self.failed.add(ident)
             ident = ring[0]
@@ -165,8 +168,8 @@ class _Resolver:
         return node
 
     def follows(self, ident: str, other: str) -> bool:
-        """Whether the axes of a coupling follow, through couplings, from those of another."""
-        if self.after[0] != other:  # asked for all sources of one element, one after the other
+        """Return whether the axes of a coupling follow, through couplings, from those of another."""
+        if self.after[0] != other:  # called for all sources of one element in sequence
             seen: set[str] = set()
             ahead = [other]
             while ahead:
@@ -181,14 +184,14 @@ class _Resolver:
         return {port for ports in type(element).direct.values() for port in ports}
 
     def wire(self, node: Node, only: set[str] | None = None, skip: set[str] | None = None) -> None:
-        """Axes at the input ports, and the slots they read."""
+        """Set the axes at the input ports, and the slots they read."""
         for port in node.element.ports():
             if (only is not None and port not in only) or (skip is not None and port in skip):
                 continue
             arriving = self.into.get((node.id, port), [])
             closing = [c for c in arriving if c.reads == "delayed" and self.follows(c.source, node.id)]
             self.join(node, port, [c for c in arriving if c not in closing])
-            if port in node.ins:  # loops that a delay breaks: the others have decided the axes
+            if port in node.ins:  # loops with a delay: the other connections have determined the axes
                 self.later += [(node, port, c) for c in closing]
             else:
                 self.join(node, port, closing)
@@ -210,8 +213,10 @@ class _Resolver:
                 node.ins[port] = axes if axes is not None else ()
 
     def join(self, node: Node, port: str, connections: Sequence[Connection]) -> None:
-        """Connections into one port; where the port takes what comes, the source with most axes and samples
-        decides, others expand.
+        """Join the connections into one port.
+
+        At a port that accepts any axes the source with the most axes and samples determines them; others
+        expand.
         """
         found: list[tuple[Node, Slot, Axes]] = []
         for c in connections:
@@ -228,7 +233,7 @@ class _Resolver:
             self.attach(source, slot, node, port)
 
     def slot(self, source: Node, c: Connection, node: Node) -> Slot | None:
-        """What a connection reads; a delay becomes a node of its own."""
+        """Return what a connection reads; a delay becomes a node."""
         if c.source_port not in source.outs:
             self.problem(
                 node.id,
@@ -267,7 +272,7 @@ class _Resolver:
         axes = self.nodes[slot[0]].outs[slot[1]] if slot[0] in self.nodes else source.outs[slot[1]]
         want = node.element.input_axes(port, axes)
         if want is not None and want == axes and port in node.ins:
-            want = node.ins[port]  # a port that takes what comes took the axes of its first connection
+            want = node.ins[port]  # a port that accepts any axes took those of its first connection
         if want is None:
             want = axes
         other = type(node.element).follows.get(port, "")
@@ -293,7 +298,9 @@ class _Resolver:
         node.reads[port].append(slot)
 
     def fit(self, source: Node, slot: Slot, axes: Axes, node: Node, port: str, want: Axes) -> Slot | None:
-        """A slot over the wanted axes: through an implicit projection, or a problem that names both sides."""
+        """Return a slot over the wanted axes, through an implicit projection, or report a problem that names
+        both sides.
+        """
         here, there = {a.name: a for a in want}, {a.name: a for a in axes}
         shared = [n for n in there if n in here]
         bad = [n for n in shared if not there[n].fits(here[n])]
@@ -328,7 +335,7 @@ class _Resolver:
         return (ident, "output", 0)
 
     def inspect(self, entry: Entry, node: Node) -> None:
-        """What does not fit between parameters and axes."""
+        """Report parameters that do not fit the axes."""
         if not self.per_axis(entry, node):
             return
         own: Any = getattr(entry.element, "axes", ())
@@ -339,7 +346,7 @@ class _Resolver:
             )
             return
         if node.id in self.failed:
-            return  # what does not arrive as it should would only show once more
+            return  # a problem of the inputs would only be reported a second time
         for what in entry.element.validate_axes(node.ins):
             self.problem(node.id, *(what if isinstance(what, tuple) else self.between(node, what)))
         clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
@@ -351,7 +358,9 @@ class _Resolver:
             )
 
     def between(self, node: Node, what: str) -> tuple[str, str]:
-        """A misfit of what comes to a coupling, with both of its ends; and what to type."""
+        """Return the problem of a coupling whose input does not fit, with both of its ends, and the line to
+        type.
+        """
         for port in node.ins if node.deferred else ():
             for c in self.into.get((node.id, port), []):
                 source, own = (
@@ -375,7 +384,7 @@ class _Resolver:
         return what, ""
 
     def per_axis(self, entry: Entry, node: Node) -> bool:
-        """Whether values given one for each axis are as many as there are axes."""
+        """Return whether values given per axis are as many as the axes."""
         own: Any = getattr(entry.element, "axes", None)
         axes: Axes = tuple(own) if own is not None else node.ins.get("input", ())
         good = True
@@ -403,7 +412,7 @@ class _Resolver:
 
 
 def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
-    """The nodes of a document, and everything that is wrong with it."""
+    """Return the nodes of a document and all of its problems."""
     resolver = _Resolver(doc)
     nodes = resolver.run()
     place = {e.path: k for k, e in enumerate(doc.entries)}
@@ -411,8 +420,9 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
 
 
 def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:
-    """What to write between two ports that do not fit: first what keeps the places of the source, then what a
-    `Project` or a `Resample` loses.
+    """Return what to write between two ports that do not fit.
+
+    First the coupling that keeps the positions of the source, then the loss of a `Project` or a `Resample`.
     """
 
     def chain(coupling: str) -> str:
@@ -452,7 +462,9 @@ def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) 
 
 
 def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> str:
-    """What to write where an axis of the same name has other bounds, another unit or another end."""
+    """Return what to write where an axis of the same name has other bounds, another unit or another
+    boundary.
+    """
     here = {a.name: a for a in want}
     pairs = [(a, here[a.name]) for a in axes if a.name in here and not a.fits(here[a.name])]
     units = [(a, b) for a, b in pairs if a.unit != b.unit]

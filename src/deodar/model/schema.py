@@ -13,11 +13,11 @@ from deodar.model.parts import schema
 from deodar.parameters import Part
 
 SHIPPED = Path(__file__).with_name("document.schema.json")
-"""The generated schema, shipped with the package; write it anew with `python -m deodar.model.schema`."""
+"""The generated schema, part of the package; `python -m deodar.model.schema` writes it."""
 
 
 def reference(base: type[Any]) -> dict[str, Any]:
-    """Any part of deodar that may stand where `base` is declared."""
+    """Return a reference to any part of deodar that is valid where `base` is declared."""
     return {
         "oneOf": [
             {"$ref": f"#/$defs/{name}"}
@@ -28,7 +28,7 @@ def reference(base: type[Any]) -> dict[str, Any]:
 
 
 def document_schema() -> dict[str, Any]:
-    """The schema of a whole document."""
+    """Return the schema of a whole document."""
     parts = {
         name: cls
         for name, cls in registry.kinds().items()
@@ -113,7 +113,7 @@ def document_schema() -> dict[str, Any]:
 
 
 def text() -> str:
-    """The schema as it is shipped."""
+    """Return the schema as the text of its file."""
     return codec.text(document_schema(), indent=1) + "\n"
 
 

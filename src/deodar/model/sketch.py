@@ -1,5 +1,6 @@
-"""The graph of a document that is drawn: couplings with one connection in and one out become text on a
-connection.
+"""The graph of a document for drawing.
+
+A coupling with one connection in and one out becomes text on a connection.
 """
 
 from __future__ import annotations
@@ -25,12 +26,12 @@ from deodar.parameters import Part, parameters
 
 
 def sketch(doc: Document) -> Graph:
-    """The graph of a document; one with problems is drawn as far as it goes."""
+    """Return the graph of a document; if it has problems, of its valid part."""
     return _Sketch(doc).run()
 
 
 def form_of(element: Element) -> ItemForm:
-    """The shape that an element is drawn in."""
+    """Return the shape of an element in the drawing."""
     if isinstance(element, Sensor):
         return "sensor"
     if isinstance(element, Motor):
@@ -45,12 +46,12 @@ def form_of(element: Element) -> ItemForm:
 
 
 def is_coupling(element: Element) -> bool:
-    """Whether an element stands between elements."""
+    """Return whether an element is a coupling, which connects elements."""
     return isinstance(element, Coupling) or type(element).__module__.startswith("deodar.couplings.")
 
 
 def caption(element: Element) -> str:
-    """A coupling in a few words: what it is, and the number that it is known by."""
+    """Return a short text of a coupling: its kind, and its characteristic number."""
     value = _main(element)
     if element.scaled_by:
         return f"× {value}"
@@ -60,7 +61,7 @@ def caption(element: Element) -> str:
 
 
 def title(element: Part) -> str:
-    """The kind of an element, or of a part of it, in words."""
+    """Return the kind of an element, or of a part of it, in words."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", type(element).__name__).lower()
 
 
@@ -123,7 +124,7 @@ class _Sketch:
         if form == "coupling" and (
             ">" in name and name.rsplit(">", 1)[1].rstrip("0123456789") == type(element).__name__
         ):
-            name, kind = kind, ""  # a name made from the connection says no more than the kind does
+            name, kind = kind, ""  # a name made from the connection adds no information to the kind
         recurrence = tuple(element.recurrence().values())
         shown = axes if form != "coupling" else ()
         return Item(
@@ -131,7 +132,7 @@ class _Sketch:
         )
 
     def _chained(self) -> set[str]:
-        """Couplings that stand on a connection: one in, one out."""
+        """Return the couplings that are drawn on a connection: one in, one out."""
         return {
             e.id
             for e in self.doc.entries
@@ -156,7 +157,7 @@ class _Sketch:
         sign: Sign = "+"
         if form == "coupling" or (
             form == "source" and not numbers
-        ):  # an input of a coupling is a number, and inhibits nothing
+        ):  # an input of a coupling is a number, which inhibits no field
             sign = source.element.polarity()
         for ident in on:
             sign = product(sign, self.by[ident].element.polarity())

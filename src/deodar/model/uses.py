@@ -1,4 +1,4 @@
-"""Groups that stay linked to a template: a change in the template reaches every use."""
+"""Groups that stay linked to a template: `refresh` applies a change of the template to every use."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from deodar.model.paths import display
 
 
 def refresh(doc: Document, template: Document) -> Document:
-    """A document in which every use of a template of this name is as the template now is."""
+    """Return a document in which every use of a template of this name has its present content."""
     linked = [u.group for u in doc.uses if u.template == template.name]
     if not linked:
         known = [u.template for u in doc.uses]
@@ -46,7 +46,7 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
             if u.group[: len(use.group)] != use.group or not mine >= {i for _, i in u.elements}
         ),
     )
-    # what is renamed in the template moves out of the way first, so that two names can be exchanged
+    # elements renamed in the template move to free names first, so that two names can be exchanged
     names = {own[e.id]: use.group + e.names for e in template.entries if e.id in own}
     for k, (here, place) in enumerate(names.items()):
         if doc.by_id()[here].names != place:
@@ -74,8 +74,8 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
 
 
 def _driven(doc: Document, template: Document, now: dict[str, str]) -> Document:
-    """The template's document parameters, at the values that they have here, and what else drives a parameter
-    of the new elements.
+    """Return the template's document parameters with the values of this document, and the other links to
+    parameters of the new elements.
     """
     for (i, leaf), name in doc.links().items():
         if i in now.values():
@@ -93,7 +93,7 @@ def _driven(doc: Document, template: Document, now: dict[str, str]) -> Document:
 
 
 def _require_ends(doc: Document, use: Use, template: Document) -> None:
-    """Refuse a template without something that a connection across the border of the group needs."""
+    """Refuse a template that lacks an element or port of a connection across the border of the group."""
     there, by = {here: template.by_id().get(t) for t, here in use.elements}, doc.by_id()
     problems: list[Problem] = []
 

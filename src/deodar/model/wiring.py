@@ -1,4 +1,4 @@
-"""The resolved graph of a document, as checks read it."""
+"""The resolved graph of a document, for the checks."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from deodar.model.resolve import Node
 from deodar.numerics.intervals import ANY, ZERO, Interval, total
 
 MOST_PASSES = 200
-"""Passes over the graph after which bounds that still widen count as unknown."""
+"""Number of passes over the graph after which bounds that still widen count as unknown."""
 
 
 class Wiring:
-    """A document, its resolved nodes, who reads whom, and between which values signals lie.
+    """A document, its resolved nodes, their readers, and the bounds of their signals.
 
     Attributes:
         doc: the document.
@@ -31,7 +31,7 @@ class Wiring:
 
     @functools.cached_property
     def readers(self) -> dict[str, set[str]]:
-        """For each node the ids of the nodes that read one of its outputs."""
+        """For each node, the ids of the nodes that read one of its outputs."""
         found: dict[str, set[str]] = {i: set() for i in self.nodes}
         for n in self.nodes.values():
             for slots in n.reads.values():
@@ -40,7 +40,7 @@ class Wiring:
         return found
 
     def sources(self, node: Node, port: str = "input") -> list[Node]:
-        """The document's own elements that a port reads, through implicit projections and delays."""
+        """Return the document's own elements that a port reads, through implicit projections and delays."""
         found: list[Node] = []
         for source, _, _ in node.reads.get(port, ()):
             n = self.nodes[source]
@@ -49,10 +49,10 @@ class Wiring:
 
     @functools.cached_property
     def driven(self) -> set[str]:
-        """The ids of what signals from outside can reach: stimuli, sensors and other elements without inputs,
-        and all behind them.
+        """The ids of the nodes that external signals can reach: elements without inputs, such as stimuli and
+        sensors, and all nodes that they reach.
 
-        Where there are none, the model is a template, which gets its inputs where it is used.
+        Without any, the model is a template, which gets its inputs where it is used.
         """
         found = {n.id for n in self.declared if not n.element.ports()}
         ahead = list(found)
@@ -63,13 +63,13 @@ class Wiring:
         return found
 
     def arriving(self, node: Node, port: str = "input") -> Interval:
-        """Bounds of the sum that arrives at an input port."""
+        """Return bounds of the sum that arrives at an input port."""
         return total(*(self.bounds[i].get(p, ANY) for i, p, _ in node.reads.get(port, ())))
 
     @functools.cached_property
     def bounds(self) -> dict[str, dict[str, Interval]]:
-        """For each node the bounds of its ports: the smallest intervals that hold all that can happen from
-        the initial values on.
+        """For each node the bounds of its ports: the smallest intervals found that hold all values reachable
+        from the initial values.
         """
         found: dict[str, dict[str, Interval] | None] = dict.fromkeys(self.nodes)
         growing: set[str] = set(self.nodes)
@@ -87,24 +87,26 @@ class Wiring:
                     moved.add(i)
             if not moved:
                 break
-            if k >= MOST_PASSES // 2:  # what still widens has no bounds
+            if k >= MOST_PASSES // 2:  # values that still widen have no bounds
                 growing -= moved
                 found |= {i: {} for i in moved}
         return {i: values or {} for i, values in found.items()}
 
 
 def warning(node: Node, what: str, fix: str) -> Problem:
-    """A warning about one element."""
+    """Return a warning about one element."""
     return Problem(node.path, what, fix, "warning")
 
 
 def overrides(element: Element, method: str) -> bool:
-    """Whether the element's class has its own version of a method of the contract."""
+    """Return whether the element's class overrides a method of the contract."""
     return getattr(type(element), method) is not getattr(Element, method)
 
 
 def _known(found: dict[str, dict[str, Interval] | None], source: str, port: str) -> Interval:
-    """Bounds of an output: nothing yet for what was not visited, any value for what says nothing."""
+    """Return the bounds of an output: empty for a node not yet visited, unbounded for a node that states
+    none.
+    """
     values = found[source]
     return ZERO if values is None else values.get(port, ANY)
 

@@ -1,3 +1,3 @@
-"""Checks of the whole graph: one family of mistakes a file, each with `check(wiring)`; the folder is the list
-of them.
+"""Checks of the whole graph, one family of mistakes per file, each with `check(wiring)`; the folder is the
+list.
 """

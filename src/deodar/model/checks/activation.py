@@ -1,4 +1,4 @@
-"""What can never happen, because the strengths of a model do not allow it."""
+"""States that cannot occur, because the strengths of a model do not allow them."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.logistic import Logistic
 
 SILENT = 0.25
-"""Output below which a field counts as silent (a guess: half of what it gives at its threshold)."""
+"""Output below which a field counts as silent (a guess: half of the output at its threshold)."""
 
 CLEAR = 0.15
-"""Share of the way from the resting level to the threshold that has to be missing: what comes nearer may wait
-for a small push (a guess).
+"""Share of the distance from the resting level to the threshold that is missing; a field that comes nearer
+may reach it with a small input (a guess).
 """
 
 AT_REST = 0.2
@@ -32,7 +32,7 @@ AT_REST = 0.2
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Fields that are never or always on, thresholds that nothing reaches."""
+    """Report fields that are never or always on, and thresholds that no signal reaches."""
     for n in wiring.declared:
         if isinstance(n.element, (Field, RateNode)) and not isinstance(n.element.sigmoid, Linear):
             yield from _field(wiring, n, n.element)

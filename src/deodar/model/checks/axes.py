@@ -1,4 +1,4 @@
-"""Axes whose ends, samples and units do not belong together."""
+"""Axes whose boundaries, samples and units do not agree."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from deodar.numerics.axes import Axis
 
 DEGREES, RADIANS = ("deg", "degree", "degrees", "°"), ("rad", "radian", "radians")
 CIRCLES = tuple((k * math.pi, k * 180.0) for k in (1, 2))
-"""Half a turn and a whole one, in radians and degrees."""
+"""Half a turn and a full turn, in radians and degrees."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """One warning an axis, at the first element that has it."""
+    """Yield one warning per axis, at the first element that has it."""
     seen: set[Axis] = set()
     for n in wiring.declared:
         own: Any = getattr(n.element, "axes", ())
@@ -58,8 +58,8 @@ def _axis(n: Node, a: Axis) -> Iterator[Problem]:
 
 
 def _round(step: float) -> bool:
-    """Whether a step is a number that a person would choose: a whole number, or a few halves, fifths or
-    tenths of one.
+    """Return whether a step is a number that a person would choose: a whole number, or a few halves, fifths
+    or tenths.
     """
     scaled = step / 10 ** math.floor(math.log10(step))
     return any(math.isclose(scaled, k, rel_tol=1e-9) for k in (1, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5, 8, 9))

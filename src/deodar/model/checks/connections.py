@@ -1,4 +1,4 @@
-"""Connections that are missing, or there twice."""
+"""Connections that are missing or duplicated."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ NEEDED = {
     "post": "it never learns anything",
     "error": "its gains never change",
 }
-"""Ports whose silence makes an element useless, and how."""
+"""Ports without which an element has no effect, and the reason."""
 
 IDLE = ("Motor", "MemoryTrace", "Attractor", "DelayLine", "History", "TransientDetector", "Delay")
-"""Kinds that do nothing without an input."""
+"""Kinds that have no effect without an input."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Ports that nothing reaches, sources that nothing reads, signals and motors that occur twice, parameters
-    that drive nothing.
+    """Report ports without an input, sources without a reader, signals and motors that occur twice, and
+    document parameters that drive no parameter.
     """
     for n in wiring.declared:
         yield from _ports(wiring, n)
@@ -60,7 +60,7 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
         )
     if (
         not e.ports() and not e.external and not wiring.readers[n.id]
-    ):  # what a sensor reads may be wanted for the record alone
+    ):  # a model may have a sensor only to record it
         yield warning(n, "nothing reads it", f"Connect it: model.connect({n.path!r}, ...); or remove it")
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
         yield warning(

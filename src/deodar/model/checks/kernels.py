@@ -1,4 +1,4 @@
-"""Kernels that do not suit the grid, or whose signs are exchanged."""
+"""Kernels that do not fit the grid, or whose signs are exchanged."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.numerics.kernels.shifted import Shifted
 
 NARROW = 0.4
-"""Widths in grid steps below which a Gaussian acts on its own place alone: neighbours get less than 5 % of
-what it gets (a guess).
+"""Width in grid steps below which a Gaussian acts on its centre alone: neighbours get less than 5 % of its
+height (a guess).
 """
 
 WIDE = 2.0
-"""Lengths of an axis from which a Gaussian on it is nearly flat: at least 88 % of its height everywhere (a
-guess).
+"""Width, in lengths of the axis, from which a Gaussian is nearly flat: at least 88 % of its height everywhere
+(a guess).
 """
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Every kernel of every element."""
+    """Check every kernel of every element."""
     for n in wiring.declared:
         found: Any = getattr(n.element, "kernel", ())
         kernels: Sequence[Any] = found if isinstance(found, tuple) else ()
@@ -85,7 +85,7 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
         pairs = [(axis, float(s)) for axis, s in zip(axes, per_axis(width, axes), strict=True)]
         if pairs and all(
             s < NARROW * axis.step for axis, s in pairs
-        ):  # narrow on one of several axes may be meant: no blur along hue
+        ):  # a kernel that is narrow on one of several axes may be intended: no blur along hue
             axis, s = pairs[0]
             what = (
                 f"{where}: a sigma of {s:g} is narrower than the step {axis.step:g} of the axis"

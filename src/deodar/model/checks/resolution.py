@@ -20,22 +20,22 @@ from deodar.numerics.sigmoids.step import Step
 
 STEEP, STEEP_BEYOND = 5.0, 10.0
 """Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over
-one axis, and over several, where edges cross samples at different places. Measured by the boost that erases a
-memory: on a line it is 3 % to 14 % off at 5.5 and below 1 % off at 3.7 (`python benchmarks/resolution.py
-edges`), on a plane 5 % off at 14 and 1.5 % at 7 (`--dimensions 2`).
+one axis, and over several, where edges cross samples at different positions. Measured by the boost that
+erases a memory: on a line it is 3 % to 14 % off at 5.5 and below 1 % off at 3.7 (`python
+benchmarks/resolution.py edges`), on a plane 5 % off at 14 and 1.5 % at 7 (`--dimensions 2`).
 """
 
 WIDTHS = np.linspace(0.05, 12.0, 240)
-"""Widths of a peak that are tried, in widths of the excitation."""
+"""Widths of a peak that are tested, in widths of the excitation."""
 
 WHOLE = 0.75
-"""Share of an axis from which on a region is no peak."""
+"""Share of an axis from which on a region no longer counts as a peak."""
 
 _erf = np.vectorize(math.erf, otypes=[float])
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Fields with Gaussian kernels of their own that hold peaks without input."""
+    """Check fields with Gaussian kernels of their own that hold peaks without input."""
     for n in wiring.declared:
         e = n.element
         if not isinstance(e, Field) or not e.axes or e.quadrature != "point":
@@ -66,10 +66,13 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 
 def steepness(field: Field) -> list[float]:
-    """Along each axis, by how much beta u changes from sample to sample at the edge of a peak that needs no
-    input; empty where none is known.
+    """Return the change of beta u from sample to sample at the edge of a self-sustained peak, along each
+    axis.
 
-    A region of g = 1 with straight borders stands for the peak (Amari 1977 on a line). Its width is the
+    The list is empty where no such peak is known.
+
+    The peak is approximated by a region of g = 1 with straight borders (Amari 1977 on a line). Its width is
+    the
     largest at which activation at the border is at the threshold and falls with the width: u = theta there,
     so that h - theta + integral of k over the region - c volume = 0. The slope at the border is k(0) -
     k(width), times the part of the kernel that the region covers along other axes. Known for kernels that are
@@ -101,8 +104,8 @@ def steepness(field: Field) -> list[float]:
 
 
 def _beta(field: Field) -> float:
-    """Four times the steepest slope of a sigmoid that saturates (the beta of a logistic one); 0 for
-    others.
+    """Return four times the steepest slope of a sigmoid that saturates (the beta of a logistic one); else
+    0.
     """
     g = field.sigmoid
     return (
@@ -117,7 +120,7 @@ def _beta(field: Field) -> float:
 
 
 def _terms(field: Field) -> list[tuple[float, list[float]]]:
-    """Integral and widths of each Gaussian of the kernel; none where there is another kernel."""
+    """Return the integral and the widths of each Gaussian of the kernel; empty for another kernel."""
     found: list[tuple[float, list[float]]] = []
     for k in field.kernel:
         if isinstance(k, MexicanHat):

@@ -1,4 +1,4 @@
-"""Loops that grow or spread, and competitions that nothing decides."""
+"""Loops that grow or spread, and competitions without a decision."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 
 LONGEST = 12
-"""Elements of a linear loop at most."""
+"""Largest number of elements of a linear loop."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Growth of linear loops, fronts that nothing stops, ties without noise."""
+    """Report growth of linear loops, fronts that spread without limit, and ties without noise."""
     reported: set[str] = set()
     for n in wiring.declared:
         e = n.element
@@ -47,7 +47,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 
 def _slope(n: Node) -> float:
-    """By how much an element multiplies a steady signal, if it is linear; else 0."""
+    """Return the factor by which an element multiplies a steady signal, if it is linear; else 0."""
     e = n.element
     if isinstance(e, Gain):
         return e.factor
@@ -59,14 +59,14 @@ def _slope(n: Node) -> float:
 
 
 def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
-    """A loop from a node back to itself whose gain is above 1: its own kernel, or through others."""
+    """Return a loop from a node back to itself whose gain is above 1: its own kernel, or through others."""
     e = start.element
     if isinstance(e, Field) and isinstance(e.sigmoid, (Linear, SemiLinear)):
         parts = [kernel.bounds(tuple(e.axes)) for kernel in e.kernel]
         gain = e.sigmoid.slope * (
             sum(a + b for a, b in parts) - e.global_inhibition * math.prod(a.step * a.samples for a in e.axes)
         )
-        border = 1.2 if e.axes else 1.0  # near a border a part of the kernel is lost
+        border = 1.2 if e.axes else 1.0  # a part of the kernel is lost near a border
         if border < gain < math.inf:
             return [(start, gain)]
     paths: list[tuple[list[tuple[Node, float]], float]] = [([(start, _slope(start))], _slope(start))]
@@ -82,8 +82,10 @@ def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
 
 
 def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
-    """The edge of a wide peak gets half the kernel: where that lifts it over its threshold, and nothing
-    inhibits, the peak widens to the ends.
+    """Report a wide peak that spreads.
+
+    The edge of a wide peak gets half the kernel: where that raises it above the threshold without inhibition,
+    the peak widens to the ends of the axis.
     """
     if isinstance(e.sigmoid, (Linear, SemiLinear)) or wiring.arriving(n)[0] < 0:
         return
@@ -106,7 +108,9 @@ def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
 
 
 def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
-    """Selection between equal inputs is decided by noise; without any, by the rounding of the last digit."""
+    """Report a selection between equal inputs without noise, which rounding of the last digit would
+    decide.
+    """
     found = sorted(wiring.sources(n), key=wiring.declared.index)
     if e.noise > 0 or e.global_inhibition <= 0 or len(found) < 2:
         return

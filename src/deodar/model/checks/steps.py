@@ -1,4 +1,4 @@
-"""Time constants, windows and delays that do not suit the step."""
+"""Time constants, windows and delays that do not fit the step."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from deodar.numerics.windows import Window
 from deodar.parameters import FrozenArray, parameters
 
 COARSE = 0.4
-"""Share of a time constant from which a step is called long: the Euler method then relaxes by a quarter too
-fast. A step of just the time constant is left alone: it copies the input, and is written on purpose.
+"""Share of a time constant from which a step is called long: the Euler method then relaxes a quarter too
+fast. A step equal to the time constant gets no warning: it copies the input, which is intended.
 """
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
-    """Every element, with the step of the document and its own rate."""
+    """Check every element, with the step of the document and its own step."""
     for n in wiring.declared:
         step = wiring.doc.step * n.every
         yield from _constants(wiring, n, step)
