@@ -1,1 +1,1 @@
-"""Elements between elements: one file each; the folder is the registry."""
+"""Elements that transform signals between elements, one per file; every module is registered."""

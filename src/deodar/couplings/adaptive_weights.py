@@ -1,4 +1,4 @@
-"""Weights that learn while they are used."""
+"""Dense weights that learn online."""
 
 from __future__ import annotations
 
@@ -20,12 +20,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class AdaptiveWeights(Coupling):
-    r"""A weight between every place of the source and every place of the target; weights of active places
-    follow what the target does.
+    r"""Learned weights between all samples of a source and all samples of a target.
 
-    The plain rule: everything counts as it is, and weights follow the target down to nothing as well.
-    `Hebbian` looks at peaks only, learns while both sides are active, and has other rules, bounds and random
-    weights; it costs far less for maps between planes.
+    Weights from active samples relax towards the activity of the target, without a threshold: where the
+    target is 0 they decay to 0. `Hebbian` learns only where both sides exceed a threshold, and has other
+    rules, bounds and random weights; it costs far less for maps between two-dimensional fields.
 
     Equation:
         y(x) = \int W(x', x)\, \mathrm{input}(x')\, dx'
@@ -37,23 +36,23 @@ class AdaptiveWeights(Coupling):
         rate: speed of learning, per unit of the document's time and of the input; from 0 to the inverse of
             the step.
         initial: all weights at the start.
-        gated: whether there is a port `gate`; without it learning never stops.
-        apart: whether there is a port `pre`; without it the weights learn from the input.
-        start: weights at the start, in place of `initial`: what was learned before.
+        gated: whether the element has a port `gate`; without it the gate is 1.
+        apart: whether the element has a port `pre`; without it pre is the input.
+        start: weights at the start, in place of `initial`; for example weights learned in an earlier run.
 
     Ports:
         input: any axes.
-        post: what the weights learn, over `axes`.
-        gate: one number; only where `gated`. Below 0 it counts as 0.
-        pre: what decides which weights learn, over the axes of the input; only where `apart`.
-        output: over `axes`; it follows the input in the same instant, with the weights learned so far.
+        post: the activity that the weights learn, over `axes`.
+        gate: one number; only if `gated`. Values below 0 count as 0.
+        pre: factor of the learning rate of each source sample, over the axes of the input; only if `apart`.
+        output: over `axes`; computed from the input of the same step, with the weights learned so far.
 
     Shapes:
         start: samples of the input's axes, then samples of `axes`; per unit of the source's axes.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields, drawn to the
-        target's activity).
+        Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.3 (weights between fields that
+        relax towards the target's activity).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")

@@ -1,4 +1,4 @@
-"""The colours of each column of a picture."""
+"""The histogram of hues in each column of a picture."""
 
 from __future__ import annotations
 
@@ -21,34 +21,32 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class ColorHistogram(Coupling):
-    r"""For each column of a picture the histogram of its hues: which colours stand in which direction, and
-    how much of the column they fill.
+    r"""The histogram of hues in each column of a picture.
 
-    A column full of one hue gives 1 there.
-
-    n(x, h) is the share of the pixels of column x whose hue is h (each is divided between the two nearest
-    samples), without those of a saturation below `palest` or a value below `darkest`.
+    A column in which all pixels have one hue gives 1 at that hue. n(x, h) is the share of the pixels of
+    column x whose hue is h (each pixel is divided between the two nearest samples); pixels with a saturation
+    below `palest` or a value below `darkest` are not counted.
 
     Equation:
         y(x, h) = \sum_j n(x, h_j) \exp\!\left( -\frac{(h - h_j)^2}{2 \sigma^2} \right)
         \sigma = 0\text{:}\quad y(x, h) = n(x, h)
 
     Parameters:
-        axes: the side of the picture that is kept (its sampling may be coarser than the picture's), then hue;
-            hue is periodic.
+        axes: the dimension of the picture that remains (it may have fewer samples than the picture), then
+            hue; hue is periodic.
         sigma: width of the smoothing over hue, in units of the hue axis; 0: none.
-        palest: saturation (0 to 1) below which a pixel has no hue.
-        darkest: value (largest channel, 0 to 1) below which a pixel has no hue.
+        palest: saturation (0 to 1) below which a pixel is not counted.
+        darkest: value (largest channel, 0 to 1) below which a pixel is not counted.
 
     Ports:
         input: picture over two dimensions and a last axis of three samples, the channels red, green and blue,
             values 0 to 1.
-        output: over `axes`, 0 to 1 (with smoothing where a column has several hues: their sum).
+        output: over `axes`, 0 to 1 (with smoothing, contributions of several hues add up).
 
     Reference:
         Sandamirskaya & Schöner (2010), Serial order in an acting system, Neural Netw. 23, 1164-1179, figure 8
-        and section 4. It gives neither the limits nor the smoothing and the scale: these are ours (a share
-        per single bin reaches none of its thresholds).
+        and section 4. The paper states neither the limits, the smoothing nor the scale; deodar's values are
+        guesses (the share per single bin reaches none of the paper's thresholds).
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="side of the picture that is kept, then hue")] = ()
@@ -104,7 +102,7 @@ class ColorHistogram(Coupling):
         return {"output": along(constants["smooth"], y, 1) if "smooth" in constants else y}
 
     def _kept(self, at: Setting) -> int:
-        """Which dimension of the picture is kept."""
+        """The index of the picture's dimension that remains."""
         return [a.name for a in at.ins["input"][:2]].index(self.axes[0].name)
 
     @classmethod

@@ -1,4 +1,4 @@
-"""Colour to space code."""
+"""The conversion of a picture's colours to a space code."""
 
 from __future__ import annotations
 
@@ -21,8 +21,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class ColorSpace(Coupling):
-    r"""Hue and saturation of a picture as a space code over (place, hue): where which colour is, and how
-    strongly.
+    r"""A space code of a picture over position and hue, with the saturation as amplitude.
 
     H(p) and S(p) are hue and saturation of pixel p; S counts as 0 where the value is below `darkest`. For
     sigma = 0, w is a density of integral 1, which divides S between the two nearest samples.
@@ -35,12 +34,12 @@ class ColorSpace(Coupling):
             \frac{|d|}{\mathrm{step}}\right)
 
     Parameters:
-        axes: the picture's two dimensions (their sampling may be coarser than the picture's) and hue last;
-            hue is periodic.
-        sigma: width of the code along hue, in units of the hue axis; 0: the hue itself (divided between its
-            two neighbours).
-        darkest: value (largest channel, 0 to 1) below which a pixel has no colour: its saturation is mostly
-            noise.
+        axes: the picture's two dimensions (they may have fewer samples than the picture), then hue; hue is
+            periodic.
+        sigma: width of the code along hue, in units of the hue axis; 0: no smoothing (a hue is divided
+            between its two nearest samples).
+        darkest: value (largest channel, 0 to 1) below which a pixel does not count, because its saturation is
+            mostly noise.
 
     Ports:
         input: picture over the same two dimensions and a last axis of three samples, the channels red, green

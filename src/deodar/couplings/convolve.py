@@ -1,4 +1,4 @@
-"""Convolution with a kernel."""
+"""The convolution with a kernel."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Convolve(Coupling):
-    r"""Spreads the input to neighbouring places.
+    r"""The convolution of the input with one or more kernels.
 
     Equation:
         y(x) = \sum_k \int k(x - x')\, \mathrm{input}(x')\, dx'

@@ -1,4 +1,4 @@
-"""The one-step register."""
+"""The delay by one step."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Delay(Element):
-    r"""Shows its input one step later; what a connection with `reads="delayed"` stands for.
+    r"""A delay of the input by one step.
 
-    For any other delay: DelayLine.
+    A connection with `reads="delayed"` is compiled to this element. `DelayLine` delays by any time.
 
     Equation:
         y(x, t + dt) = \mathrm{input}(x, t)
 
     Parameters:
-        axes: axes of the register.
-        initial: what it shows in the first step.
+        axes: axes of the input.
+        initial: output in the first step.
 
     Ports:
         input: over `axes`.

@@ -17,32 +17,31 @@ from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
 NEVER = 1e30
-"""Age of what has not arrived yet, in any time unit; minus this, its moment."""
+"""Age of samples that have not arrived yet, in any time unit; their time is minus this."""
 
 NEAR = 1e-3
-"""Share of a step by which the ages that are compared may differ by rounding."""
+"""Tolerance for rounding when ages are compared, as a fraction of a step."""
 
 
 @register
 @dataclass(frozen=True)
 class DelayLine(Element):
-    r"""Shows its input after a delay of any length: conduction times, the latency of a sensor, a train of
-    past moments.
+    r"""A delay of the input by any time, such as a conduction time or the latency of a sensor.
 
-    It keeps its input at moments that lie delay / slots apart, or one step where that is longer, and takes
-    the straight line between the two that it needs. So it is exact where the delay is a whole number of steps
-    and no more of them than `slots`.
+    The input is stored every delay / slots, but at most once per step, and interpolated linearly between the
+    two nearest stored samples. The output is exact if the delay is a whole number of steps, at most `slots`
+    of them.
 
     Equation:
         y(x, t) = \begin{cases} \mathrm{input}(x, t - \mathrm{delay}) & t \ge \mathrm{delay} \\
             \mathrm{initial} & \text{else} \end{cases}
 
     Parameters:
-        axes: where it is defined; none: one number.
-        delay: how long, in the document's time unit; > 0. Shorter than a step: one step. Where it is made
-            longer while the model runs, the oldest moment that is kept is shown until there are older ones.
-        slots: how many moments it keeps.
-        initial: what it shows before anything has arrived.
+        axes: axes of the input; none: one number.
+        delay: the delay, in the document's time unit; > 0. Shorter than a step: one step. If it increases
+            while the model runs, the output is the oldest stored sample until older samples exist.
+        slots: number of stored samples.
+        initial: output before the first input has passed the delay.
 
     Ports:
         input: over `axes`.
@@ -69,7 +68,7 @@ class DelayLine(Element):
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
-        # one slot more on either side of the delay: the moments around it are both there
+        # one extra slot on either side of the delay, so that both neighbours of it are stored
         rows = self.slots + 2
         kept = jnp.broadcast_to(
             at.full(tuple(self.axes), self.initial), (rows, *(a.samples for a in self.axes))
@@ -93,8 +92,8 @@ class DelayLine(Element):
             older = jnp.minimum(younger + 1, rows - 1)
             a, b = ages[younger], ages[older]
             share = jnp.clip((delay - a) / jnp.where(b > a, b - a, 1.0), 0.0, 1.0)
-            # no interpolation towards what has not arrived: the initial value holds until the first moment is
-            # old enough
+            # no interpolation towards samples that have not arrived: the output is the initial value until
+            # the first sample is old enough
             share = jnp.where((b >= NEVER) | (b - delay < near), 1.0, share)
             share = jnp.where(a >= delay - near, 0.0, share).astype(at.dtype)
         young, old = kept[jnp.mod(first + younger, rows)], kept[jnp.mod(first + older, rows)]
@@ -118,7 +117,7 @@ class DelayLine(Element):
         }
 
     def _ages(self, state: Arrays, time: Time) -> Any:
-        """Age of each of the moments in float64, inside `exact()`."""
+        """The age of each stored sample in float64; call it inside `exact()`."""
         return jnp.where(
             state["moments"] > -0.5 * NEVER,
             time.wide - wide(Exact(state["moments"], state["moments_low"])),

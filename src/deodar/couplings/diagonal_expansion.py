@@ -1,4 +1,4 @@
-"""The expansion along diagonals."""
+"""The expansion along the diagonals of a plane."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class DiagonalExpansion(Coupling):
-    r"""Sends one place to all pairs of places whose sum it is: the input of a transformation field along its
-    diagonals.
+    r"""The diagonal input of a transformation field: z is copied to all pairs (x, y) with x + y = z.
 
-    Samples are counted from the lower ends.
+    Sample indices start at the lower ends of the axes.
 
     Equation:
         y(x_i, y_j) = \mathrm{input}(z_{i + j})

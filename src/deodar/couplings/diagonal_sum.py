@@ -1,4 +1,4 @@
-"""The sum along diagonals."""
+"""The sum along the diagonals of a plane."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class DiagonalSum(Coupling):
-    r"""Adds up two places: reads a transformation field out along its diagonals, so that a peak at (x, y)
-    arrives at x + y.
+    r"""The read-out of a transformation field along its diagonals: a peak at (x, y) arrives at x + y.
 
-    Samples are counted from the lower ends; the second grid step multiplies the sum.
+    Sample indices start at the lower ends of the axes; the grid step of the second axis multiplies the sum.
 
     Equation:
         z_k = \Delta y \sum_{i + j = k} \mathrm{input}(x_i, y_j)
@@ -67,7 +66,7 @@ class DiagonalSum(Coupling):
     ) -> Arrays:
         x = inputs["input"]
         n, m = x.shape
-        # rows of n + m samples, read again as rows of n + m - 1: each lies one further on than the row before
+        # rows of n + m samples, reshaped to rows of n + m - 1: this shifts each row by one sample more
         skewed = jnp.pad(x, ((0, 0), (0, n))).reshape(-1)[: n * (n + m - 1)].reshape(n, n + m - 1)
         return {"output": at.ins["input"][1].step * jnp.sum(skewed, axis=0)}
 

@@ -19,7 +19,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Gain(Coupling):
-    r"""A coupling strength: positive excites, negative inhibits.
+    r"""A coupling strength: a positive factor excites, a negative factor inhibits.
 
     Equation:
         y(x) = \mathrm{factor} \cdot \mathrm{input}(x)

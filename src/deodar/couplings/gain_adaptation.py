@@ -1,4 +1,4 @@
-"""Gains that an error corrects."""
+"""Gains that adapt to an error signal."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class GainAdaptation(Coupling):
-    r"""From the place of a peak to a value, through gains that an error corrects where the peak stands.
+    r"""A map from the position of a peak to a value, with gains that adapt to an error at that position.
 
     f is the input, lambda are the gains; without input the value is 0.
 
@@ -29,18 +29,18 @@ class GainAdaptation(Coupling):
         \tau \frac{d\lambda(x)}{dt} = \mathrm{gate}\, \mathrm{error}\, f(x)
 
     Parameters:
-        tau: time scale: document time times error times input, over a change of the gains; > 0, and no
-            shorter than the step.
-        initial: gains at the start, the same everywhere.
-        gated: whether there is a port `gate`; without it the time window is always open.
-        start: gains at the start, in place of `initial`: what was learned before.
+        tau: time scale: document time times error times input, over a change of the gains; > 0, and at
+            least one step.
+        initial: gains at the start, equal at all samples.
+        gated: whether the element has a port `gate`; without it the gate is 1.
+        start: gains at the start, in place of `initial`; for example gains learned in an earlier run.
 
     Ports:
         input: f, any axes; usually the output of a motor field.
-        error: one number with a sign: wanted minus reached, in units of the gains.
-        gate: the time window, one number, only where `gated`. Below 0 it counts as 0.
-        output: y, one number: what drives the motor variable of eq. 9.
-        value: what that variable is drawn to, one number.
+        error: one number with a sign: desired minus reached value, in units of the gains.
+        gate: the time window of learning, one number, only if `gated`. Values below 0 count as 0.
+        output: y, one number: the input of the motor variable of eq. 9.
+        value: the attractor of that motor variable, one number.
         gains: lambda, over the axes of the input.
 
     Shapes:
@@ -48,10 +48,10 @@ class GainAdaptation(Coupling):
 
     Reference:
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 13, with eq. 9. Corrected: the printed epsilon is
-        error times time window, here two ports, and the error has a sign, so that gains can also fall. With
-        the decay of eq. 9 multiplied by the integral of f (as printed the attractor would not switch off with
-        the peak) a peak's value moves by error integral f^2 / (tau integral f): an error decays
-        exponentially, at a speed that depends neither on the width of the peak nor on the sampling.
+        error times time window, here two ports, and the error is signed, so that gains can also decrease.
+        With the decay of eq. 9 multiplied by the integral of f (as printed, the attractor would not vanish
+        with the peak) the value changes at the rate error integral f^2 / (tau integral f): an error decays
+        exponentially, at a rate that depends neither on the width of the peak nor on the sampling.
     """
 
     tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0

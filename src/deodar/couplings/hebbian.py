@@ -1,4 +1,4 @@
-"""Associations between what is active together."""
+"""Hebbian weights between two fields or nodes."""
 
 from __future__ import annotations
 
@@ -20,23 +20,21 @@ from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
 MOST_PATCHES = 64
-"""Finest patches of random weights: their numbers are counted in 32 bits, for up to five axes on a side."""
+"""Largest number of patches along an axis: patch numbers have 32 bits, for up to five axes on a side."""
 
 
 @register
 @dataclass(frozen=True)
 class Hebbian(Coupling):
-    r"""Learns which places of two arrays are active together, and brings the one about from the other: a map
-    between any two fields or nodes.
+    r"""Weights that associate samples of two fields or nodes which are active at the same time.
 
-    It looks at peaks only. What does not exceed the threshold counts as 0 on both sides, and nothing is
-    learned unless something is active on both: a source that is on while its target has not answered yet
-    unlearns nothing. While one side is silent a step costs next to nothing. `AdaptiveWeights` is the plain
-    rule `outstar` without a threshold, which follows the target wherever it goes.
+    Values up to the threshold count as 0 on both sides. Weights change only while both sides have active
+    samples, so a source that is active before its target responds unlearns nothing; while one side is
+    inactive, a step costs little. Weights that change are limited to `saturation`. `AdaptiveWeights` is the
+    rule `outstar` without a threshold.
 
-    Weights change only while something is active on both sides, and those that change are kept at or below
-    `saturation`. The rules outstar, hebb and association, and their decay, act on weights from active
-    places a; instar and oja, and their decay, on weights to active places b.
+    The rules outstar, hebb and association, and their decay, act on weights from active samples a; instar
+    and oja, and their decay, on weights to active samples b.
 
     Equation:
         y(b) = \int W(b, a)\, x(a)\, da
@@ -53,26 +51,27 @@ class Hebbian(Coupling):
     Parameters:
         axes: axes of the output; none: one number.
         rule: outstar, association, hebb, instar or oja.
-        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, as the
-            rule says); from 0 to the inverse of the step.
-        decay: speed at which weights fade that are in use, per unit of the document's time; from 0 to the
+        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, depending
+            on the rule); from 0 to the inverse of the step.
+        decay: decay rate of the weights that change, per unit of the document's time; from 0 to the
             inverse of the step.
         saturation: upper bound of weights that change; 0: none.
-        threshold: what input and post must exceed to count; >= 0.
-        gated: whether there is a port `gate`; without it learning never waits.
-        initial: weights at the start; where they are random, the largest.
+        threshold: value that active samples of input and post exceed; >= 0.
+        gated: whether the element has a port `gate`; without it the gate is 1.
+        initial: weights at the start; the largest one if they are random.
         random: whether weights at the start are uniform between 0 and `initial`, instead of `initial` itself.
         share: share of the patches that are connected at the start; the other weights are 0. From 0 to 1.
-        patches: number of patches along each axis inside which weights at the start are alike; where random
-            or sparse. It makes the map at the start independent of the sampling.
-        seed: of the weights at the start, 0 to 2^32 - 1; where random or sparse.
-        start: weights at the start, in place of the five above: what was learned before.
+        patches: number of patches along each axis inside which weights at the start are equal, if they are
+            random or sparse. It makes the map at the start independent of the sampling.
+        seed: seed of the weights at the start, 0 to 2^32 - 1, if they are random or sparse.
+        start: weights at the start, in place of the five parameters above; for example weights learned in an
+            earlier run.
 
     Ports:
         input: a, any axes.
-        post: b, over `axes`: what is to be brought about.
-        gate: reward, or a window in which to learn; one number, only where `gated`. Below 0 it counts as 0.
-        output: y, over `axes`; it follows the input in the same instant, with the weights learned so far.
+        post: b, over `axes`: the activity to associate with the input.
+        gate: reward, or a time window of learning; one number, only if `gated`. Values below 0 count as 0.
+        output: y, over `axes`; computed from the input of the same step, with the weights learned so far.
         weights: W, over `axes`, then the axes of the input.
 
     Shapes:
@@ -81,9 +80,9 @@ class Hebbian(Coupling):
 
     Reference:
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 12: `association`, with the thresholded sum of both
-        sides as a step. Printed, all weights decay at every reward, which forgets the rest of the map: here
-        those in use. Grossberg (1968), Proc. Natl. Acad. Sci. 59 (outstar, instar); Oja (1982), J. Math.
-        Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
+        sides as a step. As printed, all weights decay at every reward, which deletes the rest of the map;
+        here only weights from active samples decay. Grossberg (1968), Proc. Natl. Acad. Sci. 59 (outstar,
+        instar); Oja (1982), J. Math. Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")

@@ -22,8 +22,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Interaction(Coupling):
-    r"""What a field's own kernels and global inhibition do, as a signal of its own: between fields, or from a
-    field back to itself.
+    r"""The interaction of a field (kernels and global inhibition) as a coupling between fields.
 
     Equation:
         y(x) = \sum_k \int k(x - x')\, \mathrm{input}(x')\, dx'
@@ -31,7 +30,7 @@ class Interaction(Coupling):
 
     Parameters:
         kernel: one kernel or several, summed.
-        global_inhibition: c, on the integral of the input.
+        global_inhibition: c, factor of the integral of the input.
 
     Ports:
         input: any axes.

@@ -17,7 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Logarithm(Coupling):
-    r"""Compresses a signal that ranges over orders of magnitude: what a sensor reads, for a field.
+    r"""The logarithmic compression of a signal that ranges over orders of magnitude.
 
     Equation:
         y(x) = \mathrm{factor} \cdot \ln\!\left( 1 + \frac{\max(\mathrm{input}(x),
@@ -25,7 +25,7 @@ class Logarithm(Coupling):
 
     Parameters:
         factor: strength.
-        scale: input at which the logarithm begins to compress; > 0.
+        scale: input above which the compression is noticeable; > 0.
 
     Ports:
         input: any axes.

@@ -1,4 +1,4 @@
-"""Read-out of a peak's position."""
+"""The read-out of a peak's position."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class PeakPosition(Coupling):
-    r"""Where a peak stands: the mean of the axis weighted by the input, and how much input there is.
+    r"""The position of a peak: the mean of the axis weighted by the input.
 
     Equation:
         N = \int f(x)\, dx
@@ -30,9 +30,9 @@ class PeakPosition(Coupling):
 
     Parameters:
         axis: the dimension read out; other axes of the source are integrated out. By default the axis of the
-            source, which then has one.
-        least: N below which there is no peak; > 0.
-        absent: position while there is no peak (or, on a ring, input without direction), in axis units.
+            source, which then must have exactly one axis.
+        least: N up to which the input counts as no peak; > 0.
+        absent: output without a peak (or, on a periodic axis, for input without direction), in axis units.
 
     Ports:
         input: f, over the axis.

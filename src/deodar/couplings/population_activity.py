@@ -23,8 +23,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class PopulationActivity(Coupling):
-    r"""What a population of neurons says about a dimension: their tuning curves, each weighted by the firing
-    rate, summed.
+    r"""A distribution of population activation: the sum of tuning curves weighted by firing rates.
 
     r is the input; where no neuron is tuned to x, the normalized form is 0.
 
@@ -37,8 +36,8 @@ class PopulationActivity(Coupling):
             `PopulationActivity.of(preferred, sigma, axes)` makes Gaussians.
         axes: the dimensions to which the neurons are tuned; at least one.
         amplitude: factor from the sum to activation.
-        normalized: whether it is the mean of the rates weighted by the tuning: so places to which more
-            neurons are tuned weigh no more.
+        normalized: whether the output is the mean of the rates weighted by the tuning, which does not depend
+            on the number of neurons tuned to x.
 
     Ports:
         input: r, an axis with one sample for each neuron.
@@ -115,18 +114,18 @@ class PopulationActivity(Coupling):
     def of(
         cls, preferred: Any, sigma: PerAxis, axes: Sequence[Axis], rate: float = 1.0, **others: Any
     ) -> PopulationActivity:
-        """Neurons with Gaussian tuning curves, on a periodic axis the shortest way round.
+        """Create neurons with Gaussian tuning curves; on a periodic axis the distance is the shorter one.
 
         Args:
             preferred: the value that each neuron prefers, in axis units; for several axes a row for each
                 neuron.
-            sigma: width of all tuning curves in axis units, one or one for each axis; > 0.
-            axes: the dimensions to which they are tuned.
+            sigma: width of all tuning curves in axis units, one value or one for each axis; > 0.
+            axes: the dimensions to which the neurons are tuned.
             rate: the rate at the preferred value.
-            others: further parameters of the element.
+            others: other parameters of the element.
 
         Raises:
-            ParameterError: where there is not one value for each axis and neuron.
+            ParameterError: if `preferred` does not have one value for each neuron and axis.
         """
         places = np.asarray(preferred, float)
         places = places[:, None] if places.ndim == 1 and len(axes) == 1 else places

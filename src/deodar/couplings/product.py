@@ -17,7 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Product(Coupling):
-    r"""One signal gates another, place by place.
+    r"""The pointwise product of two signals, for gating.
 
     Each port sums all connections into it.
 
@@ -29,7 +29,7 @@ class Product(Coupling):
 
     Ports:
         input: any axes.
-        factor: the axes of `input`; a number gates everywhere alike.
+        factor: the axes of `input`; one number multiplies all samples.
         output: the axes of `input`.
 
     Reference:

@@ -1,4 +1,4 @@
-"""Projection between dimensions: expansion, contraction, reordering, renaming."""
+"""The projection between dimensions: expansion, contraction, reordering, renaming."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Project(Coupling):
-    r"""From one set of dimensions to another; axes match by name, after renaming.
+    r"""A projection from one set of dimensions to another; axes match by name, after renaming.
 
-    In place of the integral `reduce` takes sum, mean, max or min over z. Axes of other sampling are
-    interpolated.
+    `reduce` selects a sum, mean, max or min over z in place of the integral. If the sampling of an axis
+    differs, the input is interpolated.
 
     Equation:
         \text{axes missing at the source:}\quad y(x, z) = \mathrm{input}(x)
@@ -33,9 +33,10 @@ class Project(Coupling):
 
     Parameters:
         axes: dimensions of the output, in its order.
-        reduce: how axes that are missing here are contracted: `integral`, `sum`, `mean`, `max` or `min`.
-        rename: names of the source's axes and what they are called here: `{"pan": "x"}`.
-        interpolation: `linear` or `nearest`, where the sampling differs.
+        reduce: contraction over axes that the output does not have: `integral`, `sum`, `mean`, `max` or
+            `min`.
+        rename: names of the source's axes and their names in the output: `{"pan": "x"}`.
+        interpolation: `linear` or `nearest`, for axes whose sampling differs.
 
     Ports:
         input: any axes.
@@ -56,7 +57,7 @@ class Project(Coupling):
 
     @property
     def linear(self) -> bool:  # type: ignore[override]
-        """Whether the reduction is a sum."""
+        """Whether the output is linear in the input: an integral, a sum or a mean."""
         return self.reduce in ("integral", "sum", "mean")
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
@@ -146,7 +147,7 @@ class Project(Coupling):
         return [names.get(a.name, a.name) for a in axes]
 
     def _same(self, here: Axis, there: Axis, name: str) -> bool:
-        # a renamed axis keeps its bounds but may carry another unit: image column and pan angle, say
+        # a renamed axis keeps its bounds but may have another unit, such as image column and pan angle
         renamed = name in dict(self._renames()).values()
         return here.fits(
             Axis(here.name, there.lower, there.upper, there.samples, there.periodic, here.unit)

@@ -1,4 +1,4 @@
-"""From a peak to numbers."""
+"""The conversion of a peak's position to numbers."""
 
 from __future__ import annotations
 
@@ -21,13 +21,12 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class RateCode(Coupling):
-    r"""The numbers that the place of a peak stands for: the way back from SpaceCode, with the same gain and
-    offset.
+    r"""A rate code of a peak's position: the inverse of `SpaceCode` with the same gain and offset.
 
-    It is the exact inverse of SpaceCode where the samples hold the whole peak: on a line as long as the peak
-    ends before the axis does (at 4 sigma from an end the place is wrong by 1.4e-4 sigma at most, at 6 sigma
-    by 6.1e-9), on a ring for peaks that are no wider than a twelfth of it. Nearer to an end the mean is drawn
-    inwards, by what is cut off. A ring tells no turns: c lies between its ends.
+    The inverse is exact if the axis contains the whole peak. On a linear axis the error of the position is at
+    most 1.4e-4 sigma for a peak 4 sigma from an end, and 6.1e-9 sigma at 6 sigma; nearer to an end the mean
+    shifts inwards, because the axis cuts off a part of the peak. On a periodic axis the peak's sigma must be
+    at most a twelfth of the period; whole turns are lost, because c lies between the ends of the axis.
 
     Equation:
         y_i = \begin{cases} \frac{c_i - \mathrm{offset}_i}{\mathrm{gain}_i} & \int f(x)\, dx >
@@ -37,22 +36,22 @@ class RateCode(Coupling):
             f(x)\, dx
 
     Parameters:
-        axes: where the peak stands; at least one.
-        gain: axis units per unit of the output, one or one for each axis; not 0.
-        offset: place of the peak for an output of 0, in axis units, one or one for each axis.
-        least: integral of the input up to which there is no peak; > 0.
-        absent: output while there is no peak (or, on a ring, input without direction), one or one for each
-            axis.
+        axes: axes of the peak; at least one.
+        gain: axis units per unit of the output, one value or one for each axis; not 0.
+        offset: position of the peak for an output of 0, in axis units, one value or one for each axis.
+        least: integral up to which the input counts as no peak; > 0.
+        absent: output without a peak (or, on a periodic axis, for input without direction), one value or one
+            for each axis.
 
     Ports:
         input: f, over `axes`.
-        output: y, one number for one axis; for several an axis with one sample for each of them, in their
-            order.
+        output: y, one number for one axis; for several axes, an axis with one sample for each of them, in
+            their order.
         strength: the integral of f, one number.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13 (the read-out of a
-        peak); on a ring the population vector: Georgopoulos, Schwartz & Kettner (1986), Science 233,
+        peak); on a periodic axis the population vector: Georgopoulos, Schwartz & Kettner (1986), Science 233,
         1416-1419.
     """
 

@@ -1,4 +1,4 @@
-"""Resampling."""
+"""The resampling of a signal on another grid."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Resample(Coupling):
-    r"""The same dimensions on another grid, which may cover another part of them.
+    r"""The input on another grid of the same dimensions, which may cover another range.
 
-    Interpolated between samples; zero beyond the ends of an axis that is not periodic.
+    Values between samples are interpolated; values beyond the ends of an axis that is not periodic are 0.
 
     Equation:
         y(x) = \mathrm{input}(x)
 
     Parameters:
-        axes: the same names in the same order, with the grid wanted.
+        axes: axes of the same names in the same order, with the new grid.
         interpolation: `linear` or `nearest`.
 
     Ports:

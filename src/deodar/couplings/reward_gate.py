@@ -1,4 +1,4 @@
-"""The gate that opens learning."""
+"""The gate that a reward opens for learning."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
 NEVER = -1e30
-"""Moment of the last onset before there was one, in any time unit."""
+"""Time of the last onset while no onset has occurred, in any time unit."""
 
 
 @register
 @dataclass(frozen=True)
 class RewardGate(Coupling):
-    r"""Opens learning when reward comes: as long as it lasts, or for a window of fixed length from its onset.
+    r"""A gate of learning, open while a reward lasts or for a fixed time from its onset.
 
-    With `duration` 0 the gate is open while r > threshold; else it opens at the moment at which r exceeds
-    the threshold, for `duration`. A new onset, after r has fallen to the threshold, opens it anew.
+    With `duration` 0 the gate is open while r > threshold. Otherwise it opens when r exceeds the threshold
+    and stays open for `duration`; the next onset, after r has fallen to the threshold, opens it again.
 
     Equation:
         r = \mathrm{gate} \int \mathrm{input}(x)\, dx
@@ -35,21 +35,22 @@ class RewardGate(Coupling):
         \text{graded:}\quad \epsilon = \mathrm{strength}\, r \text{ while open}
 
     Parameters:
-        threshold: what r must exceed, in units of the input times the axes.
-        duration: how long a window is open, in the document's time unit; 0: as long as the reward lasts.
-        strength: epsilon while open, or its factor where graded.
-        graded: whether epsilon follows r while the gate is open, as in eq. 16.
-        gated: whether there is a port `gate`; without it reward always counts.
+        threshold: value of r above which the gate opens, in units of the input times the axes.
+        duration: time for which the gate is open, in the document's time unit; 0: as long as the reward
+            lasts.
+        strength: epsilon while open, or its factor if graded.
+        graded: whether epsilon is proportional to r while the gate is open, as in eq. 16.
+        gated: whether the element has a port `gate`; without it the gate factor is 1.
 
     Ports:
         input: the reward, any axes; usually the output of a field or node that detects success.
-        gate: when reward counts at all, such as the arrival of a movement; one number, only where `gated`.
-        output: epsilon, one number; it follows the reward in the same instant.
+        gate: factor of the reward, such as a signal that a movement has ended; one number, only if `gated`.
+        output: epsilon, one number; computed from the reward of the same step.
 
     Reference:
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 16 (graded), and the time windows of eqs. 12 and 13.
-        The window of fixed length is ours: it bounds what one reward can teach, and lasts beyond a reward
-        that is shorter.
+        The window of fixed length is deodar's addition: it limits the learning from one reward, and continues
+        after a reward that is shorter.
     """
 
     threshold: Annotated[float, Live(lower=0, meaning="what the reward must exceed")] = 0.5
@@ -98,7 +99,7 @@ class RewardGate(Coupling):
             lasts, bounded = (
                 passed < duration - 0.5 * time.wide_dt,
                 duration > 0,
-            )  # to half a step, so that rounding moves no edge
+            )  # half a step of tolerance, so that rounding moves no edge
         is_open = jnp.where(bounded, self._onset(state, reward) | lasts, reward > self.threshold)
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 

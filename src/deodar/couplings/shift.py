@@ -20,15 +20,15 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Shift(Coupling):
-    r"""Moves a pattern: a peak at x arrives at x + amount.
+    r"""A shift of the input by a fixed amount: a peak at x arrives at x + amount.
 
-    Interpolated linearly; zero comes in at the ends of an axis that is not periodic.
+    Values between samples are interpolated linearly; an axis that is not periodic is padded with 0.
 
     Equation:
         y(x) = \mathrm{input}(x - \mathrm{amount})
 
     Parameters:
-        amount: how far, in axis units, one or one for each axis.
+        amount: the shift, in axis units, one value or one for each axis.
 
     Ports:
         input: any axes.

@@ -1,4 +1,4 @@
-"""A sigmoid on a connection."""
+"""The sigmoid of a signal."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sigmoid(Coupling):
-    r"""Squashes a signal that is not yet an output: a sum, a sensor's reading.
+    r"""The sigmoid of a signal, such as a sum or a sensor's reading.
 
     Equation:
         y(x) = g(\mathrm{input}(x))
 
     Parameters:
-        sigmoid: g.
+        sigmoid: g, the sigmoid function.
 
     Ports:
         input: any axes.

@@ -1,4 +1,4 @@
-"""From numbers to a peak."""
+"""The conversion of numbers to a peak at a position."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SpaceCode(Coupling):
-    r"""A peak at the place that numbers name: what a place sense or a compass tells a field.
+    r"""A space code: a Gaussian peak whose position is the input, such as the reading of a compass.
 
-    On a periodic axis distances are the shorter way round, for input of any size. If normalized, y is
+    On a periodic axis the distance is the shorter one, for input of any size. If normalized, y is
     divided by its sum over all samples times the grid steps.
 
     Equation:
@@ -33,17 +33,18 @@ class SpaceCode(Coupling):
         c_i = \mathrm{gain}_i\, \mathrm{input}_i + \mathrm{offset}_i
 
     Parameters:
-        axes: where the peak stands; at least one.
-        sigma: width in axis units, one or one for each axis; > 0.
+        axes: axes of the peak; at least one.
+        sigma: width in axis units, one value or one for each axis; > 0.
         amplitude: value at the centre; if normalized, the integral.
-        gain: axis units per unit of the input, one or one for each axis.
-        offset: place of the peak for an input of 0, in axis units, one or one for each axis.
+        gain: axis units per unit of the input, one value or one for each axis.
+        offset: position of the peak for an input of 0, in axis units, one value or one for each axis.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis;
-            none: the axis decides.
+        boundary: `periodic` (the peak wraps around the ends) or `zero` (it does not), one value or one for
+            each axis; none: periodic on periodic axes.
 
     Ports:
-        input: one number for one axis; for several an axis with one sample for each of them, in their order.
+        input: one number for one axis; for several axes, an axis with one sample for each of them, in their
+            order.
         output: over `axes`.
 
     Reference:
@@ -115,15 +116,15 @@ class SpaceCode(Coupling):
                 length = axis.range if axis.periodic else axis.step * axis.samples
                 distance = distance - length * jnp.round(distance / length)
             factor = jnp.exp(-0.5 * (distance / sigma) ** 2)
-            if self.normalized:  # beyond the ends of a line, or between two samples, a narrow peak may vanish
+            # the sum may be 0: a narrow peak may lie outside the axis or between two samples
+            if self.normalized:
                 whole = jnp.sum(factor) * axis.step
                 factor = factor / jnp.where(whole > 0, whole, 1.0)
             factors.append(factor)
         y = self.amplitude * factors[0]
         for factor in factors[1:]:
-            # as a product of matrices (the second row adds nothing) it is made once: the compiler would else
-            # put the exponentials into every sum that reads it, which doubled the step of a model with 16
-            # fields
+            # a product of matrices (the second row adds 0) is computed once; otherwise XLA would recompute
+            # the exponentials in every sum that reads them, which doubled the step of a model with 16 fields
             y = jnp.tensordot(
                 jnp.stack([y, jnp.zeros_like(y)]),
                 jnp.stack([factor, factor]),

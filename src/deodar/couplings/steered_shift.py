@@ -1,4 +1,4 @@
-"""The steered shift."""
+"""The shift by an amount that is an input."""
 
 from __future__ import annotations
 
@@ -20,30 +20,29 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SteeredShift(Coupling):
-    r"""Moves a pattern by what another element says: from one frame of reference to another that moves
-    against it.
+    r"""A shift of the input by an amount that is itself an input, for changes of reference frame.
 
-    Interpolated linearly; zero comes in at the ends of an axis that is not periodic.
+    Values between samples are interpolated linearly; an axis that is not periodic is padded with 0.
 
     Equation:
         y(x) = \mathrm{input}(x - a)
         a_i = \mathrm{gain}\, \mathrm{by}_i + \mathrm{offset}
 
     Parameters:
-        along: names of the axes along which it shifts; at least one. Along all other axes nothing moves.
-        gain: axis units per unit of what steers; a negative one shifts against it.
-        offset: how far it shifts for a `by` of 0, in axis units.
+        along: names of the axes along which the input is shifted; at least one.
+        gain: axis units per unit of `by`; a negative gain shifts in the opposite direction.
+        offset: shift for a `by` of 0, in axis units.
 
     Ports:
-        input: any axes, those of `along` among them.
-        by: one number for one axis; for several an axis with one sample for each of them, in their order.
-            Where each has an element or a gain of its own, put one SteeredShift behind the other.
+        input: any axes, including those of `along`.
+        by: one number for one axis; for several axes, an axis with one sample for each of them, in their
+            order. If each axis needs its own source or gain, connect several SteeredShifts in series.
         output: the axes of `input`.
 
     Reference:
         Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic
-        remapping, Biol. Cybern. 106, 89-109 (the map that its transformation field computes: place on the
-        retina and gaze to place in the world).
+        remapping, Biol. Cybern. 106, 89-109 (the map that its transformation field computes: retinal
+        position and gaze direction to position in the world).
     """
 
     along: Annotated[Sequence[str], Recompile(meaning="names of the axes along which it shifts")] = ("x",)

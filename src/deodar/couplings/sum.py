@@ -17,7 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sum(Coupling):
-    r"""The sum of its connections as a signal of its own, for several targets or for one further coupling.
+    r"""The sum of several connections as one signal, for several targets or for another coupling.
 
     Equation:
         y(x) = \sum \mathrm{inputs}(x)
@@ -26,7 +26,7 @@ class Sum(Coupling):
         none.
 
     Ports:
-        input: any axes; the connection with most axes (then most samples) decides them, the others expand.
+        input: any axes: those of the connection with the most axes (then the most samples); others expand.
         output: the same axes.
 
     Reference:

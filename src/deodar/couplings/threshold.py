@@ -19,14 +19,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Threshold(Coupling):
-    r"""Lets through what exceeds a threshold, and nothing else.
+    r"""A threshold: the input where it exceeds the level, 0 elsewhere.
 
     Equation:
         y(x) = \begin{cases} \mathrm{input}(x) & \mathrm{input}(x) > \mathrm{level} \\ 0 &
             \text{else} \end{cases}
 
     Parameters:
-        level: the threshold, in units of the input. For all or nothing use the coupling `Sigmoid` with
+        level: the threshold, in units of the input. For an output of 0 or 1 use the coupling `Sigmoid` with
             `Step`.
 
     Ports:

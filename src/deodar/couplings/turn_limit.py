@@ -1,4 +1,4 @@
-"""The limit of a turn."""
+"""The limit of a vehicle's turning rate."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class TurnLimit(Coupling):
-    r"""Slows both wheels of a vehicle alike where they would turn it too fast: the circle on which it drives
-    stays the same.
+    r"""A limit of a vehicle's turning rate: both wheels slow down by the same factor.
+
+    The radius of the curve does not change.
 
     Equation:
         s = \min\!\left(1, \frac{\mathrm{limit}}{|\mathrm{speed}\, (\mathrm{left} -
@@ -32,8 +33,8 @@ class TurnLimit(Coupling):
         limit: largest difference between the speeds of the wheels, in the motor's unit; > 0.
 
     Ports:
-        left: what is wanted of the left wheel, one number.
-        right: what is wanted of the right wheel, one number.
+        left: command for the left wheel, one number.
+        right: command for the right wheel, one number.
         to_left: speed of the left wheel, one number.
         to_right: speed of the right wheel, one number.
 

@@ -20,7 +20,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Weighting(Coupling):
-    r"""A strength that depends on place: a pre-shape, a ramp, a mask.
+    r"""A coupling strength that depends on position, such as a ramp or a mask.
 
     Equation:
         y(x) = c(x) \cdot \mathrm{input}(x)
@@ -72,7 +72,7 @@ class Weighting(Coupling):
 
     @classmethod
     def of(cls, function: Any, axes: Any) -> Weighting:
-        """The weights of a function of the axes' values: `Weighting.of(lambda x: x / 100, [x])`."""
+        """Sample the weights from a function of the axes' values: `Weighting.of(lambda x: x / 100, [x])`."""
         grids = np.meshgrid(*(a.points for a in axes), indexing="ij")
         return cls(np.broadcast_to(np.asarray(function(*grids), float), shape(axes)), tuple(axes))
 

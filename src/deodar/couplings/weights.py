@@ -1,4 +1,4 @@
-"""Dense weights."""
+"""Dense weights between all samples of two elements."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Weights(Coupling):
-    r"""A weight between every place of the source and every place of the target: a map that may be anything.
+    r"""Fixed weights between all samples of a source and all samples of a target: any linear map.
 
     The integral is the sum times the source's grid step.
 

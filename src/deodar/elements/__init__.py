@@ -1,1 +1,1 @@
-"""Elements with a state or a source: one file each; the folder is the registry."""
+"""Elements with a state, and sources, one per file; every module in this folder is registered."""

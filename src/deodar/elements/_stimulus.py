@@ -1,4 +1,4 @@
-"""The contract of a stimulus: a pattern over axes, on for ever or in windows of time."""
+"""The contract of a stimulus: a pattern over axes, on permanently or during time windows."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NOTHING = 3.0
 
 @dataclass(frozen=True)
 class Stimulus(Element):
-    """s(x, t): a pattern times a gate over time; subclasses give the pattern."""
+    """The base class of stimuli: s(x, t), a pattern times a gate over time; subclasses define the pattern."""
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = ()
@@ -34,7 +34,7 @@ class Stimulus(Element):
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
 
     def pattern(self, at: Setting) -> Any:
-        """The stimulus while it is on, over its axes."""
+        """The value of the stimulus over its axes while it is on."""
         raise NotImplementedError
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
@@ -57,8 +57,9 @@ class Stimulus(Element):
                 )
 
     def strength(self) -> Interval:
-        """Between which values the pattern lies; one whose amplitude is 0 waits to be set, and may have
-        any.
+        """The smallest and largest value of the pattern.
+
+        (0, 0) means that the amplitude is not set yet; `bounds` then assumes any value.
         """
         return ANY
 
@@ -69,7 +70,7 @@ class Stimulus(Element):
         return {"output": ANY if found == ZERO else hull(ZERO, found) if self.windows else found}
 
     def placed(self, width: str, ends: Sequence[str]) -> Iterator[tuple[str, str]]:
-        """Warnings about a place beyond the axes, and a width that is too small or too large for them."""
+        """Warn about a center outside the axes, and about a width too small or too large for them."""
         sizes: Any = getattr(self, width)
         for axis, center, size, end in zip(
             self.axes,

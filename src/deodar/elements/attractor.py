@@ -20,10 +20,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Attractor(Element):
-    r"""A motor variable that is drawn to the place of a peak, and stays where it is without one.
+    r"""A motor variable whose attractor is the position of a peak; it is constant without a peak.
 
-    The integral of the input f decides how fast phi moves, and that it does not move without a peak. A step
-    longer than the relaxation time tau / integral f goes to the attractor and not beyond. A periodic axis
+    The integral of the input f scales the speed of phi, so phi is constant without a peak. A step
+    longer than the relaxation time tau / integral f ends at the attractor. A periodic axis
     does not use `gain` and `offset`.
 
     Equation:
@@ -35,9 +35,9 @@ class Attractor(Element):
 
     Parameters:
         axis: the dimension over which the input is defined. By default the axis of the source, which must
-            then have exactly one.
+            then have exactly one axis.
         tau: time scale: document time times the integral of the input, so that tau / integral f is the
-            relaxation time; no shorter than the step.
+            relaxation time; at least one step.
         initial: phi at the start.
         gain: motor units per axis unit.
         offset: motor value at axis value 0.
@@ -104,7 +104,7 @@ class Attractor(Element):
         [axis] = at.ins["input"]
         phi, f, x = state["phi"], inputs["input"] * axis.step, at.points(axis)
         whole = jnp.sum(f)
-        # a step longer than the relaxation time would overshoot: it ends at the attractor
+        # a step longer than the relaxation time would overshoot, so its length is limited to the attractor
         share = time.dt / jnp.maximum(self.tau, time.dt * jnp.abs(whole))
         if axis.periodic:
             turn = 2 * math.pi / axis.range

@@ -19,14 +19,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Boost(Stimulus):
-    r"""Homogeneous input that brings a field, or a node, closer to its detection instability.
+    r"""A homogeneous input that moves a field or node closer to its detection instability.
 
     Equation:
         s(x) = \mathrm{amplitude}
 
     Parameters:
-        axes: where it is defined; none: a constant, which expands along the axes of any target.
-        amplitude: value everywhere.
+        axes: axes of the stimulus; none: a constant, which expands along the axes of any target.
+        amplitude: value at every sample.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:

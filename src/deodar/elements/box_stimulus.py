@@ -22,18 +22,18 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class BoxStimulus(Stimulus):
-    r"""The same input everywhere in a region.
+    r"""A constant input inside a box and 0 outside.
 
-    A cell that the edge cuts gets its share.
+    A cell that is partly inside the box gets the amplitude times the part of its width that is inside.
 
     Equation:
         s(x) = \begin{cases} \mathrm{amplitude} & |x_i - \mathrm{center}_i| <
             \frac{\mathrm{width}_i}{2} \ \forall i \\ 0 & \text{else} \end{cases}
 
     Parameters:
-        axes: where it is defined; none: a constant for a node.
-        center: middle of the region in axis units, one or one for each axis.
-        width: full width in axis units, one or one for each axis; > 0.
+        axes: axes of the stimulus; none: a constant for a node.
+        center: middle of the box in axis units, one value or one for each axis.
+        width: full width in axis units, one value or one for each axis; > 0.
         amplitude: value inside.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 

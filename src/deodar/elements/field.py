@@ -1,4 +1,4 @@
-"""The neural field, in any number of dimensions."""
+"""The dynamic neural field, with up to four axes."""
 
 from __future__ import annotations
 
@@ -28,15 +28,13 @@ from deodar.registry import register
 MOST_AXES = 4
 QUADRATURES = ("cell", "point")
 MARGIN = 6.0
-"""Standard deviations of noise beyond which activation is taken never to get (once in 10^9 independent
-moments).
-"""
+"""Assumed bound on the effect of noise, in standard deviations (exceeded about once in 10^9 samples)."""
 
 
 @register
 @dataclass(frozen=True)
 class Field(Element):
-    r"""A dynamic neural field; without axes a dynamic neural node.
+    r"""A dynamic neural field; without axes, a dynamic neural node.
 
     Equation:
         \tau \frac{du}{dt} = -u + h + s(x, t)
@@ -45,24 +43,25 @@ class Field(Element):
 
     Parameters:
         axes: the metric dimensions, none to four.
-        tau: time constant, in the document's time unit; > 0, and no shorter than the step.
+        tau: time constant, in the document's time unit; > 0, and at least one step.
         resting_level: h, the attractor without input.
         sigmoid: g, output as a function of activation.
         kernel: k, the sum of the interaction kernels. On a node their amplitudes are its self-excitation.
-        global_inhibition: c, on the integral of the output.
+        global_inhibition: c, factor of the integral of the output.
         noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by
             the root of the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) /
             tau.
-        noise_length: correlation length of the noise, in axis units, one or one for each axis; 0: white.
+        noise_length: correlation length of the noise, in axis units, one value or one for each axis; 0:
+            white.
         quadrature: `cell`: the output at a sample is the mean of g over its cell, so that edges narrower than
-            a sample behave as on a fine grid; `point`: g at the sample. On a node both are g. A document that
-            does not state it means `point`.
+            a sample behave as on a fine grid; `point`: g at the sample. On a node both are g. The default in
+            documents is `point`.
 
     Ports:
         input: s, the sum of all connections, over `axes`.
         output: g(u), over `axes`; its mean over each cell with `quadrature="cell"`.
         activation: u, over `axes`.
-        interaction: the integrals, over `axes`.
+        interaction: the sum of both integral terms, over `axes`.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 1, 3 and 17; Amari (1977),

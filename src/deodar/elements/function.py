@@ -1,4 +1,4 @@
-"""A user's own function as an element."""
+"""An element defined by a custom function."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ from deodar.registry import register
 
 
 def leaky(state: Any, inputs: Mapping[str, Any], time: Time, rate: Any = 0.1) -> Any:
-    """The example of the manual: a leaky integrator, du/dt = rate (input - u)."""
+    """A leaky integrator, du/dt = rate (input - u): the default of `Function` and the manual's example."""
     return state + time.dt * rate * (inputs["input"] - state)
 
 
 @register
 @dataclass(frozen=True)
 class Function(Element):
-    r"""An element whose step is a function of one's own, written in JAX.
+    r"""An element whose step is a custom function written in JAX.
 
-    `time.dt` is the step, `time.now` the time; `values` arrive as keyword arguments.
+    `time.dt` is the step and `time.now` the time; `values` are passed as keyword arguments.
 
     Equation:
         u(t + dt) = \mathrm{function}(u(t), \mathrm{inputs}(t), \mathrm{time}, \mathrm{values})
 
     Parameters:
         axes: axes of the state, the output and all inputs; none: numbers.
-        function: `module:name`, or the function itself. It is stored by name and found again when the model
-            is compiled, in a document from elsewhere only after it is trusted.
+        function: `module:name`, or the function itself. A document stores its name; the function is imported
+            when the model is compiled. A document from another source must be trusted first.
         ports_in: names of the input ports.
         initial: state at the start.
-        values: named numbers handed to the function as keyword arguments.
+        values: named numbers passed to the function as keyword arguments.
 
     Ports:
         output: the state u, over `axes`.
@@ -120,13 +120,13 @@ class Function(Element):
         return str(self.function)
 
     def load(self) -> Callable[..., Any]:
-        """The function itself. This imports its module: never called before the document is trusted."""
+        """Import the function. Importing runs its module, so this is called only for trusted documents."""
         module, _, path = str(self.function).partition(":")
         try:
             found: Any = sys.modules.get(module) or importlib.import_module(module)
             for step in path.split("."):
                 found = getattr(found, step)
-        except Exception as error:  # importing runs the module, which may raise anything
+        except Exception as error:  # importing runs the module, which may raise any exception
             first = (str(error).strip() or "no message").splitlines()[0]
             raise UnknownName(
                 f"the function {self.function!r} cannot be found ({type(error).__name__}: {first})",

@@ -23,24 +23,24 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class GaussianStimulus(Stimulus):
-    r"""Localised input: what a sensor or another field sends about one value.
+    r"""A Gaussian input, localised around one position.
 
-    Where an axis wraps, distances are the shorter way round. If normalized, it is divided by its sum over
-    all samples times the grid steps.
+    On an axis that wraps, the distance is the shorter one. If normalized, the Gaussian is divided by its sum
+    over all samples times the grid steps.
 
     Equation:
         s(x) = \mathrm{amplitude} \exp\!\left( -\sum_i \frac{(x_i - \mathrm{center}_i)^2}{2
             \sigma_i^2} \right)
 
     Parameters:
-        axes: where it is defined; none: a constant for a node.
-        center: place of the maximum in axis units, one or one for each axis.
-        sigma: width in axis units, one or one for each axis; > 0.
+        axes: axes of the stimulus; none: a constant for a node.
+        center: position of the maximum in axis units, one value or one for each axis.
+        sigma: width in axis units, one value or one for each axis; > 0.
         amplitude: value at the centre; if normalized, the integral.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic` (it wraps round the ends) or `zero` (it does not), one or one for each axis;
-            none: the axis decides.
+        boundary: `periodic` (the Gaussian wraps around the ends) or `zero` (it does not), one value or one
+            for each axis; none: periodic on periodic axes.
 
     Ports:
         output: over `axes`.

@@ -1,4 +1,4 @@
-"""What arrived in the recent past."""
+"""The recent past of an input."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ EMPTY = ("zero", "nan")
 @register
 @dataclass(frozen=True)
 class History(Element):
-    r"""A running history of its input: the newest moment first, the oldest forgotten.
+    r"""A running history of the input: the newest sample first, the oldest dropped.
 
     Equation:
         t = n \cdot \mathrm{interval}\text{:}\quad y_0 \leftarrow \mathrm{input}(t),\quad y_k
             \leftarrow y_{k-1}
 
     Parameters:
-        axes: of the input.
-        slots: the axis of the moments that are kept, the newest at its lower end; comes first in the output.
-        interval: time between two moments that are kept, in the document's time unit; > 0. Shorter than a
+        axes: axes of the input.
+        slots: the axis of the stored samples, the newest at its lower end; first axis of the output.
+        interval: time between two stored samples, in the document's time unit; > 0. Shorter than a
             step: every step.
-        empty: what slots show that no moment has reached yet: `zero`, or `nan` (not a number). What reads
-            `nan` becomes undefined too.
+        empty: value of slots that hold no sample yet: `zero`, or `nan` (not a number). Elements that read
+            `nan` become undefined too.
 
     Ports:
         input: over `axes`.
@@ -86,7 +86,7 @@ class History(Element):
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         kept = jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)
-        if self.empty == "nan":  # the state itself stays finite
+        if self.empty == "nan":  # only the output has NaN; the state is finite
             there = jnp.arange(self.slots.samples) < state["count"]
             kept = jnp.where(there.reshape(-1, *(1 for _ in self.axes)), kept, jnp.nan)
         return {"output": kept}
@@ -94,7 +94,7 @@ class History(Element):
     def advance(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
-        # a ring whose newest place moves: one row is written in a step, however many there are
+        # a ring buffer: a step writes one row, whatever the number of slots
         kept, newest = state["kept"], state["newest"]
         with exact():
             coming, interval = time.wide + time.wide_dt, wide(self.interval)

@@ -18,11 +18,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Integrator(Element):
-    r"""A variable whose rate of change is its input: a heading, a count, the position of something that
-    moves.
+    r"""A variable whose rate of change is its input, such as a heading, a count or a position.
 
-    It has no attractor of its own: without input it keeps its value, and input that does not end lets it grow
-    without bound.
+    It has no attractor: without input it is constant, and under constant input it grows without bound.
 
     Equation:
         \frac{dx}{dt} = \mathrm{rate}\, \mathrm{input}(t),\quad x(0) = \mathrm{initial}
@@ -31,7 +29,7 @@ class Integrator(Element):
     Parameters:
         axes: axes of the variable; none: one number.
         rate: factor of the input, per unit of the document's time; the inverse of a time constant.
-        initial: x at the start, everywhere.
+        initial: x at the start, at every sample.
         start: x at the start, one value for each sample, in place of `initial`.
 
     Ports:

@@ -19,12 +19,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MemoryTrace(Element):
-    r"""A slow trace of where activation has been, which preshapes the field that made it.
+    r"""A slow trace of past activation, which pre-shapes the field that it reads.
 
-    It decays only while something else is active.
-
-    In the graded form f is the input between 0 and 1, at every place. The trace changes only while some
-    input is above the threshold, unless `fades`.
+    The trace changes only while the input is above the threshold somewhere, unless `fades`: it then grows
+    where the input is above the threshold and decays elsewhere. In the graded form f is the input clipped to
+    0..1.
 
     Equation:
         \frac{dp}{dt} = \begin{cases} \mathrm{gate}\, (\mathrm{input} - p) / \tau_{\mathrm{build}} &
@@ -39,27 +38,27 @@ class MemoryTrace(Element):
             lambda_build.
         tau_decay: time constant of the decay, in the document's time unit; > 0. In eq. 11: tau_l /
             lambda_decay.
-        threshold: input above which a place is active.
+        threshold: input above which a sample is active.
         graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by
             whether it is above the threshold.
-        fades: whether the trace also decays while nothing is active.
-        gated: whether there is a port `gate`; without it the trace is always open.
+        fades: whether the trace also decays while no sample is active.
+        gated: whether the element has a port `gate`; without it the gate is 1.
         start: p at the start, one value for each sample; none: 0.
 
     Ports:
         input: over `axes`; usually the output of a field.
-        gate: one number, only where `gated`; it multiplies the speed of build-up and decay. Below 0 it counts
+        gate: one number, only if `gated`; factor of the rates of build-up and decay. Values below 0 count
             as 0.
         output: p, over `axes`.
-        active: 1 where the input of the step before was above the threshold, over `axes`.
+        active: 1 where the input of the previous step was above the threshold, over `axes`.
 
     Shapes:
         start: the samples of `axes`, in their order.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 11 (graded; it decays, as here by default, only
-        while the field has a peak somewhere if memories are to outlast pauses, on which the equation is
-        silent). Lipinski, Simmering, Johnson & Spencer (2010), The role of experience in location estimation,
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 11 (graded; the equation does not state
+        whether the trace decays while the field has no peak: by default it does not, so that memories outlast
+        pauses). Lipinski, Simmering, Johnson & Spencer (2010), The role of experience in location estimation,
         Psychon. Bull. Rev. 17 (traces that grow below peaks and decay between them); Erlhagen & Schöner
         (2002), Psychol. Rev. 109 (preshape).
     """

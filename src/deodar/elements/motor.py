@@ -1,4 +1,4 @@
-"""The motor: where a model acts on a world."""
+"""The motor: an output of a model to a world."""
 
 from __future__ import annotations
 
@@ -17,11 +17,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Motor(Element):
-    r"""What a world's motor is told.
+    r"""A command to a motor of a world.
 
-    Which world takes it is chosen when the model is run; without a world it moves nothing.
-
-    The motor of this name takes y at the world's own period, and keeps the latest command in between.
+    The world is chosen when the model is run; without a world the command has no effect. The world's motor
+    of this name receives y once per period of the world and holds the latest command in between.
 
     Equation:
         y(t) = \sum \mathrm{inputs}(t)
@@ -32,7 +31,7 @@ class Motor(Element):
 
     Ports:
         input: the command, over `axes`, in the motor's unit.
-        output: the same, over `axes`.
+        output: the command, over `axes`.
 
     Reference:
         Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4, figure 4.

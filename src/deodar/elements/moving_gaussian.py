@@ -1,4 +1,4 @@
-"""The Gaussian stimulus that moves."""
+"""The moving Gaussian stimulus."""
 
 from __future__ import annotations
 
@@ -24,11 +24,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MovingGaussian(Stimulus):
-    r"""Localised input whose place changes: at a constant velocity, along waypoints, or both.
+    r"""A Gaussian input that moves at a constant velocity, along waypoints, or both.
 
-    What has left an axis that is not periodic does not come back by itself.
-
-    On a periodic axis distances are the shorter way round.
+    On a periodic axis the distance is the shorter one. On an axis that is not periodic, the Gaussian may
+    leave the axis; it is not reflected.
 
     Equation:
         s(x, t) = \mathrm{amplitude} \exp\!\left( -\sum_i \frac{(x_i - c_i(t))^2}{2 \sigma_i^2}
@@ -36,21 +35,21 @@ class MovingGaussian(Stimulus):
         c_i(t) = \mathrm{center}_i + \mathrm{velocity}_i\, t + p_i(t)
 
     Parameters:
-        axes: where it is defined; none: a constant for a node.
-        center: place at time 0 without waypoints, in axis units, one or one for each axis.
-        sigma: width in axis units, one or one for each axis; > 0.
+        axes: axes of the stimulus; none: a constant for a node.
+        center: position at time 0 without waypoints, in axis units, one value or one for each axis.
+        sigma: width in axis units, one value or one for each axis; > 0.
         amplitude: value at the centre.
-        velocity: axis units per unit of the document's time, one or one for each axis.
-        waypoints: p, moments and the places at them, in the document's time unit and axis units; straight
-            lines between them, standing before the first and after the last. Round a periodic axis go on
-            counting: from 350 to 370. None: p = 0.
+        velocity: axis units per unit of the document's time, one value or one for each axis.
+        waypoints: p, times and the positions at them, in the document's time unit and axis units;
+            interpolated linearly, constant before the first and after the last. Positions may exceed a
+            periodic axis: 350 to 370 is a move by 20 across its end. None: p = 0.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
 
     Shapes:
-        waypoints: one row for each moment: its time, then one place for each axis.
+        waypoints: one row for each time: the time, then one position for each axis.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
@@ -108,7 +107,8 @@ class MovingGaussian(Stimulus):
     def _places(self, at: Setting, constants: Any, time: Time) -> list[Any]:
         """The centre along each axis.
 
-        A periodic axis is left by whole turns before it is rounded, so that a long way costs no digits.
+        On a periodic axis whole periods are subtracted in float64, before the cast to the model's
+        precision, so that large positions lose no digits.
         """
         out: list[Any] = []
         with exact():

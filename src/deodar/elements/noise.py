@@ -1,4 +1,4 @@
-"""Noise as a source."""
+"""The noise source."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Noise(Element):
-    r"""Gaussian noise as an input of its own, for several targets at once or through a coupling.
+    r"""A source of Gaussian noise, for several targets at once or through a coupling.
 
-    As input of a field it adds what the field's own `noise` of strength q adds, q sqrt(dt) / tau xi_n in an
-    Euler step.
+    As input of a field it has the same effect as the field's parameter `noise` of strength q: an Euler step
+    adds q sqrt(dt) / tau xi_n.
 
     Equation:
         y(x, t_n) = \frac{q\, \xi_n(x)}{\sqrt{dt}}
 
     Parameters:
-        axes: where it is defined; none: one number.
+        axes: axes of the noise; none: one number.
         amplitude: q, strength; without `length` divided by the root of the cell's volume, else the standard
             deviation at a point of the process that the stochastic Euler step adds.
-        length: correlation length in axis units, one or one for each axis; 0: white.
+        length: correlation length in axis units, one value or one for each axis; 0: white.
 
     Ports:
-        output: over `axes`; drawn anew in every step of the element.
+        output: over `axes`; a new sample in every step of the element.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 16 and 17.

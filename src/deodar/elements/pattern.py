@@ -1,4 +1,4 @@
-"""The stimulus given as an array."""
+"""The stimulus defined by an array."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Pattern(Stimulus):
-    r"""Input of any form, one value for each sample: measured, drawn, or computed elsewhere.
+    r"""An input defined by an array, one value for each sample.
 
     Equation:
         s(x) = \mathrm{amplitude} \cdot \mathrm{values}(x)
 
     Parameters:
-        axes: where it is defined; none: a constant for a node.
+        axes: axes of the stimulus; none: a constant for a node.
         values: one value for each sample of the axes.
         amplitude: factor.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.

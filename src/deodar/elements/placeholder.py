@@ -1,4 +1,4 @@
-"""What stands where an element would stand that deodar does not have."""
+"""The placeholder for an element that deodar does not have."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Placeholder(Element):
-    """Keeps the place and the connections of an element of another tool that has no counterpart here.
+    """A placeholder that keeps the connections of an imported element without a counterpart in deodar.
 
     Its output is zero.
 
@@ -26,7 +26,7 @@ class Placeholder(Element):
 
     Parameters:
         axes: axes of its ports; none: numbers.
-        missing: what should stand here, and what it would do.
+        missing: the element that is missing, and what it computes.
 
     Ports:
         input: over `axes`; not used.
@@ -40,7 +40,7 @@ class Placeholder(Element):
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of its ports")] = ()
     missing: Annotated[str, Recompile(meaning="what should stand here")] = ""
 
-    # a state that never changes: so it may close a loop, as what it stands for might
+    # stateful with a constant state, so that it may close a loop, as the missing element might
     stateful: ClassVar[bool] = True
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:

@@ -1,4 +1,4 @@
-"""A neural node that shows its rate of change."""
+"""The neural node with an output for its rate of change."""
 
 from __future__ import annotations
 
@@ -24,10 +24,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class RateNode(Element):
-    r"""A neural node that keeps its rate of change as a state of its own, for phase plots; it takes the step
-    that the rate shown says.
+    r"""A neural node that stores its rate of change as a state, for phase plots.
 
-    r is the rate of change at the moment at which u is shown.
+    r is the rate of change at the time of u; the next Euler step uses the stored r.
 
     Equation:
         r = \frac{-u + h + c\, g(u) + s(t)}{\tau}
@@ -37,7 +36,7 @@ class RateNode(Element):
         tau: time constant, in the document's time unit; > 0.
         resting_level: h, the attractor without input.
         sigmoid: g, output as a function of activation.
-        self_excitation: c, strength of the node's coupling to itself; negative inhibits.
+        self_excitation: c, strength of the node's coupling to itself; a negative value inhibits.
         noise: q, strength of the noise on u itself (not divided by tau). Euler step: q sqrt(dt).
 
     Ports:

@@ -1,4 +1,4 @@
-"""What arrived at given moments."""
+"""An input, sampled at stated times."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ EMPTY = ("zero", "nan")
 @register
 @dataclass(frozen=True)
 class SampledHistory(Element):
-    r"""Its input at given moments, each stored once and kept. `History` keeps the recent past instead.
+    r"""The input, sampled at stated times and stored; see `History` for the recent past.
 
     Equation:
         y_k(t) = \begin{cases} \mathrm{input}(\mathrm{times}_k) & t \ge \mathrm{times}_k \\
             \mathrm{empty} & \text{else} \end{cases}
 
     Parameters:
-        axes: of the input.
-        slots: the axis of the moments, one sample for each; comes first in the output.
-        times: the moments, in the document's time unit. A moment between two steps counts for the nearer one;
-            the start of a run is not stored.
-        empty: what slots show before their moment: `zero`, or `nan` (not a number). What reads `nan` becomes
-            undefined too.
+        axes: axes of the input.
+        slots: the axis of the stored samples, one sample for each time; first axis of the output.
+        times: the sampling times, in the document's time unit. A time between two steps is rounded to the
+            nearer one; the input at the start of a run is not stored.
+        empty: value of slots before their time: `zero`, or `nan` (not a number). Elements that read `nan`
+            become undefined too.
 
     Ports:
         input: over `axes`.
         output: over `slots`, then `axes`.
 
     Shapes:
-        times: one moment for each sample of `slots`.
+        times: one time for each sample of `slots`.
 
     Reference:
         no reference
@@ -104,7 +104,7 @@ class SampledHistory(Element):
         }
 
     def _each(self, values: Any) -> Any:
-        """Values of the slots, to be spread over the axes."""
+        """Reshape values of the slots so that they broadcast over the axes."""
         return values.reshape(-1, *(1 for _ in self.axes))
 
     @classmethod

@@ -1,4 +1,4 @@
-"""The sensor: where a world enters a model."""
+"""The sensor: an input of a model from a world."""
 
 from __future__ import annotations
 
@@ -17,17 +17,15 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Sensor(Element):
-    r"""What a world senses, over axes that the model states.
+    r"""A reading of a world's sensor, over axes that the model states.
 
-    Which world provides it is chosen when the model is run.
-
-    The world that the model runs in provides the sensor of this name.
+    The world is chosen when the model is run; it must have a sensor of this name.
 
     Equation:
         y(x, t) = \mathrm{sensor}(x, t)
 
     Parameters:
-        axes: axes of the reading; the world samples it for them.
+        axes: axes of the reading; the world samples the reading at their points.
         sensor: name of the world's sensor.
 
     Ports:

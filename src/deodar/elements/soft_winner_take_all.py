@@ -26,12 +26,11 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SoftWinnerTakeAll(Element):
-    r"""Excitatory units that compete through one inhibitory unit: how a field's selection is wired in
-    networks of neurons.
+    r"""Excitatory units that compete through one inhibitory unit: selection in a network of neurons.
 
     With fast inhibition (tau_inhibition much shorter than tau), slow input, and f_v linear at the sums that
-    occur, u follows the equation of a Field: of the same tau and kernels, sigmoid f, resting level -T, global
-    inhibition beta_1 beta_2, and a Gain of alpha from it to itself.
+    occur, u follows the equation of a Field with the same tau and kernels, sigmoid f, resting level -T,
+    global inhibition beta_1 beta_2, and a Gain of alpha from its output to its input.
 
     Equation:
         u(x) = s(x, t) + \alpha\, r(x)
@@ -41,16 +40,16 @@ class SoftWinnerTakeAll(Element):
             \right)
 
     Parameters:
-        axes: where the units stand; any axis for units that are only numbered (its grid step counts in the
-            integrals).
-        tau: time constant of the excitatory units, in the document's time unit; > 0, and no shorter than the
+        axes: positions of the units; units without a position take any axis (its grid step is a factor of
+            the integrals).
+        tau: time constant of the excitatory units, in the document's time unit; > 0, and at least one
             step.
-        tau_inhibition: time constant of the inhibitory unit, in the document's time unit; > 0, and no shorter
-            than the step.
-        self_excitation: alpha, of each unit by itself.
+        tau_inhibition: time constant of the inhibitory unit, in the document's time unit; > 0, and at least
+            one step.
+        self_excitation: alpha, strength of the coupling of each unit to itself.
         kernel: k, excitation among neighbours, summed; none in the published form.
-        inhibition: beta_1, of all units by the inhibitory one.
-        drive: beta_2, of the inhibitory unit by the integral over all units.
+        inhibition: beta_1, strength of the coupling from the inhibitory unit to all excitatory units.
+        drive: beta_2, strength of the coupling from all excitatory units to the inhibitory unit.
         threshold: T, of the excitatory units.
         threshold_inhibition: T_v, of the inhibitory unit.
         sigmoid: f, rate of the excitatory units as a function of their input.
@@ -62,10 +61,10 @@ class SoftWinnerTakeAll(Element):
         input: s, the sum of all connections, over `axes`.
         output: r, over `axes`.
         inhibitory: v, one number.
-        interaction: u without its input and its threshold, over `axes`.
+        interaction: u without the terms s and -T, over `axes`.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eqs. 4 and 5 (both time constants are one there);
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eqs. 4 and 5 (with both time constants equal to 1);
         Rutishauser & Douglas (2009), State-dependent computation using coupled recurrent networks, Neural
         Comput. 21, 478-509, eqs. 2.1.
     """

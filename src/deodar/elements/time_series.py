@@ -1,4 +1,4 @@
-"""The stimulus given as arrays over time."""
+"""The stimulus defined by an array over time."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ WAYS = ("linear", "hold")
 @register
 @dataclass(frozen=True)
 class TimeSeries(Stimulus):
-    r"""Input that changes in any way: what was measured, or computed elsewhere, moment by moment.
+    r"""A time-varying input defined by an array: one pattern for each time.
 
-    Between two moments v is the straight line (`linear`) or the earlier of the two (`hold`); before the
-    first moment it is the first value, after the last the last.
+    Between two times v is interpolated linearly (`linear`) or equals the earlier value (`hold`); before the
+    first time it equals the first value, after the last time the last value.
 
     Equation:
         s(x, t) = \mathrm{amplitude} \cdot v(x, t)
@@ -39,22 +39,22 @@ class TimeSeries(Stimulus):
         \text{period } P\text{:}\quad v(x, t) = v(x, t \bmod P)
 
     Parameters:
-        axes: where it is defined; none: a number for a node.
-        times: the moments, rising, in the document's time unit.
-        values: for each moment one value for each sample of the axes (`TimeSeries.of(name, function, times,
+        axes: axes of the stimulus; none: a number for a node.
+        times: the times of the values, increasing, in the document's time unit.
+        values: for each time one value for each sample of the axes (`TimeSeries.of(name, function, times,
             axes)` samples a function).
         amplitude: factor.
         interpolation: `linear` or `hold`.
-        period: P, time after which it begins again, in the document's time unit; moments later than that are
-            never reached. 0: once.
+        period: P, time after which the series repeats, in the document's time unit; values at times later
+            than P are not used. 0: no repetition.
         windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
 
     Shapes:
-        times: the moments.
-        values: the moments, then the samples of `axes`, in their order.
+        times: one entry for each time.
+        values: the times, then the samples of `axes`, in their order.
 
     Reference:
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
@@ -124,7 +124,7 @@ class TimeSeries(Stimulus):
         with exact():
             times, half, now = wide(constants["times"]), 0.5 * time.wide_dt, time.wide
             if not is_neutral(self.period):
-                # half a step aside, so that rounding moves no moment to the period's other end
+                # shifted by half a step, so that rounding moves no time to the other end of the period
                 now = jnp.mod(now + half, wide(self.period)) - half
             before = jnp.clip(
                 jnp.sum(times <= now + (half if hold else 0.0)) - 1, 0, last if hold else max(last - 1, 0)
@@ -140,15 +140,16 @@ class TimeSeries(Stimulus):
     def of(
         cls, name: str, function: Callable[..., Any], times: Any, axes: Sequence[Axis], **others: Any
     ) -> TimeSeries:
-        """The values of a function of time and the axes' values: `TimeSeries.of("s", lambda t, x: np.sin(t /
-        50 + x), range(1000), [x])`.
+        """Sample a function of time and of the axes' values.
+
+        Example: `TimeSeries.of("s", lambda t, x: np.sin(t / 50 + x), range(1000), [x])`.
 
         Args:
             name: name of the element.
             function: called once with arrays of equal number of dimensions, time first.
-            times: the moments, rising, in the document's time unit.
-            axes: where it is defined.
-            others: further parameters of the element.
+            times: the times of the values, increasing, in the document's time unit.
+            axes: axes of the stimulus.
+            others: other parameters of the element.
         """
         moments = np.asarray(times, float)
         grids = np.meshgrid(moments, *(a.points for a in axes), indexing="ij")

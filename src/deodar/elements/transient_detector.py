@@ -20,10 +20,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class TransientDetector(Element):
-    r"""A pulse where the input changes, and silence where it stays: the difference between the input and a
-    slow copy of it.
+    r"""A detector of changes: the difference between the input and a slow copy of it.
 
-    A step of height A gives a pulse A exp(-t / tau); input that rises steadily gives its slope times tau.
+    A step of height A gives a pulse A exp(-t / tau); an input of constant slope gives slope times tau.
 
     Equation:
         \tau \frac{dz}{dt} = -z + s(x, t)
@@ -31,20 +30,20 @@ class TransientDetector(Element):
         \mathrm{off} = \max(0, z - s)
 
     Parameters:
-        axes: where it is defined; none: one number.
-        tau: time constant of the slow copy, in the document's time unit; > 0. After about three of it the new
-            is old.
-        initial: z at the start; what the input has beyond it then counts as new.
+        axes: axes of the input; none: one number.
+        tau: time constant of the slow copy, in the document's time unit; > 0. A pulse has decayed to 5 %
+            after 3 tau.
+        initial: z at the start; the difference of the input from it counts as a change.
 
     Ports:
         input: s, over `axes`.
-        output: what has come or grown, over `axes`; in the same instant as the input.
-        off: what has gone or shrunk, over `axes`.
+        output: increases of the input, over `axes`; in the same step as the input.
+        off: decreases of the input, over `axes`.
 
     Reference:
         Berger, Faubel, Norman, Hock & Schöner (2012), The counter-change model of motion perception: an
-        account based on dynamic field theory, ICANN 2012, LNCS 7552 (detectors of increments and of
-        decrements, by which motion is seen).
+        account based on dynamic field theory, ICANN 2012, LNCS 7552 (motion perception from detectors of
+        increments and of decrements).
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
