@@ -1,8 +1,8 @@
-"""Measuring: peaks, instabilities, regimes, phase plots, paths, statistics.
+"""Measurements: peaks, instabilities, regimes, phase plots, paths, statistics.
 
-The functions are `dd.peaks`, `dd.regimes` and so on; `dd.analysis` holds them too, and the classes of what
-they return. Where a file and its function share a name, the function is what `deodar.analysis` gives; import
-from the file what else it holds.
+The functions are public as `dd.peaks`, `dd.regimes` and so on. `dd.analysis` has them too, and the classes of
+their results. Where a module and its function share a name, `deodar.analysis` exports the function; import
+other names from the module.
 """
 
 from typing import TYPE_CHECKING

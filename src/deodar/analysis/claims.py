@@ -1,4 +1,4 @@
-"""Claims: figures and sentences that a run checks, each computed from it."""
+"""Claims: numbers and statements that are computed from a run and compared with a target."""
 
 from __future__ import annotations
 
@@ -11,35 +11,34 @@ from deodar.errors import AnalysisError
 
 ClaimKind = Literal["required", "reported"]
 Origin = Literal["printed", "read off a figure", "ours", "none"]
-"""Where a target comes from: the text of the paper prints it (a tolerance round it may be ours, and the
-target then says so); it was read off a figure of the paper; it is ours, although the sentence may be the
-paper's; or the value has no target.
+"""The origin of a target: printed in the paper's text (the target states a tolerance that deodar adds); read
+off a figure of the paper; deodar's own, although the statement may be the paper's; or no target.
 """
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One figure or sentence that was checked.
+    """One number or statement that a run checks.
 
     Attributes:
-        name: what is claimed, in words.
-        value: what the run gave.
-        target: what it should give.
-        holds: whether it does; None where n cannot decide, or where there is no target.
-        kind: `required` (a target of ours, which decides the exit status) or `reported` (a sentence of a
-            paper, true or not).
-        source: where it comes from.
-        n: number of runs it rests on.
+        name: the claim, in words.
+        value: the value from the run.
+        target: the expected value.
+        holds: whether the value meets the target; None if n runs cannot decide, or without a target.
+        kind: `required` (a target of deodar, which decides the exit status) or `reported` (a statement of a
+            paper, true or false).
+        source: where the target is stated, such as a section of the paper.
+        n: number of runs from which the value is computed.
         interval: 95 % interval of the value, or None.
-        origin: where the target comes from: `printed`, `read off a figure`, `ours`, or `none` without a
+        origin: origin of the target: `printed`, `read off a figure`, `ours`, or `none` without a
             target.
-        assumes: a setting of ours that the value depends on and the paper does not give, in words; empty:
+        assumes: a setting that the value depends on and that the paper does not state, in words; empty:
             none.
-        inferred: whether that setting was found by looking at this very number in earlier runs. Such a claim
+        inferred: whether that setting was chosen from this same number in earlier runs. Such a claim
             is no evidence that a reproduction succeeds, so it cannot be required.
 
     Raises:
-        AnalysisError: the marks contradict each other.
+        AnalysisError: if the attributes contradict each other.
     """
 
     name: str
@@ -69,7 +68,7 @@ class Claim:
 
 
 def failed(claims: Sequence[Claim]) -> list[Claim]:
-    """The required claims that are false: they decide the exit status."""
+    """Return the required claims that are false; they decide the exit status."""
     return [c for c in claims if c.kind == "required" and c.holds is False]
 
 

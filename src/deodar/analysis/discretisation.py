@@ -1,4 +1,4 @@
-"""What thresholds owe to the grid: the same measurements on a grid twice as fine."""
+"""The dependence of thresholds on the grid: the same measurements on a grid twice as fine."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.custom import Custom
 
 MOST = 20_000
-"""Samples of the finer grid up to which it is measured: about a minute on one core (a guess from 75
-microseconds a step of 100 x 100 samples).
+"""Largest number of samples of the finer grid: about a minute on one core (a guess, from 75 microseconds for
+a step of 100 x 100 samples).
 """
 
 
 def refined(field: Field) -> Field:
-    """The field with twice as many steps along each axis: 2 n - 1 samples, or 2 n on a periodic axis.
+    """Return the field with twice as many steps along each axis: 2 n - 1 samples, or 2 n on a periodic axis.
 
-    Every sample of the field is one of the new.
+    The new samples include all samples of the field.
     """
     axes = [
         dc.replace(a, samples=2 * a.samples if a.periodic else 2 * a.samples - 1) if a.samples > 1 else a
@@ -33,7 +33,7 @@ def refined(field: Field) -> Field:
 
 
 def obstacle(isolated: Isolated) -> str:
-    """Why a field is not measured on a finer grid; empty where it is."""
+    """Return the reason why a field is not measured on a finer grid; empty if it is measured."""
     fine: tuple[Axis, ...] = tuple(refined(isolated.field).axes)
     count = math.prod(a.samples for a in fine)
     if not fine:
@@ -54,15 +54,16 @@ def discretisation(
     accuracy: float = 0.01,
     limit: float = LIMIT,
 ) -> dict[str, float | None]:
-    """How far each threshold moves on a grid twice as fine: its value there less its value here; None where
-    it does not exist there.
+    """Return the shift of each threshold on a grid twice as fine: its value there minus its value here.
+
+    None for a threshold that does not exist on the finer grid.
 
     Args:
         isolated: the field.
         found: its thresholds, by `detection`, `reverse`, `forgetting` and `suppression`, all or some of them.
-        strength: localised input that makes the peak of a memory, relative to the detection threshold.
-        accuracy: of the thresholds, relative: the one they were found with.
-        limit: of each settling, in time constants.
+        strength: localised input that creates the peak of a memory, relative to the detection threshold.
+        accuracy: relative accuracy with which the thresholds were found.
+        limit: longest settling, in time constants.
     """
     session = isolated.session
     fine = isolate(

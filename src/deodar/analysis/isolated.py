@@ -1,4 +1,4 @@
-"""One field of a model on its own: without noise, with inputs that a measurement can turn."""
+"""One field of a model in isolation: without noise, with inputs that a measurement varies."""
 
 from __future__ import annotations
 
@@ -30,15 +30,13 @@ from deodar.session.session import Session
 from deodar.session.snapshot import SessionSnapshot
 
 InputKind = Literal["input", "boost"]
-"""What is turned: the strength of the localised input, or a homogeneous boost (on a node the two are the
-same).
+"""The input that is varied: the strength of the localised input, or a homogeneous boost (on a node the two
+are the same).
 """
 
 
 WHOLE = 0.75
-"""Share of a field's volume from which on a region is no peak: excitation has spread until the borders
-stopped it.
-"""
+"""Share of a field's volume above which a region is not a peak: excitation has spread to the borders."""
 
 
 @dataclass(frozen=True)
@@ -46,13 +44,13 @@ class Isolated:
     """A copy of one field with its own inputs.
 
     Attributes:
-        path: where the field stands in the model it was copied from.
+        path: path of the field in the original model.
         field: the field, its noise set to 0.
         session: the running copy; it has the elements `field`, `input`, `second` and `boost`.
-        center: where the localised input stands: the sample nearest to the middle of each axis.
-        sigma: its width on each axis.
-        time_unit: of the model.
-        background: paths of elements of the model that were kept as constant inputs.
+        center: position of the localised input, one number for each axis.
+        sigma: width of the localised input along each axis.
+        time_unit: time unit of the model.
+        background: paths of the model's elements that are kept as constant inputs.
     """
 
     path: str
@@ -70,14 +68,14 @@ class Isolated:
 
     @property
     def threshold(self) -> float:
-        """Activation above which there is a peak: the threshold of the output function, 0 where it has
-        none.
+        """The activation above which a peak exists: the threshold of the output function, or 0 without
+        one.
         """
         return float(getattr(self.field.sigmoid, "threshold", 0.0))
 
     @property
     def scale(self) -> float:
-        """How far the resting level lies from the threshold: the unit in which inputs are searched."""
+        """The distance between resting level and threshold: the unit in which inputs are searched."""
         return abs(self.threshold - self.field.resting_level) or 1.0
 
     def put(self, **amplitudes: float) -> None:
@@ -86,42 +84,43 @@ class Isolated:
             self.session.set(f"{name}.amplitude", float(amplitude))
 
     def reset(self, **amplitudes: float) -> None:
-        """Back to the resting level, with the inputs given and no others."""
+        """Reset the field to its resting level, with the given inputs and no others."""
         self.session.reset()
         self.put(**({"input": 0.0, "second": 0.0, "boost": 0.0} | amplitudes))
 
     def settle(self, tolerance: float | None = None, limit: float = LIMIT) -> Settled:
-        """Run until the field stands still; by default to 2e-4 of the distance between resting level and
-        threshold.
+        """Run until the field settles; the default tolerance is 2e-4 of the distance between resting level
+        and threshold.
         """
         return settle(self.session, tolerance or 2e-4 * self.scale, limit)
 
     def activation(self) -> np.ndarray:
-        """The activation as it now is."""
+        """The present activation."""
         return self.session.read("field.activation")
 
     def peaks(self) -> Peaks:
-        """The peaks as they now are."""
+        """The present peaks."""
         return peaks(self.activation(), self.axes, self.threshold)
 
     def covers(self, found: Peaks) -> bool:
-        """Whether one peak fills the field (three quarters of it: borders may stay silent), which makes it no
-        peak any more.
+        """Return whether a region fills the field: three quarters of it, as borders may be inactive.
+
+        Such a region does not count as a peak.
         """
         whole = math.prod(a.range for a in self.axes)
         return bool(self.axes) and any(p.size >= WHOLE * whole for p in found)
 
     def snapshot(self) -> SessionSnapshot:
-        """The whole state, inputs included."""
+        """Return the whole state, including the inputs."""
         return self.session.snapshot()
 
     def restore(self, snapshot: SessionSnapshot) -> None:
-        """Back to a snapshot."""
+        """Restore a snapshot."""
         self.session.restore(snapshot)
 
 
 class Isolation(TypedDict, total=False):
-    """Keyword arguments of `isolate`, which measurements that isolate a field themselves pass on."""
+    """Keyword arguments of `isolate`, which measurements pass to it."""
 
     sigma: float | Sequence[float] | None
     center: Sequence[float] | None
@@ -143,20 +142,20 @@ def isolate(
     """Copy one field out of a model, without noise and with inputs of its own.
 
     Args:
-        model: the model, or a field that stands in none.
-        path: the field in the model.
-        sigma: width of the localised input, one or one for each axis; none: that of the interaction kernel's
-            excitation.
-        center: where the localised input stands, one number for each axis; none: the sample nearest to the
-            middle.
+        model: the model, or a field without a model.
+        path: path of the field in the model.
+        sigma: width of the localised input, one value or one for each axis; none: that of the interaction
+            kernel's excitation.
+        center: position of the localised input, one number for each axis; none: the sample nearest to the
+            middle of each axis.
         precision: float32 or float64.
-        dt: Euler step; none: the document's own, kept between a hundredth and a tenth of the time constant
-            (where the field settles does not depend on it).
+        dt: Euler step; none: the document's step, limited to between a hundredth and a tenth of the time
+            constant (the settled state does not depend on it).
         inputs: paths of sources (and of couplings between them and the field) to keep as constant input.
 
     Raises:
-        UnknownName: if there is no such element.
-        AnalysisError: if the element is no field, or an input is not constant.
+        UnknownName: if the model has no element at `path`.
+        AnalysisError: if the element is not a field, or an input is not constant.
     """
     if isinstance(model, Field):
         home = Model("isolated")
@@ -226,8 +225,8 @@ def _port(model: Model, path: str, port: str) -> Handle:
 
 
 def _widths(field: Field, sigma: Any) -> tuple[float, ...]:
-    """Width of the input on each axis: as given, else that of the Gaussian with the kernel's half-width, at
-    least one step.
+    """Return the width of the input along each axis: `sigma`, or that of the Gaussian with the kernel's
+    half-width, at least one step.
     """
     axes = tuple(field.axes)
     if sigma is not None:
@@ -241,8 +240,8 @@ def _widths(field: Field, sigma: Any) -> tuple[float, ...]:
 
 
 def _excitation(field: Field, d: int) -> float | None:
-    """Width of the kernel's excitation along one axis, from its response to a single active sample; None
-    where there is none.
+    """Return the width of the kernel's excitation along one axis, from its response to a single active
+    sample; None without excitation.
     """
     axes = tuple(field.axes)
     middle = tuple(a.samples // 2 for a in axes)

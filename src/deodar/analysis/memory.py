@@ -1,4 +1,4 @@
-"""Working memory: whether a peak outlives its input, and what makes it forget."""
+"""Working memory: whether a peak outlives its input, and which inhibition deletes it."""
 
 from __future__ import annotations
 
@@ -14,20 +14,19 @@ from deodar.errors import AnalysisError
 
 BOOSTS = 16
 LEAST = 64
-"""Strongest localised inhibition that is tried, relative to the distance between resting level and threshold.
-"""
+"""Strongest localised inhibition tried, relative to the distance between resting level and threshold."""
 
 
 @dataclass(frozen=True)
 class Memory:
-    """What is left of a peak after its input is gone.
+    """The state of a field after the input of a peak is removed.
 
     Attributes:
-        outlives: whether a peak is left.
+        outlives: whether a peak remains.
         driven: the peaks while the input was on.
-        left: the peaks after it was taken away.
-        activation: the pattern that is left.
-        settled: whether it stood still before the limit.
+        left: the peaks after the input was removed.
+        activation: the remaining activation pattern.
+        settled: whether the field settled within the limit.
     """
 
     outlives: bool
@@ -38,17 +37,18 @@ class Memory:
 
 
 def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: float = LIMIT) -> Memory:
-    """Whether a peak outlives its input: input of this amplitude until the field settles, then none until it
-    settles again.
+    """Measure whether a peak outlives its input.
+
+    The input is on until the field settles, then off until it settles again.
 
     Args:
         isolated: the field.
-        amplitude: of the localised input, above the detection threshold.
-        boost: homogeneous input that stays on throughout.
-        limit: of settling, in time constants.
+        amplitude: amplitude of the localised input, above the detection threshold.
+        boost: homogeneous input that is always on.
+        limit: longest settling, in time constants.
 
     Raises:
-        AnalysisError: if the input makes no peak.
+        AnalysisError: if the input creates no peak.
     """
     isolated.reset(input=amplitude, boost=boost)
     isolated.settle(limit=limit)
@@ -68,14 +68,15 @@ def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: fl
 def suppression(
     isolated: Isolated, amplitude: float, accuracy: float = 0.01, limit: float = LIMIT
 ) -> Transition | None:
-    """The localised input, below 0, at which a peak that outlives its own input vanishes; None where no peak
-    does, or where it only moves aside.
+    """Return the localised input, below 0, at which a peak that outlives its own input vanishes.
+
+    None if no peak outlives its input, or if the peak only moves aside.
 
     Args:
         isolated: the field.
-        amplitude: of the localised input that makes the peak, above the detection threshold.
+        amplitude: amplitude of the localised input that creates the peak, above the detection threshold.
         accuracy: width of the final bracket relative to the value.
-        limit: of settling, in time constants.
+        limit: longest settling, in time constants.
     """
     kept = outlives(isolated, amplitude, limit=limit)
     if not kept.outlives or isolated.covers(kept.left):
@@ -86,27 +87,27 @@ def suppression(
 def forgetting(
     isolated: Isolated, amplitude: float, accuracy: float = 0.01, limit: float = LIMIT
 ) -> Transition | None:
-    """The homogeneous input below which no peak outlives its input; None where none does below the resting
-    threshold.
+    """Return the homogeneous input below which no peak outlives its input.
 
-    Negative for a working memory (how much inhibition erases it), positive for a field that a boost would
-    turn into one. The value is found by making a peak, taking its input away and lowering the boost until the
-    peak vanishes.
+    The value is negative for a working memory (the inhibition that deletes it) and positive for a field that
+    needs a boost to become one. It is found by creating a peak, removing its input and lowering the boost
+    until the peak vanishes. None if no peak outlives its input at any boost below the distance between
+    resting level and threshold.
 
     Args:
         isolated: the field.
-        amplitude: of the localised input that makes the peak, above the detection threshold.
+        amplitude: amplitude of the localised input that creates the peak, above the detection threshold.
         accuracy: width of the final bracket relative to the value.
-        limit: of settling, in time constants.
+        limit: longest settling, in time constants.
     """
     highest = (
         isolated.threshold - isolated.field.resting_level
-    )  # from here on a field without interaction is active all over
+    )  # with this boost a field without interaction is active everywhere
     for boost in np.linspace(0.0, max(highest, 0.0), BOOSTS, endpoint=False):
         isolated.reset(boost=boost)
         isolated.settle(limit=limit)
         if isolated.peaks():
-            return None  # active without input: nothing that could be told from a memory
+            return None  # active without input: not distinguishable from a memory
         kept = outlives(isolated, amplitude, float(boost), limit)
         if kept.outlives and not isolated.covers(kept.left):
             return descend(

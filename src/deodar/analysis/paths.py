@@ -1,6 +1,4 @@
-"""Paths of a robot in the plane: how long they are, where they enter a disc, how far from things they
-keep.
-"""
+"""Paths of a robot in the plane: length, entry into a disc, clearance, speed."""
 
 from __future__ import annotations
 
@@ -15,7 +13,7 @@ from deodar.parameters import show
 
 
 def points(path: Any) -> np.ndarray:
-    """A path as an array (points, 2); what stands in further columns (a heading) is left out."""
+    """Return a path as an array (points, 2); other columns (such as a heading) are dropped."""
     array = np.asarray(path, float)
     if array.ndim != 2 or array.shape[1] < 2 or not len(array) or not np.isfinite(array[:, :2]).all():
         raise AnalysisError(f"a path is rows of x and y, all of them finite, not {show(path)}")
@@ -23,18 +21,19 @@ def points(path: Any) -> np.ndarray:
 
 
 def path_length(path: Any) -> float:
-    """Sum of the distances from each point to the next, in the unit of the path."""
+    """Return the sum of the distances between consecutive points, in the unit of the path."""
     return float(np.linalg.norm(np.diff(points(path), axis=0), axis=1).sum())
 
 
 def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
-    """The path up to where it first enters the disc round a goal, the last point on its edge; None: it never
-    does.
+    """Return the path until it first enters a disc around a goal; the last point is on the disc's edge.
+
+    None if the path never enters the disc.
 
     Args:
         path: rows of x and y.
         goal: x and y of the middle of the disc.
-        radius: of the disc, above 0.
+        radius: radius of the disc, above 0.
     """
     line = points(path)
     away = line - np.asarray(goal, float)[:2]
@@ -44,7 +43,7 @@ def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> 
     k = int(inside[0])
     if k == 0:
         return line[:1]
-    # where the last straight piece crosses the circle: |a + s (b - a)|^2 = radius^2, the smaller root
+    # the last segment crosses the circle at |a + s (b - a)|^2 = radius^2: take the smaller root
     a, step = away[k - 1], away[k] - away[k - 1]
     square, across = float(step @ step), float(a @ step)
     share = (-across - np.sqrt(max(across**2 - square * (float(a @ a) - radius**2), 0.0))) / square
@@ -54,10 +53,10 @@ def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> 
 def path_divergence(
     path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float
 ) -> float | None:
-    """Lp / Lo: the length of a path over that of the shortest one, both ending where they enter the disc
-    round the goal.
+    """Return Lp / Lo: the length of a path divided by that of the shortest path.
 
-    None where the path never enters it, or where the shortest begins inside.
+    Both end where they enter the disc around the goal. None if the path never enters the disc, or if the
+    shortest path begins inside it.
 
     Reference:
         Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.1.
@@ -69,13 +68,13 @@ def path_divergence(
 
 
 def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
-    """Distance of each place to the nearest box or to the border, negative nowhere: 0 inside a box or outside
-    the border.
+    """Return the distance of each position to the nearest box or to the border; 0 inside a box or outside the
+    border.
 
     Args:
-        places: (..., 2).
+        places: positions, (..., 2).
         boxes: rows of lower x, lower y, upper x, upper y.
-        border: the same four numbers of what encloses all.
+        border: the same four numbers of the enclosing rectangle.
     """
     at = np.asarray(places, float)
     x, y = at[..., 0], at[..., 1]
@@ -90,8 +89,9 @@ def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
 
 
 def speeds(path: Any, times: Any, over: int = 1) -> np.ndarray:
-    """Speed at each point but the first `over`: the way from the point `over` before, in the unit of the path
-    over that of time.
+    """Return the speed at each point but the first `over`, in the unit of the path per unit of time.
+
+    It is the distance from the point `over` points earlier, divided by the time between them.
     """
     line, at = points(path), np.asarray(times, float)
     return np.linalg.norm(line[over:] - line[:-over], axis=1) / (at[over:] - at[:-over])

@@ -1,4 +1,4 @@
-"""Peaks: connected regions of activation above a threshold, on axes that may wrap."""
+"""Peaks: connected regions of activation above a threshold, on periodic or bounded axes."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ class Peak:
     """One connected region above the threshold.
 
     Attributes:
-        position: its centre in axis units, one number for each axis: the centroid, weighted by the activation
-            above threshold.
-        width: its extent along each axis, in axis units, where it is highest: the length of the cut through
-            the highest sample, between the places where the activation crosses the threshold (interpolated).
-            On one axis this is the width of the region.
-        amplitude: its highest activation.
-        size: its volume in the product of the axis units (on one axis the width; 1 for a node).
+        position: centroid in axis units, one number for each axis, weighted by the activation above
+            threshold.
+        width: extent along each axis, in axis units: the length of the section through the highest sample
+            between the (interpolated) threshold crossings of the activation. On one axis this is the width of
+            the region.
+        amplitude: highest activation.
+        size: volume in the product of the axis units (on one axis the width; 1 for a node).
         samples: number of samples above threshold.
     """
 
@@ -50,7 +50,7 @@ class Peak:
 
 @dataclass(frozen=True)
 class Peaks(Sequence[Peak]):
-    """The peaks of one activation pattern, the highest first."""
+    """The peaks of one activation pattern, in descending order of amplitude."""
 
     found: tuple[Peak, ...]
     axes: Axes
@@ -90,19 +90,19 @@ class Peaks(Sequence[Peak]):
 def peaks(
     activation: np.ndarray | xarray.DataArray, axes: Sequence[Axis] | None = None, threshold: float = 0.0
 ) -> Peaks:
-    """The peaks of an activation pattern.
+    """Find the peaks of an activation pattern.
 
-    Samples above the threshold that share a face belong together, over the border of a periodic axis too. A
-    node has one peak while its activation is above the threshold.
+    Samples above the threshold that share a face belong to one peak, also across the border of a periodic
+    axis. A node has one peak while its activation is above the threshold.
 
     Args:
         activation: an array over the axes; or a variable of a record, at one time
             (`data["u.activation"].isel(time=-1)`).
-        axes: its axes, in order; none for a variable of a record, whose coordinates say what they are.
-        threshold: in units of activation; usually where the output function is half on.
+        axes: axes of the array, in order; none for a variable of a record, whose coordinates define them.
+        threshold: threshold in units of activation; usually where the output function is 0.5.
 
     Raises:
-        AnalysisError: if the array does not fit the axes, is not finite, or has dimensions that are no axes.
+        AnalysisError: if the array does not fit the axes, is not finite, or has dimensions that are not axes.
 
     Reference:
         Amari (1977), Biol. Cybern. 27, 77-87, section 3 (the excited region R[u], where u > 0).
@@ -128,7 +128,7 @@ def peaks(
 
 
 def _regions(mask: np.ndarray, axes: Axes) -> np.ndarray:
-    """Labels of the connected regions, 0 outside; the same label on both sides of a periodic border."""
+    """Return labels of the connected regions, 0 outside; equal on both sides of a periodic border."""
     if not axes:
         return mask.astype(np.int64)
     labelled: Any = ndimage.label(mask)
@@ -151,7 +151,7 @@ def _regions(mask: np.ndarray, axes: Axes) -> np.ndarray:
 
 
 def _places(labels: np.ndarray) -> list[np.ndarray]:
-    """Flat indices of the samples of each region."""
+    """Return the flat indices of the samples of each region."""
     flat = labels.ravel()
     order = np.argsort(flat, kind="stable")
     cuts = np.flatnonzero(np.diff(flat[order])) + 1
@@ -159,8 +159,10 @@ def _places(labels: np.ndarray) -> list[np.ndarray]:
 
 
 def _reach(above: np.ndarray, labels: np.ndarray, d: int, axis: Axis) -> np.ndarray:
-    """How much of axis d each sample of a region stands for, in steps: half on each side towards a sample of
-    the region, else as far as the threshold crossing; nothing beyond a border that does not wrap.
+    """Return the length along axis d that each sample of a region covers, in steps.
+
+    On each side it is half a step towards another sample of the region, else the distance to the threshold
+    crossing, and 0 at a border that does not wrap.
     """
     total = np.zeros(above.shape)
     for side in (1, -1):
@@ -203,8 +205,8 @@ def _peak(
 
 
 def _centre(axis: Axis, points: np.ndarray, weights: np.ndarray, top: float) -> float:
-    """Centroid; on a ring that of the distances from the circular mean, which is exact for regions shorter
-    than half the ring.
+    """Return the centroid; on a periodic axis that of the distances from the circular mean, which is exact
+    for regions shorter than half the period.
     """
     if not axis.periodic:
         return float(np.average(points, weights=weights))
@@ -212,7 +214,7 @@ def _centre(axis: Axis, points: np.ndarray, weights: np.ndarray, top: float) -> 
     mean = np.average(np.exp(1j * turn * (points - axis.lower)), weights=weights)
     middle = (
         axis.lower + float(np.angle(mean)) / turn if abs(mean) > 1e-9 else top
-    )  # a region all round has no middle of its own
+    )  # a region over the whole period has no defined middle
     away = points - middle
     away = away - axis.range * np.round(away / axis.range)
     centre = middle + float(np.average(away, weights=weights)) if abs(mean) > 1e-9 else top
@@ -221,7 +223,7 @@ def _centre(axis: Axis, points: np.ndarray, weights: np.ndarray, top: float) -> 
 
 
 def _cut(labels: np.ndarray, reach: np.ndarray, axis: Axis, d: int, top: tuple[Any, ...]) -> float:
-    """Length of the region's cut along axis d through its highest sample."""
+    """Return the length of the region's section along axis d through its highest sample."""
     line = tuple(slice(None) if k == d else int(i) for k, i in enumerate(top))
     inside = labels[line] == labels[top]
     start, n = int(top[d]), axis.samples
@@ -238,7 +240,7 @@ def _cut(labels: np.ndarray, reach: np.ndarray, axis: Axis, d: int, top: tuple[A
 
 
 def _variable(variable: Any) -> tuple[np.ndarray, Axes]:
-    """The array and the axes of a variable of a record; other dimensions may have one entry left."""
+    """Return the array and the axes of a variable of a record; other dimensions must have one entry."""
     if not hasattr(variable, "coords") or not hasattr(variable, "dims"):
         raise AnalysisError(
             "an array alone does not say what its axes are", fix="Give them: peaks(activation, [x])"
@@ -268,7 +270,7 @@ def _axis(variable: Any, dim: Any) -> Axis:
     )
     if np.allclose(axis.points, points, rtol=0, atol=1e-6 * axis.range):
         return axis
-    # a part of the axis: it begins and ends where its samples do, and no longer wraps
+    # a part of the axis: bounded by its samples, and not periodic
     if (
         len(points) < 2
         or not np.allclose(np.diff(points), points[1] - points[0], rtol=1e-6, atol=0)

@@ -1,4 +1,4 @@
-"""The phase plot of a node: its rate of change over its activation, with the fixed points."""
+"""The phase plot of a node: its rate of change against its activation, with the fixed points."""
 
 from __future__ import annotations
 
@@ -20,12 +20,13 @@ MOST_DOUBLINGS = 12
 
 @dataclass(frozen=True)
 class FixedPoint:
-    """Where the rate of change passes through zero.
+    """An activation at which the rate of change passes through zero.
 
     Attributes:
         u: activation.
-        stable: whether the node returns there (the rate falls through zero), or leaves (it rises).
-        at_jump: whether the rate jumps over zero there (a step output function) instead of being zero.
+        stable: whether the fixed point is an attractor (the rate falls through zero) or a repeller (it
+            rises).
+        at_jump: whether the rate jumps across zero (a step output function) instead of being zero.
     """
 
     u: float
@@ -35,13 +36,13 @@ class FixedPoint:
 
 @dataclass(frozen=True)
 class Phase:
-    """du/dt of a node over u, for one constant input.
+    """The rate of change du/dt of a node against u, for one constant input.
 
     Attributes:
         input: the constant input.
         u: activations.
         rate: du/dt at each, in activation per time unit.
-        fixed_points: in the order of u.
+        fixed_points: the fixed points, in the order of u.
     """
 
     input: float
@@ -51,18 +52,18 @@ class Phase:
 
     @property
     def bistable(self) -> bool:
-        """Whether there is more than one stable fixed point."""
+        """Whether the node has more than one stable fixed point."""
         return sum(p.stable for p in self.fixed_points) > 1
 
 
 def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = None) -> Phase:
-    """The phase plot of a node: du/dt = (-u + h + s + (k - c) g(u)) / tau, in float64.
+    """Compute the phase plot of a node: du/dt = (-u + h + s + (k - c) g(u)) / tau, in float64.
 
     Fixed points are the sign changes of du/dt on a grid that is fine near the output function's threshold,
-    each refined to 1e-12. Two of them that touch (exactly at an instability) count as none.
+    each refined to 1e-12. Two fixed points that coincide (exactly at an instability) are not found.
 
     Args:
-        node: a field without axes; its noise is left out.
+        node: a field without axes; its noise is ignored.
         input: s, constant.
         span: lowest and highest activation; none: wide enough for all fixed points.
 
@@ -107,8 +108,8 @@ def _rate(node: Field, s: float) -> Callable[[Any], np.ndarray]:
 
 
 def _range(rate: Callable[[Any], np.ndarray], node: Field, s: float) -> tuple[float, float]:
-    """Activations at which the rate points inwards on both sides, a little beyond the outermost fixed
-    points.
+    """Return a range of activation, slightly beyond the outermost fixed points, at whose ends the rate points
+    inwards.
     """
     middle, reach = node.resting_level + s, 1.0 + abs(node.resting_level)
     ends: list[float] = []
@@ -135,13 +136,13 @@ def _range(rate: Callable[[Any], np.ndarray], node: Field, s: float) -> tuple[fl
 def _fixed_points(rate: Callable[[Any], np.ndarray], grid: np.ndarray) -> tuple[FixedPoint, ...]:
     values = rate(grid)
     found: list[FixedPoint] = []
-    for i in np.flatnonzero(values == 0.0):  # met exactly: its neighbours say which way it goes
+    for i in np.flatnonzero(values == 0.0):  # the rate is exactly 0 here: the neighbours give the direction
         if 0 < i < len(grid) - 1 and values[i - 1] * values[i + 1] < 0:
             found.append(FixedPoint(float(grid[i]), bool(values[i - 1] > 0)))
     for i in np.flatnonzero(values[:-1] * values[1:] < 0):
         a, b = float(grid[i]), float(grid[i + 1])
         u = float(optimize.brentq(lambda v: float(rate(v)), a, b, xtol=1e-12, rtol=1e-14))  # pyright: ignore[reportArgumentType]
-        # at a jump the rate stays away from zero however close one comes
+        # at a jump the rate is not near zero on either side
         gap = np.abs(rate(np.array([u - 1e-9, u + 1e-9]))).min()
         at_jump = bool(gap > 1e-3 * np.abs(values[[i, i + 1]]).max() and gap > 1e-6 * np.abs(values).max())
         found.append(FixedPoint(u, bool(values[i] > 0), at_jump))

@@ -1,4 +1,4 @@
-"""Detection by a boost: a pattern below threshold, lifted by a homogeneous input until it becomes a peak."""
+"""Boost-driven detection: a homogeneous input that turns a pattern below threshold into a peak."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import ascend
 
 SHARES = (0.25, 0.5, 0.75)
-"""Strength of the pre-shapes that are tried, relative to the detection threshold."""
+"""Strengths of the pre-shapes that are measured, relative to the detection threshold."""
 
 
 @dataclass(frozen=True)
 class Boosted:
-    """A pre-shape, and the boost that makes a peak of it.
+    """A pre-shape, and the boost at which it becomes a peak.
 
     Attributes:
-        preshape: strength of the localised input, which alone makes no peak.
-        boost: homogeneous input at which a peak appears; None where none did.
-        peaks: what then stands in the field.
-        localised: whether that is one peak at the pre-shape, and not the whole field.
+        preshape: strength of the localised input, which alone creates no peak.
+        boost: homogeneous input at which a peak appears; None if none appears.
+        peaks: the peaks of the field at this boost.
+        localised: whether the field then has one peak at the pre-shape, and is not active everywhere.
     """
 
     preshape: float
@@ -31,15 +31,15 @@ class Boosted:
 
 
 def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: float = LIMIT) -> Boosted:
-    """The boost that makes a peak of a pre-shape; the stronger the pre-shape, the less it takes.
+    """Measure the boost at which a pre-shape becomes a peak; a stronger pre-shape needs a weaker boost.
 
-    The localised input stays on and is settled first. The boost then grows until a peak appears.
+    The field first settles with the localised input. The boost then grows until a peak appears.
 
     Args:
         isolated: the field.
         preshape: strength of the localised input, below the detection threshold.
         accuracy: width of the final bracket relative to the value.
-        limit: of settling, in time constants.
+        limit: longest settling, in time constants.
 
     Reference:
         Erlhagen & Schöner (2002), Dynamic field theory of movement preparation, Psychol. Rev. 109
@@ -59,7 +59,7 @@ def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: 
 
 
 def _there(isolated: Isolated, made: Peaks) -> bool:
-    """Whether the peak stands at the input, to within its width."""
+    """Return whether the peak is at the position of the input, to within its width."""
     return all(
         abs(p - c) <= 2 * s for p, c, s in zip(made[0].position, isolated.center, isolated.sigma, strict=True)
     )

@@ -13,14 +13,14 @@ from deodar.analysis.settle import LIMIT
 
 @dataclass(frozen=True)
 class Branch:
-    """What a field settled on at each value of a ramp, in one direction.
+    """The settled states of a field at each value of a ramp, in one direction.
 
     Attributes:
         count: number of peaks.
-        activation: highest activation anywhere, with or without a peak.
-        width: of the highest peak along the first axis, in axis units; not a number where there is none, or
-            on a node.
-        settled: whether it stood still before the limit.
+        activation: highest activation, with or without a peak.
+        width: width of the highest peak along the first axis, in axis units; NaN without a peak, or on a
+            node.
+        settled: whether the field settled within the limit.
     """
 
     count: np.ndarray
@@ -31,11 +31,11 @@ class Branch:
 
 @dataclass(frozen=True)
 class SettledRamp:
-    """A field settled at each of some values of its input, first upwards, then downwards.
+    """The settled states of a field over increasing, then decreasing values of its input.
 
     Attributes:
-        by: what was turned, `input` or `boost`.
-        values: the inputs, growing; both branches are in this order.
+        by: the input that was varied, `input` or `boost`.
+        values: the inputs, increasing; both branches are in this order.
         up: from the resting level upwards.
         down: from the highest value downwards.
     """
@@ -54,13 +54,13 @@ class SettledRamp:
 def ramp(
     isolated: Isolated, values: Sequence[float] | np.ndarray, by: InputKind = "input", limit: float = LIMIT
 ) -> SettledRamp:
-    """Settle a field at each value of its input, going up from rest and then down again.
+    """Settle a field at each value of its input, first upwards from rest, then downwards.
 
     Args:
         isolated: the field.
         values: strengths of the input, in any order; the ramp sorts them.
         by: `input` for localised input, `boost` for homogeneous input.
-        limit: of settling, in time constants.
+        limit: longest settling, in time constants.
     """
     steps = np.sort(np.asarray(values, np.float64))
     isolated.reset()

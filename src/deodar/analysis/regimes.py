@@ -1,4 +1,4 @@
-"""The regime of a field: all its instabilities measured, and said in plain words."""
+"""The regime of a field: its measured instabilities and a description in words."""
 
 from __future__ import annotations
 
@@ -22,38 +22,38 @@ from deodar.elements.field import Field
 from deodar.model.model import Model
 
 ABOVE = 1.02
-"""Input that counts as just above detection, relative to the threshold."""
+"""Input just above detection, relative to the threshold."""
 STRONG = 1.2
-"""Input that makes peaks in the tests of memory and selection, relative to the detection threshold."""
+"""Input that creates peaks in the tests of memory and selection, relative to the detection threshold."""
 STEPS = 31
 
 
 @dataclass(frozen=True)
 class Regimes:
-    """What a field does with its input, measured on its own and without noise.
+    """The response of a field to its input, measured in isolation and without noise.
 
     Attributes:
-        isolated: the field, with the inputs it was measured with.
+        isolated: the field, with the inputs of the measurement.
         thresholds: detection and reverse detection for localised input.
         rest: activation without input.
-        above: activation just above detection; None where there is none.
+        above: activation just above detection; None without a detection threshold.
         driven: the peaks just above detection.
-        memory: what is left of a peak after its input is gone; None where no input makes a peak.
-        forgetting: homogeneous input below which no peak outlives its input; None where none does, and on a
+        memory: the field after the input of a peak is removed; None if no input creates a peak.
+        forgetting: homogeneous input below which no peak outlives its input; None if no peak does, and on a
             node.
-        suppression: localised input below which a peak that outlives its input vanishes; None where there is
-            no such peak, and on a node.
-        selection: what two inputs end in; None where no input makes a peak, and on a node.
+        suppression: localised input below which a peak that outlives its input vanishes; None if no peak
+            outlives its input, and on a node.
+        selection: result of two inputs; None if no input creates a peak, and on a node.
         separation: smallest distance, as a share of each axis' range, at which two equal inputs both keep a
-            peak; None where there is none.
-        boosts: pre-shapes, and the homogeneous boost that makes a peak of each; empty on a node, where a
+            peak; None if no distance does.
+        boosts: pre-shapes, and the homogeneous boost at which each becomes a peak; empty on a node, where a
             boost is an input.
-        ramp: the field over a slow ramp of its input.
+        ramp: the settled field over a ramp of its input.
         transitions: the thresholds that exist with their intervals: `detection`, `reverse`, `forgetting`,
             `suppression`.
-        discretisation: how far each of these moves on a grid twice as fine (None: it does not exist there);
-            None where that was not measured.
-        coarse_alone: why it was not measured; empty where it was.
+        discretisation: shift of each of these on a grid twice as fine (None: it does not exist there);
+            None if it was not measured.
+        coarse_alone: reason why it was not measured; empty if it was.
     """
 
     isolated: Isolated
@@ -74,19 +74,20 @@ class Regimes:
 
     @property
     def detection(self) -> float | None:
-        """Input at which a peak appears."""
+        """The input at which a peak appears."""
         return self.thresholds.detection.value if self.thresholds.detection else None
 
     @property
     def reverse(self) -> float | None:
-        """Input at which it vanishes; None where it stays without input."""
+        """The input at which the peak vanishes; None if it outlives its input."""
         return self.thresholds.reverse.value if self.thresholds.reverse else None
 
     @property
     def bistable(self) -> tuple[float, float] | None:
-        """Range of inputs with and without a peak, depending on the past; None where there is none.
+        """The range of inputs at which the field is bistable, with or without a peak; None if it has no such
+        range.
 
-        On a field it begins at 0 or above, as localised inhibition would only push the peak aside.
+        On a field the range begins at 0 or above, as localised inhibition would only move the peak aside.
         """
         up, down = self.thresholds.detection, self.thresholds.reverse
         if up is None or (down is not None and not up.jump):
@@ -96,19 +97,19 @@ class Regimes:
 
     @property
     def graded(self) -> bool:
-        """Whether activation grows through the threshold without a jump: there is no detection
+        """Whether activation grows through the threshold without a jump, so without a detection
         instability.
         """
         return self.thresholds.detection is not None and not self.thresholds.detection.jump
 
     @property
     def self_sustained(self) -> bool:
-        """Whether a peak outlives its input, and stays a peak."""
+        """Whether a peak outlives its input and does not spread over the field."""
         return self.memory is not None and self.memory.outlives and not self.unbounded
 
     @property
     def unbounded(self) -> bool:
-        """Whether excitation spreads over the whole field once there is a peak."""
+        """Whether excitation spreads over the whole field once a peak exists."""
         patterns = [
             self.driven,
             self.memory.driven if self.memory else None,
@@ -123,7 +124,7 @@ class Regimes:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """The regime in plain words, the most important first."""
+        """The regime in words, the most important first."""
         if self.thresholds.active_at_rest:
             return ("active without input",)
         up = self.thresholds.detection
@@ -155,7 +156,7 @@ class Regimes:
         )
 
     def data(self) -> dict[str, Any]:
-        """Everything as plain data, for JSON."""
+        """Return all measurements as plain data, for JSON."""
         i, peak = self.isolated, self.peak
         selection = None
         if self.selection is not None:
@@ -224,21 +225,22 @@ def regimes(
     """Measure the instabilities of one field of a model.
 
     Args:
-        model: the model, or a field that stands in none.
-        path: the field in the model.
-        accuracy: of the thresholds, relative.
-        limit: of each settling, in time constants.
-        finer: measure thresholds on a grid twice as fine, too, if that has at most 20,000 samples.
-        progress: called with what is measured next.
+        model: the model, or a field without a model.
+        path: path of the field in the model.
+        accuracy: relative accuracy of the thresholds.
+        limit: longest settling, in time constants.
+        finer: whether to measure the thresholds also on a grid twice as fine, if that grid has at most 20,000
+            samples.
+        progress: called with the name of the next measurement.
         sigma: width of the localised input; none: that of the kernel's excitation.
-        center: where the localised input stands; none: the sample nearest to the middle.
+        center: position of the localised input; none: the sample nearest to the middle.
         precision: float32 or float64.
         dt: Euler step; none: see `isolate`.
         inputs: elements of the model kept as constant inputs.
 
     Raises:
-        UnknownName: if there is no such element.
-        AnalysisError: if it is no field.
+        UnknownName: if the model has no element at `path`.
+        AnalysisError: if the element is not a field.
     """
     tell = progress or (lambda what: None)
     tell("compiling")
@@ -298,7 +300,7 @@ def regimes(
 
 
 def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:
-    """Inputs that show both thresholds."""
+    """Return inputs for a ramp that contains both thresholds."""
     if found.detection is None:
         return np.linspace(0.0, 2 * isolated.scale, STEPS)
     high = found.detection.value

@@ -1,4 +1,4 @@
-"""Selection: whether two inputs end in one peak."""
+"""Selection: whether two inputs lead to one peak."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from deodar.errors import AnalysisError, ParameterError
 
 HEAD_START = 0.01
 FARTHEST = 0.5
-"""Largest distance of two inputs that is tried, as a share of each axis' range: on a ring there is no larger
-one.
+"""Largest distance of two inputs that is tried, as a share of each axis' range: the largest one possible on a
+periodic axis.
 """
 
 
 @dataclass(frozen=True)
 class Selection:
-    """What a field makes of two inputs.
+    """The response of a field to two inputs.
 
     Attributes:
-        selects: whether both equal and different inputs end in one peak.
+        selects: whether both equal and different inputs lead to one peak.
         equal: peaks for two inputs of the same strength.
         different: peaks for two inputs of which the first is stronger.
-        right: whether the one peak for different inputs stands at the stronger one; None where there is not
-            one peak.
-        left: peaks after both inputs are taken away again.
-        activation: the pattern that the two equal inputs end in.
+        right: whether the peak for different inputs is at the position of the stronger one; None unless the
+            field has exactly one peak.
+        left: peaks after both inputs are removed.
+        activation: the settled pattern for two equal inputs.
     """
 
     selects: bool
@@ -43,20 +43,21 @@ class Selection:
 def selects(
     isolated: Isolated, amplitude: float, difference: float = 0.1, distance: float = 0.5, limit: float = LIMIT
 ) -> Selection:
-    """Whether two inputs, given together, end in one peak.
+    """Measure whether two simultaneous inputs lead to one peak.
 
-    Without noise two equal inputs would stay balanced even where the balance is unstable, so that the first
-    one leads by a hundredth until the field settles; then they are made equal and it settles again.
+    Without noise two equal inputs would stay balanced even where the balance is unstable. The first one is
+    therefore stronger by a hundredth until the field settles; then both are equal and the field settles
+    again.
 
     Args:
-        isolated: a field (a node has no room for two inputs).
-        amplitude: of each input, above the detection threshold.
-        difference: for the unequal pair, how much stronger the first is, relative to the amplitude; >= 0.
-        distance: between the two, as a share of each axis' range; above 0, below 1.
-        limit: of settling, in time constants.
+        isolated: a field with at least one axis.
+        amplitude: amplitude of each input, above the detection threshold.
+        difference: for the unequal pair, excess of the first input relative to the amplitude; >= 0.
+        distance: distance of the inputs, as a share of each axis' range; above 0, below 1.
+        limit: longest settling, in time constants.
 
     Raises:
-        AnalysisError: on a node.
+        AnalysisError: if the field is a node.
 
     Reference:
         Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2 (selection instability).
@@ -91,15 +92,16 @@ def selects(
 
 
 def separation(isolated: Isolated, amplitude: float, limit: float = LIMIT) -> float | None:
-    """The smallest distance, as a share of each axis' range, at which two equal inputs both keep a peak; None
-    where they do at none.
+    """Return the smallest distance, as a share of each axis' range, at which two equal inputs both keep a
+    peak.
 
-    Nearer inputs merge into one peak, or one of them wins. The distance is found to a sample, by bisection.
+    Nearer inputs merge into one peak, or one of them is selected. The distance is found to one sample, by
+    bisection. None if both inputs keep a peak at no distance.
 
     Args:
-        isolated: a field (a node has no room for two inputs).
-        amplitude: of each input, above the detection threshold.
-        limit: of settling, in time constants.
+        isolated: a field with at least one axis.
+        amplitude: amplitude of each input, above the detection threshold.
+        limit: longest settling, in time constants.
     """
     home = isolated.session.get("input.center")
 
@@ -122,7 +124,7 @@ def separation(isolated: Isolated, amplitude: float, limit: float = LIMIT) -> fl
 
 
 def _equal(isolated: Isolated, amplitude: float, limit: float) -> Peaks:
-    """What two equal inputs end in; the first leads by a hundredth until the field settles."""
+    """Settle the field with two equal inputs; the first is stronger by a hundredth until it settles."""
     isolated.reset(input=amplitude * (1 + HEAD_START), second=amplitude)
     isolated.settle(limit=limit)
     isolated.put(input=amplitude)
@@ -131,7 +133,7 @@ def _equal(isolated: Isolated, amplitude: float, limit: float) -> Peaks:
 
 
 def _places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Two samples, as far to one side of the middle as to the other."""
+    """Return two samples at equal distances on both sides of the middle."""
     away = [max(1, round(distance * a.samples / 2)) for a in isolated.axes]
     middle = [a.samples // 2 for a in isolated.axes]
     first = tuple(float(a.points[max(0, m - k)]) for a, m, k in zip(isolated.axes, middle, away, strict=True))

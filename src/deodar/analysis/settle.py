@@ -1,4 +1,4 @@
-"""Settling: running a session until its fields stand still."""
+"""Settling: run a session until its fields no longer change."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from deodar.errors import AnalysisError
 from deodar.session.session import Session
 
 LIMIT = 2000.0
-"""Time constants after which settling gives up.
+"""Longest settling, in time constants.
 
-Near an instability the slowest rate of change is the distance d from it and the passage takes about pi /
+Near an instability the slowest rate of change is the distance d from it, and the passage takes about pi /
 sqrt(d) time constants: 200 for a distance of a hundredth of a percent of an activation of 2.
 """
 LEAST_STEPS = 50
@@ -22,12 +22,12 @@ LEAST_STEPS = 50
 
 @dataclass(frozen=True)
 class Settled:
-    """How settling ended.
+    """The result of settling.
 
     Attributes:
-        settled: whether the fields stood still before the limit.
-        time_constants: how long it took, in units of the longest time constant.
-        change: the last change of activation per time constant, the largest of all fields and places.
+        settled: whether the fields settled within the limit.
+        time_constants: duration of settling, in units of the longest time constant.
+        change: the last change of activation per time constant, the largest of all fields and samples.
     """
 
     settled: bool
@@ -42,12 +42,12 @@ def settle(session: Session, tolerance: float = 1e-3, limit: float = LIMIT) -> S
     """Run until no field changes by more than `tolerance` per time constant, or until `limit` time constants
     have passed.
 
-    Noise has to be off, or below the tolerance; otherwise the limit is reached.
+    Noise must be off, or below the tolerance; otherwise the run reaches the limit.
 
     Args:
-        session: the session, which runs on from where it is.
-        tolerance: change of activation per time constant, anywhere, at which it counts as settled; > 0.
-        limit: in units of the longest time constant of the session's fields; > 0.
+        session: the session, which continues from its present state.
+        tolerance: largest change of activation per time constant that counts as settled; > 0.
+        limit: longest run, in units of the longest time constant of the session's fields; > 0.
 
     Raises:
         AnalysisError: if the session has no field.

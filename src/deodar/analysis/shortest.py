@@ -1,4 +1,4 @@
-"""The shortest path on a grid, by A*: what planned paths are compared with."""
+"""The shortest path on a grid, by A*, as a reference for planned paths."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from deodar.analysis.paths import clearance
 from deodar.errors import AnalysisError
 
 SLACK = 1e-6
-"""Share of a cell by which a place may miss the clearance: rounding of walls that were given in metres."""
+"""Tolerance of the clearance, as a share of a cell, for rounding of walls that are given in metres."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Places at which the middle of a robot may be, on a square grid.
+    """Positions that the middle of a robot may have, on a square grid.
 
     Attributes:
-        x, y: coordinates of its columns and rows.
-        cell: distance between two of them.
-        free: which places keep the clearance, (x, y).
+        x, y: coordinates of the columns and rows.
+        cell: distance between two columns or rows.
+        free: whether each position keeps the clearance, (x, y).
     """
 
     x: np.ndarray
@@ -34,11 +34,11 @@ class Grid:
     free: np.ndarray
 
     def place(self, index: tuple[int, int]) -> tuple[float, float]:
-        """Coordinates of a cell."""
+        """Return the coordinates of a cell."""
         return float(self.x[index[0]]), float(self.y[index[1]])
 
     def nearest(self, place: Sequence[float] | np.ndarray) -> tuple[int, int]:
-        """The free cell nearest to a place."""
+        """Return the free cell nearest to a position."""
         if not self.free.any():
             raise AnalysisError(
                 "there is no free cell on the grid", fix="Take less clearance, or a finer grid"
@@ -48,9 +48,7 @@ class Grid:
         return int(i), int(j)
 
     def regions(self) -> np.ndarray:
-        """A number for each cell, the same for all that can be reached from each other; 0 where it is not
-        free.
-        """
+        """The connected region of each cell, as a number; 0 for cells that are not free."""
         # start-up time: scipy.ndimage is only needed here
         from scipy.ndimage import label
 
@@ -59,14 +57,13 @@ class Grid:
 
 
 def arena_grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
-    """The grid of an arena: cells from its lower left corner on, free where they keep a distance from all
-    things and the border.
+    """Create the grid of an arena; cells are free that keep a distance from all boxes and the border.
 
     Args:
         boxes: rows of lower x, lower y, upper x, upper y.
         border: the same four numbers of the arena.
-        cell: of the grid.
-        least: smallest distance from anything, in the same unit.
+        cell: distance between cells; the first cell is at the lower left corner.
+        least: smallest distance from boxes and border, in the same unit.
     """
     left, low, right, high = border
     if not (cell > 0 and least >= 0 and right - left > cell and high - low > cell):
@@ -83,18 +80,19 @@ def arena_grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: fl
 def shortest_path(
     on: Grid, start: Sequence[float] | np.ndarray, goal: Sequence[float] | np.ndarray
 ) -> np.ndarray | None:
-    """The shortest path (points, 2) over eight neighbours from the free cell nearest the start to that
-    nearest the goal; None: there is none.
+    """Find the shortest path (points, 2) from the free cell nearest the start to that nearest the goal.
 
-    A* with the distance on an empty grid as its estimate: ``cell * (max(dx, dy) + (sqrt(2) - 1) * min(dx,
-    dy))``. Of several shortest paths the same one is taken every time.
+    Each cell has eight neighbours. The heuristic of A* is the distance on an empty grid: ``cell * (max(dx,
+    dy) + (sqrt(2) - 1) * min(dx, dy))``. The choice among several shortest paths is deterministic. None if
+    the grid has no path.
 
     Reference:
         Hart, Nilsson & Raphael (1968), IEEE Trans. Syst. Sci. Cybern. 4(2), 100-107; as used by Billing, Lowe
         & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.1 and appendix B.
     """
     first, last = on.nearest(start), on.nearest(goal)
-    width = on.free.shape[1] + 2  # a frame that is not free, so that neighbours need no bounds
+    # a frame of cells that are not free, so that neighbours need no bounds check
+    width = on.free.shape[1] + 2
     free = np.pad(on.free, 1).ravel().tolist()
     begin, end = ((i + 1) * width + j + 1 for i, j in (first, last))
     aim_i, aim_j, diagonal = last[0] + 1, last[1] + 1, math.sqrt(2.0)

@@ -1,4 +1,4 @@
-"""Numbers from runs with their 95 % intervals, and whether groups of runs differ."""
+"""Statistics over runs: 95 % intervals, and tests for differences between groups."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from deodar.numerics.intervals import Interval
 LEVEL = 0.95
 
 ENOUGH = 20
-"""Runs from which on the value alone decides; with fewer a target is missed only where the interval excludes
-it.
+"""Number of runs from which the value alone decides; with fewer runs a target is missed only if the interval
+excludes it.
 """
 
 
 def wilson(hits: float, n: int) -> Interval | None:
-    """95 % interval of a share of n runs; None without runs.
+    """Return the 95 % interval of a share of n runs; None without runs.
 
     Args:
-        hits: how many runs count; a run that is undecided may count half.
-        n: how many runs there are.
+        hits: number of successful runs; an undecided run may count half.
+        n: number of runs.
 
     Reference:
         Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
@@ -41,7 +41,7 @@ def wilson(hits: float, n: int) -> Interval | None:
 
 
 def mean_interval(values: Any) -> Interval | None:
-    """95 % interval of a mean by Student's distribution; None of fewer than two values."""
+    """Return the 95 % interval of a mean by Student's distribution; None for fewer than two values."""
     v = np.asarray(values, float)
     if v.size < 2:
         return None
@@ -50,8 +50,8 @@ def mean_interval(values: Any) -> Interval | None:
 
 
 def median_interval(values: Any) -> Interval | None:
-    """95 % interval of a median, free of any distribution: between the values that hold it by the binomial
-    law; None of fewer than six.
+    """Return the distribution-free 95 % interval of a median, from the order statistics and the binomial
+    distribution; None for fewer than six values.
     """
     v = np.sort(np.asarray(values, float))
     k = int(stats.binom.ppf((1 - LEVEL) / 2, v.size, 0.5)) if v.size else 0
@@ -61,13 +61,14 @@ def median_interval(values: Any) -> Interval | None:
 
 
 def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | None:
-    """95 % interval of median(above) / median(below), by 2000 resamplings of a fixed seed; None of fewer than
-    six values each.
+    """Return the 95 % interval of median(above) / median(below), by 2000 bootstrap samples with a fixed seed.
+
+    None for fewer than six values each.
 
     Args:
-        above: values whose median is above the line.
-        below: values whose median is below it.
-        paired: the values belong together one by one, so pairs are resampled.
+        above: values of the numerator.
+        below: values of the denominator.
+        paired: whether values with equal index are pairs, so that pairs are resampled.
     """
     a, b = np.asarray(above, float), np.asarray(below, float)
     if min(a.size, b.size) < 6:
@@ -83,8 +84,8 @@ def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | N
 
 
 def difference_interval(first: Any, second: Any) -> Interval | None:
-    """95 % interval of mean(first) - mean(second) by Welch's test; None of fewer than two values each, or
-    where all are equal.
+    """Return the 95 % interval of mean(first) - mean(second) by Welch's test; None for fewer than two values
+    each, or if all are equal.
     """
     a, b = np.asarray(first, float), np.asarray(second, float)
     if min(a.size, b.size) < 2 or a.std() + b.std() == 0:
@@ -95,7 +96,7 @@ def difference_interval(first: Any, second: Any) -> Interval | None:
 
 
 def share_difference(first: tuple[int, int], second: tuple[int, int]) -> tuple[float | None, Interval | None]:
-    """Difference of two shares (hits, n) with its 95 % interval; None without runs.
+    """Return the difference of two shares (hits, n) with its 95 % interval; None without runs.
 
     Reference:
         Newcombe (1998), Stat. Med. 17, 873-890, method 10.
@@ -109,8 +110,8 @@ def share_difference(first: tuple[int, int], second: tuple[int, int]) -> tuple[f
 
 
 def anova(groups: Sequence[Any]) -> tuple[float, float] | None:
-    """F and p of a one-way analysis of variance; None unless there are two groups of two values, not all of
-    them equal.
+    """Return F and p of a one-way analysis of variance; None without two groups of at least two values, or if
+    all values are equal.
     """
     found = [np.asarray(g, float) for g in groups if np.size(g) >= 2]
     if len(found) < 2 or not any(g.std() > 0 for g in found):
@@ -122,16 +123,16 @@ def anova(groups: Sequence[Any]) -> tuple[float, float] | None:
 def decided(
     value: float | None, interval: Interval | None, n: int, low: float, high: float, quick: bool = False
 ) -> bool | None:
-    """Whether a value lies between two bounds; None where so few runs cannot decide.
+    """Return whether a value is between two bounds; None if the number of runs cannot decide.
 
     Args:
-        value: what the runs gave, or None.
+        value: value from the runs, or None.
         interval: its 95 % interval, or None.
-        n: how many runs it rests on.
-        low: the lower bound, which is allowed.
-        high: the upper one, which is too.
-        quick: a value that misses is held against it only where the interval excludes what is allowed, as
-            with few runs.
+        n: number of runs.
+        low: the lower bound, included.
+        high: the upper bound, included.
+        quick: whether a value outside the bounds fails only if its interval lies outside too, as with few
+            runs.
     """
     if value is None or n == 0:
         return None
@@ -145,16 +146,15 @@ def decided(
 
 
 def equivalent(interval: Interval | None, low: float, high: float) -> bool | None:
-    """Whether a number equals another within a margin, by two one-sided tests of 2.5 % each.
+    """Return whether a number equals another within a margin, by two one-sided tests of 2.5 % each.
 
-    True where the 95 % interval lies inside the margin, False where it lies outside, None where it reaches
-    over a bound: then neither equality nor difference is shown, however large p of a test for a difference
-    is.
+    True if the 95 % interval is inside the margin, False if it is outside, None if it contains a bound: then
+    neither equality nor difference is shown, however large p of a test for a difference is.
 
     Args:
         interval: 95 % interval of the difference or ratio, or None.
         low: lower bound of the margin.
-        high: upper bound.
+        high: upper bound of the margin.
 
     Reference:
         Schuirmann (1987), J. Pharmacokinet. Biopharm. 15, 657-680.
@@ -167,16 +167,16 @@ def equivalent(interval: Interval | None, low: float, high: float) -> bool | Non
 
 
 def larger(value: float | None, interval: Interval | None, than: float, by: float) -> bool | None:
-    """Whether a number is larger than another, by an amount that matters.
+    """Return whether a number is larger than another by a relevant amount.
 
-    True where the 95 % interval lies above `than` and the value reaches `than + by`; False where the interval
-    lies below `than + by`, so that an effect of this size is excluded; None otherwise.
+    True if the 95 % interval is above `than` and the value is at least `than + by`; False if the interval
+    is below `than + by`, which excludes an effect of this size; None otherwise.
 
     Args:
         value: the number, or None.
         interval: its 95 % interval, or None.
-        than: what it is compared with.
-        by: the smallest amount that counts, above 0.
+        than: the number to compare with.
+        by: the smallest relevant amount, above 0.
     """
     if value is None or interval is None:
         return None
@@ -186,12 +186,14 @@ def larger(value: float | None, interval: Interval | None, than: float, by: floa
 
 
 def smaller(value: float | None, interval: Interval | None, than: float, by: float) -> bool | None:
-    """Whether a number is smaller than another, by an amount that matters: `larger` with all signs turned."""
+    """Return whether a number is smaller than another by a relevant amount: `larger` with all signs
+    reversed.
+    """
     if value is None or interval is None:
         return None
     return larger(-value, (-interval[1], -interval[0]), -than, by)
 
 
 def rounded(interval: Interval | None) -> Interval | None:
-    """An interval to four digits after the point."""
+    """Round an interval to four decimal places."""
     return None if interval is None else (round(interval[0], 4), round(interval[1], 4))

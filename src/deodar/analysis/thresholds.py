@@ -1,4 +1,4 @@
-"""Detection and reverse detection: the inputs at which a field changes its mind, by bisection."""
+"""Detection and reverse detection thresholds of a field, by bisection."""
 
 from __future__ import annotations
 
@@ -14,34 +14,35 @@ from deodar.session.snapshot import SessionSnapshot
 
 MOST_DOUBLINGS = 8
 JUMP = 20.0
-"""A change of activation this many times larger than the change of input that caused it is a jump, not a
-graded response.
+"""Smallest ratio of a change of activation to the change of input that counts as a jump, not a graded
+response.
 """
 UNTOLD = 4.0
-"""Inputs that lie this many settling tolerances beyond an instability may still pass for settled: an input
-counts at its centre, and less where the activation changes slowest (a guess; in the cases that are known
-exactly the factor is 1 to 2).
+"""Distance beyond an instability, in settling tolerances, at which a field may still count as settled.
+
+An input has its full effect only at its center, and less where the activation changes slowest (a guess; in
+the cases with an exact solution the factor is 1 to 2).
 """
 FINE = 0.01
-"""Tolerance of settling relative to the accuracy that is asked for."""
+"""Tolerance of settling relative to the requested accuracy."""
 SINGLE = 2e-6
-"""Least tolerance of settling in single precision, relative to the scale: below it activation moves in whole
-units of its last digit.
+"""Smallest tolerance of settling in single precision, relative to the scale: smaller changes of activation
+are rounding errors.
 """
 
 
 @dataclass(frozen=True)
 class Transition:
-    """Where a peak appears or vanishes while an input is turned slowly.
+    """The input at which a peak appears or vanishes while the input changes slowly.
 
     Attributes:
-        value: the input at which it happens, the middle of the bracket.
-        before: the last input at which the field still settled on the old branch.
-        after: the first at which it did not.
-        interval: lowest and highest input at which it may happen: the bracket, and on both sides what
-            settling could not tell.
+        value: the input of the transition, the middle of the bracket.
+        before: the last input at which the field settled on the old branch.
+        after: the first input at which it did not.
+        interval: lowest and highest possible input of the transition: the bracket, widened on both sides by
+            the resolution of settling.
         jump: whether activation jumps there (an instability), or grows gradually through the threshold.
-        state: the field settled just after.
+        state: the settled field just after the transition.
     """
 
     value: float
@@ -63,11 +64,11 @@ class Thresholds:
     """Both thresholds of a field for one kind of input.
 
     Attributes:
-        detection: where a peak appears as the input grows; None where none does up to `searched`, or one is
-            there without input.
-        reverse: where it vanishes as the input shrinks; None where it stays down to 0 (a node: down to
-            -`searched`).
-        active_at_rest: whether there is a peak without any input.
+        detection: transition at which a peak appears as the input grows; None if no peak appears up to
+            `searched`, or if a peak exists without input.
+        reverse: transition at which the peak vanishes as the input shrinks; None if it still exists at 0 (on
+            a node: at -`searched`).
+        active_at_rest: whether a peak exists without any input.
         searched: the largest input tried.
     """
 
@@ -80,9 +81,9 @@ class Thresholds:
 def thresholds(
     isolated: Isolated, by: InputKind = "input", accuracy: float = 0.01, limit: float = LIMIT
 ) -> Thresholds:
-    """Detection and reverse-detection thresholds of a field.
+    """Measure the detection and reverse detection thresholds of a field.
 
-    The input grows from 0 until a peak appears, and shrinks from there until it vanishes. Every trial of the
+    The input grows from 0 until a peak appears, and shrinks from there until it vanishes. Every step of the
     bisection starts from the last settled state before the change, so that the field stays on its branch as
     long as the branch exists.
 
@@ -90,7 +91,7 @@ def thresholds(
         isolated: the field.
         by: `input` for localised input, `boost` for homogeneous input.
         accuracy: width of the final bracket relative to the threshold; > 0.
-        limit: of settling, in time constants.
+        limit: longest settling, in time constants.
 
     Reference:
         Schöner, Spencer & the DFT Research Group (2016), Dynamic Thinking, chapter 2 (detection and reverse
@@ -111,11 +112,11 @@ def thresholds(
 
 
 def tolerance(isolated: Isolated, accuracy: float) -> float:
-    """Change of activation per time constant that counts as settled where a threshold is wanted to
+    """Return the change of activation per time constant that counts as settled, for a threshold with
     `accuracy`.
 
-    Just beyond an instability activation moves as slowly as the input is near to it. What settles to a
-    tolerance cannot tell nearer inputs from the threshold, so that the tolerance has to be far below the
+    Just beyond an instability the rate of change of activation is proportional to the distance of the input
+    from it. The tolerance of settling limits the resolution of the threshold, so it must be far below the
     width of the bracket.
     """
     least = SINGLE if isolated.session.precision == "float32" else 0.0
@@ -123,8 +124,8 @@ def tolerance(isolated: Isolated, accuracy: float) -> float:
 
 
 def _stuck(isolated: Isolated, most: float) -> float:
-    """Change of activation per time constant that is lost to rounding, since single steps add less than half
-    of the last digit.
+    """Return the change of activation per time constant that rounding can hide: a step adds less than half a
+    unit of the last digit.
     """
     return (
         0.5
@@ -138,8 +139,9 @@ def _stuck(isolated: Isolated, most: float) -> float:
 def ascend(
     isolated: Isolated, by: InputKind, accuracy: float = 0.01, limit: float = LIMIT
 ) -> Transition | None:
-    """From a settled field without a peak, `by` at 0, upwards: where a peak appears, or None where none
-    does.
+    """Return the transition at which a peak appears as `by` grows from 0 on a settled field without a peak.
+
+    None if no peak appears.
     """
     fine = tolerance(isolated, accuracy)
     low, high, rest = 0.0, isolated.scale, isolated.snapshot()
@@ -165,8 +167,9 @@ def descend(
     accuracy: float = 0.01,
     limit: float = LIMIT,
 ) -> Transition | None:
-    """From a settled peak at `start` downwards: where it vanishes, or None where it is still there at
-    `floor`.
+    """Return the transition at which a settled peak vanishes as the input falls from `start`.
+
+    None if the peak still exists at `floor`.
     """
     fine = tolerance(isolated, accuracy)
     held, state, reach = start, isolated.snapshot(), isolated.scale / 2
@@ -185,12 +188,12 @@ def descend(
 
 @dataclass(frozen=True)
 class Bracket:
-    """Two inputs between which a field changes.
+    """Two inputs between which a transition of a field lies.
 
     Attributes:
-        by: which input it is.
+        by: the input that is varied.
         before: the input at which the field has not changed.
-        after: the input at which it has changed; below `before` where the input falls.
+        after: the input at which the field has changed; below `before` if the input falls.
         state: the field, settled at `before`.
     """
 
@@ -207,12 +210,12 @@ def bisect(
     accuracy: float = 0.01,
     limit: float = LIMIT,
 ) -> Transition:
-    """The input inside a bracket at which the field changes, as `changed` finds once it has settled."""
+    """Find the input inside a bracket at which the field changes; `changed` is called after settling."""
     before, after, state = bracket.before, bracket.after, bracket.state
     fine = tolerance(isolated, accuracy)
     least = (
         0.01 * isolated.scale
-    )  # below this the bracket is measured against the scale: a threshold may be 0
+    )  # for smaller values the accuracy is relative to the scale, as a threshold may be 0
     isolated.restore(state)
     last = isolated.activation()
     settled: tuple[SessionSnapshot, np.ndarray] | None = None
@@ -229,7 +232,7 @@ def bisect(
     most = max(float(np.max(np.abs(last))), float(np.max(np.abs(settled[1]))))
     untold = (
         UNTOLD * (fine + _stuck(isolated, most)) + isolated.scale * (math.pi / limit) ** 2
-    )  # a passage takes about pi / sqrt(distance)
+    )  # the passage takes about pi / sqrt(distance) time constants
     interval = (min(before, after) - untold, max(before, after) + untold)
     return Transition(
         (before + after) / 2, before, after, interval, moved > JUMP * abs(after - before), settled[0]
