@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
+from jax.typing import DTypeLike
 
 from deodar import renamed
 from deodar.errors import ModelError
@@ -60,7 +61,7 @@ class Time:
             raise renamed.no_member(self, name)
 
     @classmethod
-    def at(cls, now: float, dt: float, dtype: Any) -> Time:
+    def at(cls, now: float, dt: float, dtype: DTypeLike) -> Time:
         """A time given by numbers of the host."""
         return cls(Exact(*split(now, dtype)), np.uint32(0), Exact(*split(dt, dtype)))
 
@@ -148,7 +149,7 @@ class Setting:
 
     ins: Mapping[str, Axes]
     outs: Mapping[str, Axes]
-    dtype: Any
+    dtype: DTypeLike
     convolve: Callable[[Any], Any] = _undeclared
 
     if not TYPE_CHECKING:

@@ -76,7 +76,15 @@ class Reference:
         raise NotImplementedError
 
 
-ArrayLike = FrozenArray | np.ndarray | Sequence[Any]
+ArrayLike = (
+    FrozenArray
+    | np.ndarray
+    | Sequence[float]
+    | Sequence[np.ndarray]
+    | Sequence[Sequence[float]]
+    | Sequence[Sequence[Sequence[float]]]
+)
+"""What an array is made from: an array, or numbers in nested sequences."""
 
 PLAIN = ("number", "integer", "flag", "text", "texts", "per_axis", "numbers", "pairs")
 ValueForm = Literal[

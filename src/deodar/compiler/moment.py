@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from deodar.numerics.exact import Exact, split
 
+if TYPE_CHECKING:
+    from jax.typing import DTypeLike
+
 WHOLE = ("tick", "origin", "period", "head", "every", "records")
 REAL = ("start", "dt")
 
 
-def packed(now: Mapping[str, Any], dtype: Any) -> tuple[np.ndarray, np.ndarray]:
+def packed(now: Mapping[str, Any], dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
     """When it is, and how many steps and records there are to be, as two arrays: each argument of a program
     costs microseconds.
 

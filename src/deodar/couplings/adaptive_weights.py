@@ -95,7 +95,7 @@ class AdaptiveWeights(Coupling):
         }
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         x = inputs["input"]
         return {
@@ -104,7 +104,7 @@ class AdaptiveWeights(Coupling):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         x, w = inputs["pre" if self.apart else "input"], state["weights"]
         speed = self.rate * jnp.maximum(inputs["gate"], 0.0) if self.gated else self.rate

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -79,11 +79,11 @@ class ColorHistogram(Coupling):
                 " by a grid step)"
             )
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> Arrays:
         kept = self._kept(at)
         return {"cells": cells(at.ins["input"][kept], self.axes[0], at.dtype)}
 
-    def hoist(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting, constants: Arrays) -> Arrays:
         if is_neutral(self.sigma):
             return constants
         hue = self.axes[-1]
@@ -91,7 +91,7 @@ class ColorHistogram(Coupling):
         return constants | {"smooth": jnp.exp(-0.5 * (from_hues(hue, turns, at.dtype) / self.sigma) ** 2)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         hue = self.axes[-1]
         turn, saturation, value = hue_saturation_value(inputs["input"])

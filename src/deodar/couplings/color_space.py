@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -80,11 +80,17 @@ class ColorSpace(Coupling):
                     " differ by a grid step)"
                 )
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> list[Array]:
         return [cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: list[Array],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         hue_axis = self.axes[-1]
         turn, saturation, value = hue_saturation_value(inputs["input"])

@@ -81,7 +81,7 @@ class DelayLine(Element):
         }
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         kept, rows = state["kept"], self.slots + 2
         first = state["newest"].astype(jnp.int32)
@@ -100,7 +100,7 @@ class DelayLine(Element):
         return {"output": (1 - share) * young + share * old}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         newest, now = state["newest"], time.moment
         with exact():

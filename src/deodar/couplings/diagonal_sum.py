@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -62,7 +62,7 @@ class DiagonalSum(Coupling):
             )
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         x = inputs["input"]
         n, m = x.shape

@@ -89,7 +89,7 @@ class GainAdaptation(Coupling):
         }
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         gains, f = state["gains"], inputs["input"] * cell(at.ins["input"])
         drive, whole = jnp.sum(gains * f), jnp.sum(f)
@@ -100,7 +100,7 @@ class GainAdaptation(Coupling):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         speed = time.dt / self.tau * inputs["error"]
         if self.gated:

@@ -139,7 +139,7 @@ class Hebbian(Coupling):
         return {"weights": (scale * (drawn if self.random else jnp.sign(drawn))).reshape(*pre, *post)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
         out = cell(at.ins["input"]) * plasticity.read(
@@ -152,7 +152,7 @@ class Hebbian(Coupling):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         w, pre = state["weights"], shape(at.ins["input"])
         step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)

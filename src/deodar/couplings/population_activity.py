@@ -93,7 +93,7 @@ class PopulationActivity(Coupling):
                 "Give it one rate for each neuron",
             )
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> Arrays:
         tuning = at.array(self.tuning)
         if self.normalized:
             whole = jnp.sum(tuning, axis=0)
@@ -101,7 +101,7 @@ class PopulationActivity(Coupling):
         return {"tuning": tuning}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         return {
             "output": (

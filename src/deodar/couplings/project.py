@@ -114,7 +114,7 @@ class Project(Coupling):
             )
         }
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> Arrays:
         here = {a.name: a for a in self.axes}
         out: dict[str, Any] = {}
         for name, axis in zip(self._source(at.ins["input"]), at.ins["input"], strict=True):
@@ -123,7 +123,7 @@ class Project(Coupling):
         return out
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         y, keep = inputs["input"], self._source(at.ins["input"])
         names = [a.name for a in self.axes]

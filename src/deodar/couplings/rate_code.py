@@ -79,7 +79,7 @@ class RateCode(Coupling):
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else (), "strength": ()}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         axes, f = tuple(self.axes), inputs["input"] * cell(self.axes)
         every = zip(axes, *(per_axis(v, axes) for v in (self.gain, self.offset, self.absent)), strict=True)

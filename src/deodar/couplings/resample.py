@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from jax import Array
 
@@ -83,12 +83,18 @@ class Resample(Coupling):
     ) -> Mapping[str, Interval]:
         return {"output": hull(ZERO, inputs["input"])}
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> list[Array]:
         pairs = zip(at.ins["input"], self.axes, strict=True)
         return [resampling.weights(a, b.points, self.interpolation, at.dtype) for a, b in pairs]
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: list[Array],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         y = inputs["input"]
         for d, weights in enumerate(constants):

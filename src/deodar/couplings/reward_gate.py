@@ -88,7 +88,7 @@ class RewardGate(Coupling):
         return {"onset": at.full((), NEVER), "onset_low": at.full((), 0.0), "rewarded": at.full((), 0.0)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         reward = self._reward(at, inputs)
         with exact():
@@ -104,7 +104,7 @@ class RewardGate(Coupling):
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         reward, now = self._reward(at, inputs), time.moment
         begins = self._onset(state, reward)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from jax import Array
 
@@ -57,7 +57,7 @@ class Shift(Coupling):
     ) -> Mapping[str, Interval]:
         return {"output": hull(ZERO, inputs["input"])}
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> list[tuple[Array, Array]]:
         axes = at.ins["input"]
         return [
             resampling.steps(a, amount, at.dtype)
@@ -65,7 +65,13 @@ class Shift(Coupling):
         ]
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: list[tuple[Array, Array]],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         y = inputs["input"]
         for d, (axis, (whole, part)) in enumerate(zip(at.ins["input"], constants, strict=True)):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from jax import Array
 
@@ -44,6 +44,6 @@ class Sigmoid(Coupling):
         return {"output": self.sigmoid.bounds(inputs["input"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": self.sigmoid(inputs["input"])}

@@ -97,7 +97,7 @@ class SpaceCode(Coupling):
             )
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         axes, values = tuple(self.axes), jnp.reshape(inputs["input"], (len(self.axes),))
         ends = boundaries(self.boundary, axes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -46,7 +46,7 @@ class Threshold(Coupling):
         return {"output": ZERO if high <= self.level else hull(ZERO, (max(low, self.level), high))}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.where(x > self.level, x, jnp.zeros_like(x))}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -60,7 +60,7 @@ class TurnLimit(Coupling):
         return {"to_left": (), "to_right": ()}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         left, right = self.speed * inputs["left"], self.speed * inputs["right"]
         share = self.limit / jnp.maximum(jnp.abs(left - right), self.limit)

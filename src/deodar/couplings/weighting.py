@@ -62,11 +62,11 @@ class Weighting(Coupling):
                 "Give weights of that shape",
             )
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": constants["weights"] * inputs["input"]}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
@@ -84,11 +84,11 @@ class Weights(Coupling):
         up, down = float(np.maximum(rows, 0).sum(axis=1).max()), float(np.minimum(rows, 0).sum(axis=1).min())
         return {"output": total(times((0.0, up), inputs["input"]), times((down, 0.0), inputs["input"]))}
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         x = inputs["input"]
         return {"output": jnp.tensordot(constants["weights"], x, axes=x.ndim, precision="highest")}

@@ -165,21 +165,33 @@ class Field(Element):
     def init(self, at: Setting) -> Arrays:
         return {"activation": at.full(tuple(self.axes), self.resting_level)}
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> dict[str, list[Array]]:
         if is_neutral(self.noise_length):
             return {}
         axes = tuple(self.axes)
         return {"noise": noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, list[Array]],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         u = state["activation"]
         g = self._output(u)
         return {"output": g, "activation": u, "interaction": self._interaction(at, g)}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, list[Array]],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         u, h, s = state["activation"], self.resting_level, inputs["input"]
         change = -u + h + s + self._interaction(at, self._output(u))
@@ -201,7 +213,7 @@ class Field(Element):
         inhibition = self.global_inhibition * cell(tuple(self.axes)) * jnp.sum(g)
         return at.convolve(g) - inhibition
 
-    def _noise(self, deviates: Any, constants: Any) -> Any:
+    def _noise(self, deviates: Any, constants: dict[str, list[Array]]) -> Any:
         if deviates is None:
             return None
         return self.noise * noises.over(tuple(self.axes), deviates, constants.get("noise"))

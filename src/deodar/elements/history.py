@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -83,7 +83,7 @@ class History(Element):
         return state | ({"count": at.full((), 0.0)} if self.empty == "nan" else {})
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         kept = jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)
         if self.empty == "nan":  # only the output has NaN; the state is finite
@@ -92,7 +92,7 @@ class History(Element):
         return {"output": kept}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         # a ring buffer: a step writes one row, whatever the number of slots
         kept, newest = state["kept"], state["newest"]

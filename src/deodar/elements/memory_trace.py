@@ -113,12 +113,12 @@ class MemoryTrace(Element):
         return {"trace": trace, "active": at.full(tuple(self.axes), 0.0)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": state["trace"], "active": state["active"]}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         p, x = state["trace"], inputs["input"]
         active = x > self.threshold

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from jax import Array
 
@@ -48,6 +48,6 @@ class Motor(Element):
         return {"output": tuple(self.axes)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": inputs["input"]}

@@ -13,7 +13,7 @@ from jax import Array
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
-from deodar.numerics.exact import exact, wide
+from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.signs import Sign, sign_of
 from deodar.numerics.windows import gate
@@ -89,11 +89,17 @@ class MovingGaussian(Stimulus):
     def steady(self) -> bool:
         return False
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> dict[str, Exact]:
         return {} if self.waypoints is None else {"waypoints": at.exact(self.waypoints)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, Exact],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
         places = self._places(at, constants, time)
@@ -104,7 +110,7 @@ class MovingGaussian(Stimulus):
             y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
         return {"output": y}
 
-    def _places(self, at: Setting, constants: Any, time: Time) -> list[Any]:
+    def _places(self, at: Setting, constants: dict[str, Exact], time: Time) -> list[Any]:
         """The centre along each axis.
 
         On a periodic axis whole periods are subtracted in float64, before the cast to the model's

@@ -69,18 +69,24 @@ class Noise(Element):
         if any(lengths) and not all(lengths):
             yield "length is 0 on one axis and not on another; give all of them or none"
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> dict[str, list[Array]]:
         if is_neutral(self.length):
             return {}
         axes = tuple(self.axes)
         return {"noise": noises.correlation(axes, per_axis(self.length, axes), at.dtype)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, list[Array]],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         if noise is None:
             return {"output": at.full(tuple(self.axes), 0.0)}
         return {"output": self.amplitude / jnp.sqrt(time.dt) * self._over(noise, constants)}
 
-    def _over(self, deviates: Any, constants: Any) -> Any:
+    def _over(self, deviates: Any, constants: dict[str, list[Array]]) -> Any:
         return noises.over(tuple(self.axes), deviates, constants.get("noise"))

@@ -87,13 +87,13 @@ class RateNode(Element):
         return {"activation": u, "rate": self._rate(u, jnp.zeros_like(u))}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         u = state["activation"]
         return {"output": self.sigmoid(u), "activation": u, "rate": state["rate"]}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         u = state["activation"] + time.dt * state["rate"]
         if noise is not None:

@@ -12,7 +12,7 @@ from jax import Array
 from deodar.declarations import needed
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
-from deodar.numerics.exact import exact, wide
+from deodar.numerics.exact import Exact, exact, wide
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
 from deodar.registry import register
 
@@ -76,14 +76,20 @@ class SampledHistory(Element):
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> dict[str, Exact]:
         return {"times": at.exact(self.times)}
 
     def init(self, at: Setting) -> Arrays:
         return {"kept": at.full((self.slots, *self.axes), 0.0), "stored": at.full((self.slots,), 0.0)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, Exact],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         kept = state["kept"]
         return {
@@ -93,7 +99,13 @@ class SampledHistory(Element):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, Exact],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         with exact():
             late, half = time.wide + time.wide_dt - wide(constants["times"]), 0.5 * time.wide_dt

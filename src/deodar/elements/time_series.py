@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, TypedDict
 
 import jax.numpy as jnp
 import numpy as np
@@ -15,7 +15,7 @@ from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, shape
-from deodar.numerics.exact import exact, wide
+from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import ANY, Interval, times
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.numerics.windows import gate
@@ -23,6 +23,13 @@ from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
 WAYS = ("linear", "hold")
+
+
+class TimeSeriesConstants(TypedDict):
+    """Moments and values as the program holds them."""
+
+    times: Exact
+    values: Array
 
 
 @register
@@ -113,11 +120,17 @@ class TimeSeries(Stimulus):
     def steady(self) -> bool:
         return False
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> TimeSeriesConstants:
         return {"times": at.exact(self.times), "values": at.array(self.values)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: TimeSeriesConstants,
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         values, last = constants["values"], len(constants["values"]) - 1
         hold = self.interpolation == "hold"

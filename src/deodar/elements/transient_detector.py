@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -66,13 +66,13 @@ class TransientDetector(Element):
         return {"slow": at.full(tuple(self.axes), self.initial)}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         change = inputs["input"] - state["slow"]
         return {"output": jnp.maximum(0.0, change), "off": jnp.maximum(0.0, -change)}
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         z = state["slow"]
         return {"slow": euler(z, -z + inputs["input"], self.tau, time.dt)}

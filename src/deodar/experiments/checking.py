@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.session.exchange import used
 from deodar.session.run import require_step, whole
 from deodar.worlds._base import World
+
+if TYPE_CHECKING:
+    from jax import Array
 
 
 def check(experiment: Design, model: Model, world: World | None) -> None:
@@ -158,7 +161,7 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
         view.reduce == PLACE
         and port == "output"
         and isinstance(sigmoid, SigmoidFunction)
-        and float(sigmoid(np.array(-1.0))) > view.threshold
+        and float(sigmoid(cast("Array", np.array(-1.0)))) > view.threshold
     ):
         # the smooth foot of a sigmoid would make the whole field one peak, whose centroid is drawn to the
         # middle of the axis

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.numerics.axes import Axis
+from deodar.numerics.scalar import Scalar
 
 LEAST_DIRECTED = 1e-3
 """On a ring, the share of the input that must point somewhere: the direction of homogeneous input is only
@@ -15,7 +16,7 @@ rounding.
 """
 
 
-def centre(axis: Axis, f: Any, least: Any) -> tuple[Any, Any, Any]:
+def centre(axis: Axis, f: Array, least: Scalar) -> tuple[Array, Array, Array]:
     """The mean of an axis weighted by what stands on it; on a ring the direction of the sum of vectors.
 
     Args:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import jax.numpy as jnp
+from jax import Array
+from jax.typing import DTypeLike
 
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axis
@@ -13,7 +13,7 @@ CHANNELS = 3
 """Red, green and blue."""
 
 
-def hue_saturation_value(picture: Any) -> tuple[Any, Any, Any]:
+def hue_saturation_value(picture: Array) -> tuple[Array, Array, Array]:
     """Hue (as a share of a turn, red 0), saturation and value of pixels with channels on the last axis."""
     red, green, blue = picture[..., 0], picture[..., 1], picture[..., 2]
     value = jnp.maximum(jnp.maximum(red, green), blue)
@@ -29,7 +29,7 @@ def hue_saturation_value(picture: Any) -> tuple[Any, Any, Any]:
     return hue, saturation, value
 
 
-def from_hues(axis: Axis, turn: Any, dtype: Any) -> Any:
+def from_hues(axis: Axis, turn: Array, dtype: DTypeLike) -> Array:
     """How far the samples of a hue axis are from hues (as shares of a turn), the shorter way round: one axis
     more, at the end.
     """
@@ -37,7 +37,7 @@ def from_hues(axis: Axis, turn: Any, dtype: Any) -> Any:
     return distance - axis.range * jnp.round(distance / axis.range)
 
 
-def cells(fine: Axis, coarse: Axis, dtype: Any) -> Any:
+def cells(fine: Axis, coarse: Axis, dtype: DTypeLike) -> Array:
     """Weights of the mean over the pixels whose middle lies in a cell; a cell without a pixel takes the
     nearest: shape (cells, pixels).
     """

@@ -11,11 +11,11 @@ field mirrored at the outer edge of its last cell.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
+from jax.typing import DTypeLike
 
 from deodar.numerics.axes import Axes, Axis, cell, shape
 
@@ -23,7 +23,7 @@ BOUNDARIES = ("periodic", "zero", "reflect")
 TINY = 1e-20
 """Weights below this are dropped: they change nothing and denormal numbers are slow."""
 
-Profile = Callable[[Any, float | None], Any]
+Profile = Callable[[Array, float | None], Array]
 """Weight as a function of the lag; the second argument is the period if the lag wraps, else None."""
 
 
@@ -34,7 +34,7 @@ def boundaries(given: Sequence[str] | None, axes: Axes) -> tuple[str, ...]:
     return tuple(given) if len(given) == len(axes) else tuple(given) * len(axes)
 
 
-def matrix(axis: Axis, boundary: str, profile: Profile, dtype: Any) -> Array:
+def matrix(axis: Axis, boundary: str, profile: Profile, dtype: DTypeLike) -> Array:
     """Weights between all pairs of samples of one axis, times the grid step: shape (samples, samples)."""
     x = axis.points
     lag = jnp.asarray(x[:, None] - x[None, :], dtype)
@@ -49,7 +49,7 @@ def matrix(axis: Axis, boundary: str, profile: Profile, dtype: Any) -> Array:
     return jnp.where(jnp.abs(weights) < TINY, 0.0, weights) * jnp.asarray(axis.step, dtype)
 
 
-def taps(axis: Axis, boundary: str, profile: Profile, reach: int, dtype: Any) -> Array:
+def taps(axis: Axis, boundary: str, profile: Profile, reach: int, dtype: DTypeLike) -> Array:
     """Weights of a symmetric kernel at lags of 0 to `reach` samples, times the grid step."""
     lag = jnp.asarray(np.arange(reach + 1) * axis.step, dtype)
     weights = profile(lag, axis.step * axis.samples if boundary == "periodic" else None)
@@ -90,7 +90,7 @@ def extended(axes: Axes, bounds: Sequence[str]) -> tuple[int, ...]:
     return tuple(n if b == "periodic" else 2 * n for n, b in zip(shape(axes), bounds, strict=True))
 
 
-def spectrum(samples: Any, axes: Axes, bounds: Sequence[str], dtype: Any) -> Array:
+def spectrum(samples: Array | np.ndarray, axes: Axes, bounds: Sequence[str], dtype: DTypeLike) -> Array:
     """Spectrum of a kernel given as samples around its centre (odd counts: index (n - 1) / 2 is lag zero)."""
     sizes = extended(axes, bounds)
     kernel = jnp.asarray(samples, dtype)

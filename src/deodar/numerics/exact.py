@@ -15,6 +15,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
+from jax.typing import DTypeLike
 
 LOW = "~low"
 """Ends the path of a traced leaf that holds what the leaf without it lost by rounding."""
@@ -38,14 +40,14 @@ class Exact:
         return self.high
 
 
-def exact() -> contextlib.AbstractContextManager[Any]:
+def exact() -> contextlib.AbstractContextManager[None]:
     """Allow float64 for the operations of a block, also while a program of single precision is traced; leave
     with a cast.
     """
     return jax.enable_x64(True)
 
 
-def split(value: Any, dtype: Any) -> tuple[Any, Any]:
+def split(value: Any, dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
     """High and low part of a number or an array of the host."""
     wide = np.asarray(value, np.float64)
     high = wide.astype(dtype)
@@ -55,7 +57,7 @@ def split(value: Any, dtype: Any) -> tuple[Any, Any]:
     return high, rest.astype(dtype)
 
 
-def wide(value: Any) -> Any:
+def wide(value: Any) -> Array:
     """The value in float64, inside `exact()`."""
     if isinstance(value, Exact):
         return jnp.asarray(value.high, jnp.float64) + jnp.asarray(value.low, jnp.float64)

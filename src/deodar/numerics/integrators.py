@@ -8,13 +8,13 @@ References:
 
 from __future__ import annotations
 
-from typing import Any
-
 import jax.numpy as jnp
 from jax import Array
 
+from deodar.numerics.scalar import Scalar
 
-def euler(u: Any, rate: Any, tau: Any, dt: Any, noise: Array | None = None) -> Any:
+
+def euler(u: Array, rate: Scalar, tau: Scalar, dt: Scalar, noise: Array | None = None) -> Array:
     """One step of `tau du = rate dt + noise dW`: drift scaled by dt/tau, noise by sqrt(dt)/tau.
 
     Args:

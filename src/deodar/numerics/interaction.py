@@ -13,6 +13,8 @@ from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
 import jax.numpy as jnp
+from jax import Array
+from jax.typing import DTypeLike
 
 from deodar.leaves import per_axis
 from deodar.numerics import convolution
@@ -75,7 +77,7 @@ def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str,
 
 
 def prepare(
-    kernels: Sequence[Kernel], axes: Axes, dtype: Any, chosen: Mapping[str, Choice] | None = None
+    kernels: Sequence[Kernel], axes: Axes, dtype: DTypeLike, chosen: Mapping[str, Choice] | None = None
 ) -> KernelWeights:
     """What convolution needs and what depends on widths only.
 
@@ -116,12 +118,12 @@ def mix(kernels: Sequence[Kernel], axes: Axes, weights: KernelWeights) -> Mixtur
 def apply(
     mixture: Mixture,
     axes: Axes,
-    y: Any,
+    y: Array,
     chosen: Mapping[str, Choice] | None = None,
     key: str = "",
-    own: Any = None,
-    arriving: Any = None,
-) -> Any:
+    own: Array | None = None,
+    arriving: Array | None = None,
+) -> Array:
     """The integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
 
     `chosen`: the choices they were made for.
@@ -152,12 +154,12 @@ def apply(
     return sum(parts[1:], parts[0]) if parts else jnp.zeros_like(y)
 
 
-def to_waves(waves: Sequence[Waves], y: Any) -> Any:
+def to_waves(waves: Sequence[Waves], y: Array) -> Array:
     """How much of each wave is in an array."""
     return convolution.separable([jnp.asarray(w.basis().T, y.dtype) for w in waves], y, _order(len(waves)))
 
 
-def from_waves(waves: Sequence[Waves], y: Any) -> Any:
+def from_waves(waves: Sequence[Waves], y: Array) -> Array:
     """The array that waves add up to."""
     return convolution.separable(
         [jnp.asarray(w.basis(), y.dtype) for w in waves], y, _order(len(waves))[::-1]
@@ -176,7 +178,7 @@ def boundaries(kernel: Kernel, axes: Axes) -> str:
     return " ".join(convolution.boundaries(kernel.boundary, axes))
 
 
-def _product(gains: Sequence[Any]) -> Any:
+def _product(gains: Sequence[Array]) -> Array:
     """The outer product of one vector an axis."""
     out = gains[0]
     for g in gains[1:]:
@@ -184,7 +186,7 @@ def _product(gains: Sequence[Any]) -> Any:
     return out
 
 
-def _weights(kernel: Kernel, axes: Axes, dtype: Any, choice: Choice | None) -> dict[str, Any]:
+def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None) -> dict[str, Any]:
     ends = convolution.boundaries(kernel.boundary, axes)
     samples = kernel.samples(axes, dtype)
     if samples is not None:
@@ -226,14 +228,14 @@ def _weights(kernel: Kernel, axes: Axes, dtype: Any, choice: Choice | None) -> d
     }
 
 
-def _half(gains: list[Any]) -> list[Any]:
+def _half(gains: list[Array]) -> list[Array]:
     """The last axis of a real Fourier transform holds the first half of the waves only."""
     return [*gains[:-1], gains[-1][: gains[-1].shape[0] // 2 + 1]]
 
 
-def _profile(term: Term, d: int, axis: Axis) -> Any:
+def _profile(term: Term, d: int, axis: Axis) -> convolution.Profile:
     return lambda lag, period: term.along(d, lag, period, axis.step)
 
 
-def _matrix(term: Term, d: int, axis: Axis, boundary: str, dtype: Any) -> Any:
+def _matrix(term: Term, d: int, axis: Axis, boundary: str, dtype: DTypeLike) -> Array:
     return convolution.matrix(axis, boundary, _profile(term, d, axis), dtype)

@@ -12,15 +12,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array, lax
 from jax.typing import DTypeLike
 
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.kernels.gaussian import profile
+from deodar.numerics.scalar import Scalar
 
 STREAM = 0x5EED
 """Second key word of every noise key; the first is the seed."""
@@ -49,7 +50,7 @@ def threefry(x0: Array, x1: Array, k0: Array, k1: Array) -> tuple[Array, Array]:
     return x0, x1
 
 
-def element_keys(seed: Any, trial: Any, idents: Any) -> Array:
+def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarray | Sequence[int]) -> Array:
     """Two key words for the noise of each element: threefry(counter (id, trial), key (seed, STREAM)), shape
     (elements, 2).
     """
@@ -89,7 +90,7 @@ def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> t
     return (radius * _sine(turn, dtype)).reshape(shape), (radius * _cosine(turn, dtype)).reshape(shape)
 
 
-def correlation(axes: Axes, lengths: Sequence[Any], dtype: DTypeLike) -> list[Array]:
+def correlation(axes: Axes, lengths: Sequence[Scalar], dtype: DTypeLike) -> list[Array]:
     """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every
     point.
 
@@ -101,7 +102,7 @@ def correlation(axes: Axes, lengths: Sequence[Any], dtype: DTypeLike) -> list[Ar
     return [_square_root(axis, length, dtype) for axis, length in zip(axes, lengths, strict=True)]
 
 
-def _square_root(axis: Axis, length: Any, dtype: DTypeLike) -> Array:
+def _square_root(axis: Axis, length: Scalar, dtype: DTypeLike) -> Array:
     x = jnp.asarray(axis.points, dtype)
     period = axis.range if axis.periodic else None
     wanted = profile(x[:, None] - x[None, :], length, period) / profile(jnp.zeros((), dtype), length, period)
@@ -161,7 +162,7 @@ def _log(x: Array) -> Array:
 
 
 def _polynomial(x: Array, coefficients: tuple[float, ...]) -> Array:
-    total: Any = jnp.float32(coefficients[-1])
+    total: Array = jnp.float32(coefficients[-1])
     for c in reversed(coefficients[:-1]):
         total = jnp.float32(c) + x * total
     return total

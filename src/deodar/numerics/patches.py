@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
+from jax.typing import DTypeLike
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.noise import threefry
+from deodar.numerics.scalar import Scalar
 
 STREAM = 0x3A57
 """Second key word of random weights (that of noise is another one); the first is the seed."""
 
 
-def random_weights(pre: Axes, post: Axes, patches: int, share: Any, seed: int, dtype: Any) -> Any:
+def random_weights(pre: Axes, post: Axes, patches: int, share: Scalar, seed: int, dtype: DTypeLike) -> Array:
     """Weights in (0, 1), or 0: uniform where a patch is connected at all, which a `share` of them is.
 
     Each axis, of the source and of the target, is cut into so many equal patches; all weights between two

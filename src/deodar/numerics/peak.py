@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.numerics.axes import Axes, Axis
 
@@ -15,7 +15,9 @@ UNDIRECTED = 1e-9
 """A mean direction on a ring that is shorter than this is rounding: the region has no centre."""
 
 
-def position(values: Any, axes: Axes, threshold: float, inside: np.ndarray | None = None) -> tuple[Any, Any]:
+def position(
+    values: Array, axes: Axes, threshold: float, inside: np.ndarray | None = None
+) -> tuple[Array, Array]:
     """Return the position of the highest peak, as `dd.peaks(values, axes, threshold)[0].position` gives it.
 
     The peak is the connected region above the threshold that holds the largest sample; its position is the
@@ -54,7 +56,7 @@ def position(values: Any, axes: Axes, threshold: float, inside: np.ndarray | Non
     return jnp.stack(centres), total > 0
 
 
-def _run(mask: Any, axis: Axis, top: Any) -> Any:
+def _run(mask: Array, axis: Axis, top: Array) -> Array:
     """The run of true samples of a line or a ring that holds the sample `top`."""
     i, n = jnp.arange(axis.samples, dtype=jnp.int32), axis.samples
     if not axis.periodic:
@@ -68,13 +70,13 @@ def _run(mask: Any, axis: Axis, top: Any) -> Any:
     return (ahead < end) | (ahead > start)
 
 
-def _region(mask: Any, axes: Axes, top: Any) -> Any:
+def _region(mask: Array, axes: Axes, top: Array) -> Array:
     """The true samples that a path over faces connects with the sample at flat index `top`: grown by one
     sample at a time.
     """
     start = (jnp.arange(mask.size, dtype=jnp.int32).reshape(mask.shape) == top) & mask
 
-    def grow(now: tuple[Any, Any]) -> tuple[Any, Any]:
+    def grow(now: tuple[Array, Array]) -> tuple[Array, Array]:
         region = now[0]
         for d, axis in enumerate(axes):
             for side in (1, -1):
@@ -86,7 +88,7 @@ def _region(mask: Any, axes: Axes, top: Any) -> Any:
     return jax.lax.while_loop(lambda now: now[1], grow, (start, jnp.any(start)))[0]
 
 
-def _moved(region: Any, d: int, axis: Axis, side: int) -> Any:
+def _moved(region: Array, d: int, axis: Axis, side: int) -> Array:
     """The region moved by one sample along axis d, round a periodic border."""
     if axis.periodic:
         return jnp.roll(region, side, axis=d)
@@ -95,7 +97,7 @@ def _moved(region: Any, d: int, axis: Axis, side: int) -> Any:
     return jnp.pad(region[tuple(part)], width)
 
 
-def _centroid(axis: Axis, weights: Any, top: Any) -> Any:
+def _centroid(axis: Axis, weights: Array, top: Array) -> Array:
     """Centroid of weights that add up to 1; on a ring that of the distances from the mean direction."""
     x = jnp.asarray(axis.points, weights.dtype)
     if not axis.periodic:

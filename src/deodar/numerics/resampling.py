@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array, lax
+from jax.typing import DTypeLike
 
 from deodar.numerics.axes import Axis
+from deodar.numerics.scalar import Scalar
 
 Interpolation = Literal["linear", "nearest"]
 INTERPOLATIONS = ("linear", "nearest")
 REDUCTIONS = ("integral", "sum", "mean", "max", "min")
 
 
-def weights(source: Axis, points: Any, interpolation: str, dtype: Any) -> Array:
+def weights(source: Axis, points: Array | np.ndarray, interpolation: str, dtype: DTypeLike) -> Array:
     """Weights that give the values at `points` from the samples of `source`: shape (points, samples).
 
     Linear takes the two neighbours, nearest one (the upper of two equally near). Beyond the ends of an axis
@@ -36,7 +39,7 @@ def weights(source: Axis, points: Any, interpolation: str, dtype: Any) -> Array:
     return w
 
 
-def steps(axis: Axis, amount: Any, dtype: Any) -> tuple[Array, Array]:
+def steps(axis: Axis, amount: Scalar, dtype: DTypeLike) -> tuple[Array, Array]:
     """A shift along an axis as whole samples and the part of one that is left, 0 to 1."""
     samples = jnp.asarray(amount, dtype) / jnp.asarray(axis.step, dtype)
     whole = jnp.floor(samples)

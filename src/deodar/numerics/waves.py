@@ -9,11 +9,11 @@ field's own samples are transformed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
+from jax.typing import DTypeLike
 
 from deodar.numerics.axes import Axis
 from deodar.numerics.convolution import Profile
@@ -63,18 +63,18 @@ class Waves:
         alone = (m == 0) | (2 * m == self.length)
         return np.where(sine, np.sin(angle), np.cos(angle)) * np.sqrt(np.where(alone, 1, 2) / self.length)
 
-    def gains(self, axis: Axis, profile: Profile, dtype: Any) -> Array:
+    def gains(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
         """What a symmetric kernel makes of each wave, times the grid step: shape (count,)."""
         turns = np.unique(self.turns)
         found = jnp.asarray(self._cosines(turns), dtype) @ self._ring(axis, profile, dtype)
         return found[np.searchsorted(turns, self.turns)]
 
-    def spectrum(self, axis: Axis, profile: Profile, dtype: Any) -> Array:
+    def spectrum(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
         """The same for all waves of the ring in the order of a Fourier transform: shape (length,)."""
         turns = np.arange(self.length)
         return jnp.asarray(self._cosines(turns), dtype) @ self._ring(axis, profile, dtype)
 
-    def _ring(self, axis: Axis, profile: Profile, dtype: Any) -> Array:
+    def _ring(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
         lag = np.arange(self.length)
         lag = np.where(2 * lag <= self.length, lag, lag - self.length) * axis.step
         # also round the ring that stands for a border, so that the kernel is smooth on it: what comes round

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
+from deodar.numerics.scalar import Scalar
 from deodar.parameters import Live, Part
 from deodar.registry import register
+
+if TYPE_CHECKING:
+    from jax.typing import DTypeLike
 
 FOR_EVER = 1e30
 """A moment that no run reaches, in any time unit."""
@@ -44,7 +48,7 @@ class Window(Part):
         return cls(*value) if isinstance(value, (tuple, list)) and len(value) == 2 else value
 
 
-def gate(windows: Sequence[Window], time: Any, dtype: Any) -> Any:
+def gate(windows: Sequence[Window], time: Any, dtype: DTypeLike) -> Scalar:
     """1 inside any of the windows, else 0; without windows always 1.
 
     A step belongs to a window if its moment does, to half a step: rounding never moves an edge.

@@ -11,6 +11,7 @@ from typing import Any
 
 import jax
 import numpy as np
+from jax.typing import DTypeLike
 
 from deodar.compiler.body import Body
 from deodar.compiler.executable import Batch
@@ -119,7 +120,7 @@ class Exchange:
         return self._due - tick
 
     def read(
-        self, now: ExchangeInstant, period: int, dt: float, dtype: Any, sensed: dict[str, np.ndarray]
+        self, now: ExchangeInstant, period: int, dt: float, dtype: DTypeLike, sensed: dict[str, np.ndarray]
     ) -> None:
         """Bring the world to the present, and what is sensed with it."""
         if self.world is None or not self.live:
@@ -189,7 +190,7 @@ class Exchange:
         known = {} if self.world is None else self.world.sensors  # a world of one's own may take any name
         return sensor.sensor in known and known[sensor.sensor].each
 
-    def _reading(self, sensor: Sensor, moment: float, dtype: Any) -> np.ndarray:
+    def _reading(self, sensor: Sensor, moment: float, dtype: DTypeLike) -> np.ndarray:
         assert self.world is not None
         axes = tuple(sensor.axes)
         given = self.world.sense(sensor.sensor, axes, moment)

@@ -13,6 +13,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.typing import DTypeLike
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, shape
@@ -155,7 +156,7 @@ class _Program:
     kind: type
     structure: Hashable
     name: Hashable
-    dtype: Any
+    dtype: DTypeLike
     world: PureWorld = field(compare=False)
     make: Callable[[Any], Callable[..., Any]] = field(compare=False)
 

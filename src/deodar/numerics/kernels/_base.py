@@ -5,13 +5,18 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
 from deodar.numerics.intervals import ANY, Interval
+from deodar.numerics.scalar import Scalar
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Part, Recompile, parameters
+
+if TYPE_CHECKING:
+    from jax import Array
+    from jax.typing import DTypeLike
 
 WIDEST = 1e12
 """Widths and shifts beyond this multiple of an axis are a problem: single precision cannot square much larger
@@ -26,8 +31,8 @@ class Term:
     `period` is the length after which the lag wraps, or None; `step` is the grid step of axis d.
     """
 
-    amplitude: Any
-    along: Callable[[int, Any, float | None, float], Any]
+    amplitude: Scalar
+    along: Callable[[int, Array, float | None, float], Array]
 
 
 @dataclass(frozen=True)
@@ -57,7 +62,7 @@ class Kernel(Part):
         """
         return ()
 
-    def samples(self, axes: Axes, dtype: Any) -> Any | None:
+    def samples(self, axes: Axes, dtype: DTypeLike) -> Array | None:
         """The kernel as an array around lag zero on the grid of `axes`, or None where `terms` say it all."""
         return None
 

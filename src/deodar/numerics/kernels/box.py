@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
@@ -56,15 +57,15 @@ class Box(Kernel):
         )
 
     def terms(self) -> Sequence[Term]:
-        def along(d: int, lag: Any, period: float | None, step: float) -> Any:
-            w = self.width[d] if isinstance(self.width, tuple) else self.width
+        def along(d: int, lag: Array, period: float | None, step: float) -> Array:
+            w: Any = self.width[d] if isinstance(self.width, tuple) else self.width
             weight = _covered(lag, w, period, step)
             return weight / w if self.normalized else weight
 
         return (Term(self.amplitude, along),)
 
 
-def _covered(lag: Any, width: Any, period: float | None, step: float) -> Any:
+def _covered(lag: Array, width: Any, period: float | None, step: float) -> Array:
     """Share of the cell around `lag` that lies inside the box; on a ring the box may wind round it several
     times.
     """
@@ -79,7 +80,7 @@ def _covered(lag: Any, width: Any, period: float | None, step: float) -> Any:
     return turns + sum(_overlap(near + k * period, rest, step) for k in (-1, 0, 1))
 
 
-def _overlap(lag: Any, width: Any, step: float) -> Any:
+def _overlap(lag: Array, width: Any, step: float) -> Array:
     upper = jnp.minimum(lag + step / 2, width / 2)
     lower = jnp.maximum(lag - step / 2, -width / 2)
     return jnp.maximum(0.0, upper - lower) / step

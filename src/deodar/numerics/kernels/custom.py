@@ -8,6 +8,8 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
+from jax.typing import DTypeLike
 
 from deodar.leaves import per_axis
 from deodar.numerics import resampling
@@ -72,7 +74,7 @@ class Custom(Kernel):
     def terms(self) -> Sequence[Term]:
         return ()
 
-    def samples(self, axes: Axes, dtype: Any) -> Any:
+    def samples(self, axes: Axes, dtype: DTypeLike) -> Array:
         weights: Any = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
         weights = jnp.asarray(weights, dtype)
         if self.spacing is None:

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.scalar import Scalar
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -64,10 +66,10 @@ class Gaussian(Kernel):
         return (self.sigma,)
 
 
-def gaussian_term(amplitude: Any, sigma: Any, normalized: bool) -> Term:
+def gaussian_term(amplitude: Scalar, sigma: Any, normalized: bool) -> Term:
     """A Gaussian as one separable term."""
 
-    def along(d: int, lag: Any, period: float | None, step: float) -> Any:
+    def along(d: int, lag: Array, period: float | None, step: float) -> Array:
         s = sigma[d] if isinstance(sigma, tuple) else sigma
         weight = profile(lag, s, period)
         return weight / integral(s, step) if normalized else weight * unresolved(s, step)
@@ -75,7 +77,7 @@ def gaussian_term(amplitude: Any, sigma: Any, normalized: bool) -> Term:
     return Term(amplitude, along)
 
 
-def profile(lag: Any, sigma: Any, period: float | None) -> Any:
+def profile(lag: Array, sigma: Scalar, period: float | None) -> Array:
     """exp(-lag^2 / (2 sigma^2)); on a ring the sum over all its images, exact at every width."""
     if period is None:
         return jnp.exp(-0.5 * (lag / sigma) ** 2)
@@ -89,7 +91,7 @@ def profile(lag: Any, sigma: Any, period: float | None) -> Any:
     return jnp.where(sigma < period / 2, images, series)
 
 
-def integral(sigma: Any, step: float) -> Any:
+def integral(sigma: Scalar, step: float) -> Array:
     """Sum over an endless grid times its step: sqrt(2 pi) sigma where the grid resolves the Gaussian, step
     where not.
     """
@@ -100,13 +102,13 @@ def integral(sigma: Any, step: float) -> Any:
     return jnp.where(ratio > 0.5, step * (1 + 2 * lattice), math.sqrt(2 * math.pi) * sigma)
 
 
-def unresolved(sigma: Any, step: float) -> Any:
+def unresolved(sigma: Scalar, step: float) -> Array:
     """What brings the samples of a Gaussian to its true integral: 1 where the grid resolves it, from one step
     per sigma (to 5e-9).
     """
     return jnp.where(sigma < step, math.sqrt(2 * math.pi) * sigma / integral(sigma, step), 1.0)
 
 
-def volume(sigma: Any, axes: Axes) -> float:
+def volume(sigma: PerAxis, axes: Axes) -> float:
     """The integral of a Gaussian of height 1 over the axes; 1 on a node."""
     return math.prod(math.sqrt(2 * math.pi) * float(s) for s in per_axis(sigma, axes))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval
@@ -12,6 +12,9 @@ from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.parameters import PerAxis, Rebuild, Recompile
 from deodar.registry import register
+
+if TYPE_CHECKING:
+    from jax import Array
 
 
 @register
@@ -45,9 +48,9 @@ class Shifted(Kernel):
     def terms(self) -> Sequence[Term]:
         return [Term(t.amplitude, self._moved(t)) for t in self.kernel.terms()]
 
-    def _moved(self, term: Term) -> Any:
-        def along(d: int, lag: Any, period: float | None, step: float) -> Any:
-            by = self.shift[d] if isinstance(self.shift, tuple) else self.shift
+    def _moved(self, term: Term) -> Callable[[int, Array, float | None, float], Array]:
+        def along(d: int, lag: Array, period: float | None, step: float) -> Array:
+            by: Any = self.shift[d] if isinstance(self.shift, tuple) else self.shift
             return term.along(d, lag - by, period, step)
 
         return along

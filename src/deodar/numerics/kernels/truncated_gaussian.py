@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics.axes import Axes
@@ -73,13 +74,13 @@ class TruncatedGaussian(Kernel):
     def terms(self) -> Sequence[Term]:
         return () if is_neutral(self.amplitude) else (Term(self.amplitude, self._along),)
 
-    def _along(self, d: int, lag: Any, period: float | None, step: float) -> Any:
+    def _along(self, d: int, lag: Array, period: float | None, step: float) -> Array:
         sigma: Any = self.sigma[d] if isinstance(self.sigma, tuple) else self.sigma
         least: Any = self.least[d] if isinstance(self.least, tuple) else self.least
         slack = ROUNDING if lag.dtype == jnp.float32 else 0.0
         reach = jnp.ceil(jnp.maximum(self.cutoff * sigma, least) / step - slack) + 0.5
 
-        def weight(distance: Any) -> Any:
+        def weight(distance: Array) -> Array:
             return jnp.where(distance / step <= reach, jnp.exp(-0.5 * (distance / sigma) ** 2), 0.0)
 
         distance = jnp.abs(lag if period is None else lag - period * jnp.round(lag / period))

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from deodar.numerics.intervals import ANY, Interval
 from deodar.parameters import Part
+
+if TYPE_CHECKING:
+    from jax import Array
 
 POINTS = 5
 
@@ -17,19 +20,19 @@ POINTS = 5
 class SigmoidFunction(Part):
     """g(u), applied cell by cell."""
 
-    def __call__(self, u: Any) -> Any:
+    def __call__(self, u: Array) -> Array:
         """Output for activation u; same shape."""
         raise NotImplementedError
 
-    def ends(self, u: Any) -> tuple[Any, ...] | None:
+    def ends(self, u: Array) -> tuple[Array, ...] | None:
         """What `mean` needs at an end of a range of activation and what is costly: neighbouring ranges share
         it. None where nothing is.
         """
         return None
 
     def mean(
-        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
-    ) -> Any:
+        self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
+    ) -> Array:
         """The mean of g over the activations between a and b, g(a) where they are equal; same shape.
 
         A sigmoid that knows its antiderivative gives the exact mean; this is Gauss-Legendre's rule with five
@@ -43,7 +46,7 @@ class SigmoidFunction(Part):
         """
         places, weights = np.polynomial.legendre.leggauss(POINTS)
         middle, half = 0.5 * (a + b), 0.5 * (b - a)
-        return sum(
+        return sum(  # type: ignore[return-value] # a sum of arrays
             float(w) / 2 * self(middle + float(p) * half) for p, w in zip(places, weights, strict=True)
         )
 

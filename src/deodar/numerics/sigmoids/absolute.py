@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids._base import SigmoidFunction
@@ -38,13 +39,13 @@ class Absolute(SigmoidFunction):
     ] = 100.0
     threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
 
-    def __call__(self, u: Any) -> Any:
+    def __call__(self, u: Array) -> Array:
         v = self.beta * (u - self.threshold)
         return 0.5 * (1.0 + v / (1.0 + jnp.abs(v)))
 
     def mean(
-        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
-    ) -> Any:
+        self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
+    ) -> Array:
         """(1 + (F(b) - F(a)) / (v(b) - v(a))) / 2 with F = |v| - log(1 + |v|), v = beta (u - theta); on one
         side of theta as a single logarithm.
         """

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from deodar.numerics.intervals import Interval, times
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import Live
 from deodar.registry import register
+
+if TYPE_CHECKING:
+    from jax import Array
 
 
 @register
@@ -33,12 +36,12 @@ class Linear(SigmoidFunction):
     slope: Annotated[float, Live("1/activation", meaning="output per unit of activation")] = 1.0
     threshold: Annotated[float, Live("activation", meaning="activation of zero output")] = 0.0
 
-    def __call__(self, u: Any) -> Any:
+    def __call__(self, u: Array) -> Array:
         return self.slope * (u - self.threshold)
 
     def mean(
-        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
-    ) -> Any:
+        self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
+    ) -> Array:
         """The output in the middle."""
         return self(0.5 * (a + b))
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids._base import SigmoidFunction
@@ -60,11 +61,11 @@ class Logistic(SigmoidFunction):
     ] = 4.0
     threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
 
-    def __call__(self, u: Any) -> Any:
+    def __call__(self, u: Array) -> Array:
         # by tanh it would be exactly 0 in single precision where it should be 1e-8 and less
         return jax.nn.sigmoid(self.beta * (u - self.threshold))
 
-    def ends(self, u: Any) -> tuple[Any, ...]:
+    def ends(self, u: Array) -> tuple[Array, ...]:
         """log(1 + exp(-|v|)) with v = beta (u - theta), the part of the antiderivative that decays, and
         exp(-|v|).
         """
@@ -80,8 +81,8 @@ class Logistic(SigmoidFunction):
         return decaying, small
 
     def mean(
-        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
-    ) -> Any:
+        self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
+    ) -> Array:
         """(log(1 + exp(beta (b - theta))) - log(1 + exp(beta (a - theta)))) / (beta (b - a)); near a = b the
         Taylor series about a.
         """

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.numerics.intervals import Interval, times
 from deodar.numerics.sigmoids._base import SigmoidFunction
@@ -36,12 +37,12 @@ class SemiLinear(SigmoidFunction):
     slope: Annotated[float, Live("1/activation", lower=0, meaning="output per unit of activation")] = 1.0
     threshold: Annotated[float, Live("activation", meaning="activation below which there is no output")] = 0.0
 
-    def __call__(self, u: Any) -> Any:
+    def __call__(self, u: Array) -> Array:
         return jnp.maximum(0.0, self.slope * (u - self.threshold))
 
     def mean(
-        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
-    ) -> Any:
+        self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
+    ) -> Array:
         """The output in the middle where the range does not cross the threshold; else slope (max(a, b) -
         theta)^2 / (2 |b - a|).
         """

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.numerics.intervals import Interval
 from deodar.numerics.sigmoids._base import SigmoidFunction
@@ -34,12 +35,12 @@ class Step(SigmoidFunction):
 
     threshold: Annotated[float, Live("activation", meaning="activation above which the output is 1")] = 0.0
 
-    def __call__(self, u: Any) -> Any:
+    def __call__(self, u: Array) -> Array:
         return (u > self.threshold).astype(u.dtype)
 
     def mean(
-        self, a: Any, b: Any, at_a: tuple[Any, ...] | None = None, at_b: tuple[Any, ...] | None = None
-    ) -> Any:
+        self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
+    ) -> Array:
         """The share of the range that lies above the threshold."""
         va, vb = a - self.threshold, b - self.threshold
         d = vb - va

@@ -12,6 +12,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.typing import DTypeLike
 
 from deodar import codec
 from deodar.errors import WorldError, did_you_mean
@@ -347,7 +348,7 @@ class Arena(PureWorld):
         }
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
-    def _deviates(self, own: PyTree, tick: Any, dtype: Any) -> dict[str, Any]:
+    def _deviates(self, own: PyTree, tick: Any, dtype: DTypeLike) -> dict[str, Any]:
         """Standard normal deviates of a period for each noise, as many as the largest needs: one graph for
         all compiles faster.
         """
