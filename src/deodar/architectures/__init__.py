@@ -1,7 +1,7 @@
 """Published models as functions that return a `Model`, one file each: `dd.architectures.saliency()`.
 
-Where a file and its function share a name, the function is what `deodar.architectures` gives; import from the
-file what else it holds.
+Where a module and its function share a name, `deodar.architectures` exports the function; import other names
+from the module.
 """
 
 from deodar.architectures.behaviour import behaviour, behaviours, competition, precondition, suppression

@@ -1,16 +1,16 @@
 """The template of an elementary behaviour that can be planned: motivation, precondition, intention, condition
 of satisfaction.
 
-Each is a field over the places where the behaviour can begin. Activation at a place in `motivation` says that
-it is worth doing there; this raises, one step back, the `precondition` of being there, which holds the
-`intention` down until it is released. `satisfaction` tells that it is done. Numbers in the names of the
-parameters below are those of the paper's figures 2 to 4.
+Each is a field over the positions at which the behaviour can begin. Activation at a position in `motivation`
+means that the behaviour is useful there. It activates the `precondition` at the position one step back, which
+inhibits the `intention` until the precondition is released. `satisfaction` detects that the behaviour is
+complete. Numbers in the names of the parameters below are those of the paper's figures 2 to 4.
 
 References:
     Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), section 3.1,
-    figures 2 and 3, appendix A and table 2, and its published simulator, which wins where the print differs.
-    Sandamirskaya, Richter & Schöner (2011), A neural-dynamic architecture for behavioral organization of an
-    embodied agent, ICDL.
+    figures 2 and 3, appendix A and table 2, and its published simulator, which is followed where the paper
+    differs. Sandamirskaya, Richter & Schöner (2011), A neural-dynamic architecture for behavioral
+    organization of an embodied agent, ICDL.
 """
 
 from __future__ import annotations
@@ -27,15 +27,17 @@ from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.logistic import Logistic
 
 NARROW, WIDE = 2.0, 4.0
-"""Widths of excitation and of inhibition, cm (table 2)."""
+"""Widths of excitation and inhibition, cm (table 2)."""
 
 TAU, RESTING, STEEP = 5.0, -5.0, 4.0
-"""Of all four fields; time in steps of the published simulation."""
+"""Time constant, resting level and slope of the sigmoid of all four fields; time is in steps of the published
+simulation.
+"""
 
 QUADRATURE = "point"
-"""Of all fields, as in the published simulator.
+"""Quadrature of all fields, as in the published simulator.
 
-Sums over cells reach the same goals (`python benchmarks/quadratures.py spa`).
+With `cell` the robot reaches the same goals (`python benchmarks/quadratures.py spa`).
 """
 
 LATERAL = {
@@ -58,21 +60,20 @@ STRENGTHS = {
     "7 satisfaction to precondition": -15.0,
     "2a precondition to motivation": 5.0,
 }
-"""Document parameters: one knob for all behaviours of a model."""
+"""Document parameters, shared by all behaviours of a model."""
 
 AHEAD = 0.2
-"""Share of a step by which satisfaction releases preconditions ahead of where the vehicle is."""
+"""Distance ahead of the vehicle at which satisfaction releases preconditions, as a share of a step."""
 
 
 def elementary_behaviour(
     axes: Sequence[Axis], step: Sequence[float], noise: float = 1.0, boundary: str | None = None
 ) -> Model:
-    """One behaviour, to be inserted into a model as a group.
+    """Create one behaviour, to be inserted into a model as a group.
 
     Args:
-        axes: the space, in cm.
-        step: where one execution leads, from where it begins, in cm along each axis. A plan grows by it,
-            backwards.
+        axes: axes of the space, in cm.
+        step: displacement by one execution, in cm along each axis. A plan grows backwards by this step.
         noise: strength of the noise of each field; 1 adds deviates of 1 / tau in a step of 1 with cells of 1.
         boundary: of all kernels; none: the axes decide.
     """
@@ -83,10 +84,10 @@ def elementary_behaviour(
     back, release = tuple(-s for s in step), tuple(AHEAD * s for s in step)
 
     def spread(a: str, b: str, knob: str, by: Sequence[float] | None = None) -> None:
-        """A connection through a kernel; where `by` says how far it is shifted, that comes first.
+        """Add a connection through a kernel, after a shift by `by` if it is given.
 
-        What is shifted beyond an end is lost, and what a kernel carries beyond it comes back at the other end
-        (published code). So the margin of a field, whose preconditions lie outside, is held down.
+        The shift drops values beyond an end, and the kernel wraps around the ends (as in the published code).
+        So the margin of a field, whose preconditions lie outside, is inhibited.
         """
         kernel = [Gaussian(STRENGTHS[knob], NARROW, normalized=True, boundary=ends)]
         through = model.add(Convolve(kernel, name=f"{a} to {b}"))
@@ -94,9 +95,9 @@ def elementary_behaviour(
         (fields[a] if by is None else moved(fields[a], f"{a} beside {b}", by)) >> through >> fields[b]
 
     def plain(a: str, b: str, knob: str, by: Sequence[float]) -> None:
-        """A shifted connection without a kernel.
+        """Add a shifted connection without a kernel.
 
-        That of 7 must not have one: its release would be too weak, and the vehicle stall.
+        Connection 7 must not have a kernel: its release would be too weak, and the vehicle would stall.
         """
         strength = model.add(Gain(STRENGTHS[knob], name=f"{a} to {b}"))
         model.link(f"{strength.path}.factor", knob)

@@ -1,16 +1,15 @@
-"""Elementary behaviours and what orders them: intention, condition of satisfaction, precondition,
-suppression, competition.
+"""Elementary behaviours and their order: intention, condition of satisfaction, precondition, suppression,
+competition.
 
-A behaviour begins with its task, goes on for as long as it takes, and ends when its condition of satisfaction
-is met. Which of several behaviours may be active is decided by nodes between them, never by a program: a
-precondition holds one back until another is satisfied, suppression interrupts one while another is active,
-competition lets one of two through.
+A behaviour begins with its task and ends when its condition of satisfaction is met. Nodes between behaviours
+decide which of them may be active: a precondition inhibits one behaviour until another is satisfied,
+suppression interrupts one while another is active, competition selects one of two.
 
 References:
     Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.5 and eq. 10 (intention and condition of
     satisfaction). Richter, Sandamirskaya & Schöner (2012), A robotic architecture for action selection and
-    behavioral organization inspired by human cognition, IROS (the nodes between behaviours). All strengths
-    here are ours, by arithmetic that stands beside them.
+    behavioral organization inspired by human cognition, IROS (the nodes between behaviours). The strengths
+    are deodar's, derived in the comments beside them.
 """
 
 from __future__ import annotations
@@ -30,15 +29,15 @@ from deodar.numerics.windows import Window
 
 TAU, STEEP = 20.0, 8.0
 QUICK = 10.0
-"""Time constant of tasks and of what holds behaviours back, ms: it must be there before an intention has
-risen.
+"""Time constant of tasks and of the nodes that inhibit intentions, ms: they must be active before an
+intention is.
 """
 
 NODES = {"task": (-1.0, 0.0), "intention": (-2.0, 2.0), "satisfaction": (-6.0, 4.5)}
 """Resting level and self-excitation.
 
-Any two of task, intention and signal leave `satisfaction` at -1 or below; all three bring it to 1, its own
-excitation to 5.5. With task and its own excitation alone it stays at 1.5, without the task it falls to -1.5.
+Any two of task, intention and signal leave `satisfaction` at -1 or below; all three raise it to 1, and its
+self-excitation then to 5.5. Task and self-excitation alone keep it at 1.5; without the task it falls to -1.5.
 """
 
 STRENGTHS = {
@@ -47,45 +46,47 @@ STRENGTHS = {
     "intention to satisfaction": 2.0,
     "satisfaction to intention": -6.0,
 }
-"""Document parameters: one knob for all behaviours of a model."""
+"""Document parameters, shared by all behaviours of a model."""
 
 HOLD = -6.0
-"""Strength of everything that holds an intention down: more than task and self-excitation together."""
+"""Strength of each inhibition of an intention: more than task and self-excitation together."""
 
 SIGNAL = 2.0
-"""What a signal that the goal is reached must bring to `satisfaction`."""
+"""Strength of the signal at `satisfaction` while the goal is reached."""
 
 ON = 2.0
-"""What turns a task on."""
+"""Strength of the input that activates a task."""
 
 PREDICT, LIFT = 3.0, 3.0
-"""From the intention's field to that of satisfaction, and from the node to its field."""
+"""Strengths from the field `goal` to the field `outcome`, and from a node to its field."""
 
 LOCAL, WIDTH = 6.0, 4.0
 """Integral and width of the fields' local excitation; the width in units of the axes."""
 
 
 def behaviour(axes: Sequence[Axis] = (), noise: float = 0.3) -> Model:
-    """One behaviour, to be inserted as a group: `task`, `intention` and `satisfaction`, and with axes a field
-    for each of the latter two.
+    """Create one behaviour, to be inserted as a group: the nodes `task`, `intention` and `satisfaction`.
+
+    With axes, intention and satisfaction also have a field each.
 
     Equation::
 
         tau du_int/dt = -u_int + h + w f(u_int) + 3 f(task) - 6 f(u_CoS)
         tau du_CoS/dt = -u_CoS + h + w f(u_CoS) + 3 f(task) + 2 f(u_int) + signal
 
-    The signal (2 while the goal is reached) arrives at `satisfaction`. With axes there is one more layer: a
-    peak of `goal`, lifted by the intention, says what is intended; it predicts in `outcome` what will be
-    perceived then. There the signal is a peak: where what is perceived matches the prediction. What is
-    intended arrives at `goal`, what is perceived at `outcome`, both with about 3.
+    The signal (2 while the goal is reached) arrives at `satisfaction`. With axes the behaviour has a second
+    layer. A peak of `goal`, which the intention boosts, represents the intended value; it pre-shapes the
+    expected value in `outcome`. A peak in `outcome`, where perception matches the expectation, is the signal.
+    Connect the intended value to `goal` and the perceived value to `outcome`, each with a strength of about
+    3.
 
     Args:
-        axes: of what is intended and perceived; none: nodes only.
+        axes: axes of the intended and perceived values; none: nodes only.
         noise: strength of the noise of each node, and of each field at its samples.
 
     Reference:
-        Sandamirskaya (2014), eq. 10. There the field of satisfaction inhibits the intention's; here it does
-        so through its node, which stays on as long as the task does.
+        Sandamirskaya (2014), eq. 10. There the field of satisfaction inhibits the field of the intention;
+        here its node inhibits the node of the intention, and remains active as long as the task.
     """
     model = Model("elementary behaviour")
     for name, value in STRENGTHS.items():
@@ -118,12 +119,13 @@ def behaviour(axes: Sequence[Axis] = (), noise: float = 0.3) -> Model:
 
 
 def precondition(model: Model, first: str, then: str) -> Handle:
-    """Let one behaviour wait until another is satisfied: a node that `then`'s task turns on, and `first`'s
-    satisfaction off.
+    """Add a node that inhibits one behaviour until another is satisfied.
+
+    The task of `then` activates the node, the satisfaction of `first` inhibits it.
 
     Args:
-        model: holds both behaviours, inserted as groups.
-        first: group of the behaviour that has to be done before.
+        model: the model, with both behaviours inserted as groups.
+        first: group of the behaviour that must be satisfied first.
         then: group of the behaviour that waits.
 
     Returns:
@@ -137,13 +139,14 @@ def precondition(model: Model, first: str, then: str) -> Handle:
 
 
 def suppression(model: Model, by: str, of: str) -> Handle:
-    """Let one behaviour interrupt another: a node that is on while `by` is intended, and holds the intention
-    of `of` down.
+    """Add a node that interrupts one behaviour while another is active.
+
+    The intention of `by` activates the node, which inhibits the intention of `of`.
 
     Args:
-        model: holds both behaviours, inserted as groups.
-        by: group of the behaviour that goes first.
-        of: group of the behaviour that is interrupted; it goes on when the other has ended.
+        model: the model, with both behaviours inserted as groups.
+        by: group of the behaviour that interrupts.
+        of: group of the behaviour that is interrupted; it continues when the other has ended.
 
     Returns:
         The node `by suppresses of`.
@@ -155,25 +158,25 @@ def suppression(model: Model, by: str, of: str) -> Handle:
 
 
 def competition(model: Model, one: str, other: str) -> None:
-    """Let only one of two behaviours be active at a time: their intentions inhibit each other.
+    """Let two behaviours compete, so that only one is active at a time: their intentions inhibit each other.
 
-    Who is first wins; where both are, noise decides.
+    The behaviour that begins first is selected; if both begin at the same time, noise decides.
 
-    There is no node between them: a delay in mutual inhibition would switch both off and on again before one
-    wins.
+    The inhibition is direct: with a node between them, the delay would switch both off and on again before
+    one is selected.
 
     Args:
-        model: holds both behaviours, inserted as groups.
-        one: group of one.
-        other: group of the other.
+        model: the model, with both behaviours inserted as groups.
+        one: group of the first behaviour.
+        other: group of the second behaviour.
     """
     for a, b in ((one, other), (other, one)):
         model[f"{a}.intention"] >> model.add(Gain(HOLD, name=f"{a} against {b}")) >> model[f"{b}.intention"]
 
 
 def behaviours(noise: float = 0.3) -> Model:
-    """Five behaviours at work: `find` before `reach`, `avoid` in its way, and beside them `look left` or
-    `look right`.
+    """Create a model with five behaviours: `find` before `reach`, `avoid`, which interrupts `reach`, and
+    `look left` or `look right`.
     """
     x = Axis("x", 0.0, 100.0, 101, unit="cm")
     model = Model("behaviours")

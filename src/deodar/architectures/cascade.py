@@ -1,4 +1,4 @@
-"""The transitions of a sequence, read from a record of `serial_order`: what switched on and off, and when."""
+"""The transitions of a sequence, from a record of `serial_order`, with the times of their instabilities."""
 
 from __future__ import annotations
 
@@ -17,18 +17,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ActionTransition:
-    """One action's end and the beginning of the next, as times in the unit of the record; NaN: it did not
-    happen.
+    """The transition from one action to the next, as times in the unit of the record; NaN: did not occur.
 
     Attributes:
         item: position in the sequence, from 1.
-        place: of the peak that told that the action was done.
-        satisfied: the condition of satisfaction was detected.
-        off: the ordinal node went off.
-        action_off: the peak of the action decayed.
-        released: the peak of the condition of satisfaction decayed.
-        next_on: the next ordinal node came on.
-        next_action: the next action had a peak.
+        place: position of the peak of the condition of satisfaction.
+        satisfied: time at which the condition of satisfaction was detected.
+        off: time at which the ordinal node switched off.
+        action_off: time at which the peak of the action decayed.
+        released: time at which the peak of the condition of satisfaction decayed.
+        next_on: time at which the next ordinal node switched on.
+        next_action: time at which the next action had a peak.
     """
 
     item: int
@@ -42,8 +41,8 @@ class ActionTransition:
 
     @property
     def in_order(self) -> bool:
-        """Whether the instabilities followed each other as in section 4.4 of Sandamirskaya & Schöner (2010);
-        after the last item nothing follows.
+        """Whether the instabilities occurred in the order of section 4.4 of Sandamirskaya & Schöner (2010);
+        the last item has no next node or action.
         """
         times = [self.satisfied, self.off, self.action_off, self.released, self.next_on, self.next_action]
         known = times if not np.isnan(self.next_on) else times[:4]
@@ -51,7 +50,7 @@ class ActionTransition:
 
 
 def cascade_paths(items: int) -> list[str]:
-    """The paths to record for `cascade`."""
+    """Return the paths to record for `cascade`."""
     return [
         *(f"item {k}.node.activation" for k in range(1, items + 1)),
         "action.activation",
@@ -60,12 +59,13 @@ def cascade_paths(items: int) -> list[str]:
 
 
 def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[ActionTransition]:
-    """The transitions between two moments of a single run, one for each time that an ordinal node went off.
+    """Return the transitions within a time window of a single run, one each time an ordinal node switches
+    off.
 
     Args:
-        data: a record of `cascade_paths(...)`, of every step.
-        begin: first moment.
-        stop: moment before which all is looked at.
+        data: a record of `cascade_paths(...)` with every step.
+        begin: start of the window.
+        stop: end of the window, excluded.
     """
     part = data.sel(time=slice(begin, min(stop, float(data["time"][-1]))))
     time = part["time"].values
@@ -101,7 +101,7 @@ def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Ac
 
 
 def _switches(on: np.ndarray, to: bool) -> list[int]:
-    """Samples at which a state has become `to`."""
+    """Return the indices at which a state changes to `to`."""
     return [int(j) + 1 for j in np.flatnonzero((on[1:] == to) & (on[:-1] != to))]
 
 

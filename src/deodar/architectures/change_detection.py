@@ -1,16 +1,17 @@
-"""Working memory with change detection: is what is shown now the same as what was shown before?
+"""Working memory with change detection: a test array is the same as the sample array or different.
 
-Three layers over one feature. `contrast` detects what is new, `memory` takes it over and keeps it, and
-`inhibition`, which both excite, inhibits both: around each peak of the memory, and at the place of each peak
-in the contrast field. So what is held already makes no peak in `contrast` when it is shown again, and what is
-not does. While a decision is asked for, a peak in `contrast` turns the node `different` on, and without one
-the memory turns on `same`.
+The architecture has three layers over one feature. `contrast` detects new values and `memory` holds them.
+`inhibition`, which both excite, inhibits both: around each peak of `memory`, and at the position of each peak
+of the memory in `contrast`. A value that the memory holds therefore creates no peak in `contrast` when it is
+shown again, and a new value does. While a decision is requested, a peak in `contrast` activates the node
+`different`; without one, the memory activates `same`.
 
 References:
     Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation, maintenance, and
     updating of representations in visual working memory, Brain Research 1299, 17-32 (three layers with shared
     inhibition). Johnson, Spencer, Luck & Schöner (2009), A dynamic neural field model of visual working
-    memory and change detection, Psychological Science 20(5), 568-577 (the decision). All parameters are ours.
+    memory and change detection, Psychological Science 20(5), 568-577 (the decision). All parameters are
+    deodar's.
 """
 
 from __future__ import annotations
@@ -32,16 +33,16 @@ from deodar.numerics.windows import Window
 TAU, RESTING, STEEP = 20.0, -5.0, 4.0
 
 QUICK, SLOW = 10.0, 60.0
-"""Inhibition is quicker than what it balances.
+"""Time constants, ms. Inhibition is faster than the excitation that it balances.
 
-The node `same` is slower than a new peak, since the memory speaks for it from the start.
+The node `same` is slower than a new peak, since the memory excites it from the start.
 """
 
 LOCAL = {"contrast": 4.0, "memory": 16.0, "inhibition": 0.0}
-"""Integral of local excitation: peaks in `contrast` need their input, those in `memory` do not."""
+"""Integral of local excitation: peaks in `contrast` are input-driven, those in `memory` self-sustained."""
 
 WIDTH = 8.0
-"""Of local excitation and of all couplings but one, and of what is shown, deg."""
+"""Width of local excitation, of all couplings but one, and of the shown items, deg."""
 
 COUPLINGS = {
     ("contrast", "memory"): (6.0, WIDTH),
@@ -53,31 +54,32 @@ COUPLINGS = {
 """Integral and width of the coupling between two layers."""
 
 ITEM = 6.5
-"""Strength of what is shown, at `contrast`; at `memory` a fifth of it arrives."""
+"""Strength of a shown item at `contrast`; at `memory` it is a fifth of this."""
 
 DIRECT = 0.2
 
 UNASKED, ASK, DIFFERENT, SAME, AGAINST, HELD = -7.0, 5.0, 4.5, 3.0, -8.0, 4.0
-"""Both nodes rest at -7, so that neither can come on before it is asked.
+"""Parameters of the decision. Both nodes rest at -7, so neither is active before a decision is requested.
 
-While it is, the memory lifts `same` to 1, a new peak `different` to 2.5. A new peak is soon taken over by the
-memory; what it said holds itself, at 2, for as long as the question stands.
+During the request, the memory raises `same` to 1 and a new peak raises `different` to 2.5. The memory soon
+holds the new item too; the active node then sustains itself, at 2, until the request ends.
 """
 
 SAMPLE, TEST, LENGTH = (200.0, 700.0), (1700.0, 2300.0), 2600.0
-"""When the sample is shown, when the test is shown and the decision asked for, and how long a trial is, ms.
+"""Time window of the sample, time window of the test and the request for a decision, length of a trial,
+ms.
 """
 
 
 def colour_axis() -> Axis:
-    """The circle of hues where no axis is given."""
+    """Return the default axis: a circle of hues."""
     return Axis("colour", 0.0, 360.0, 120, periodic=True, unit="deg")
 
 
 def change_detection(axis: Axis | None = None, noise: float = 0.3) -> Model:
-    """The three layers and the two nodes, to be inserted as a group.
+    """Create the three layers and the two nodes, to be inserted as a group.
 
-    What is shown arrives at `shown.input`; what asks for a decision at `ask.input`, as 1.
+    Connect the shown items to `shown.input` and the request for a decision, a value of 1, to `ask.input`.
 
     Equation::
 
@@ -88,7 +90,7 @@ def change_detection(axis: Axis | None = None, noise: float = 0.3) -> Model:
     u is `contrast`, w `memory`, v `inhibition`; k_uv and k_wv are negative.
 
     Args:
-        axis: of what is remembered, in deg; none: a circle of hues.
+        axis: axis of the remembered feature, in deg; none: a circle of hues.
         noise: strength of the noise of all fields and nodes.
     """
     x = axis or colour_axis()
@@ -132,12 +134,11 @@ def change_trial(
     test: Sequence[float] = (40.0, 180.0, 250.0),
     noise: float = 0.3,
 ) -> Model:
-    """The template in a trial: a sample, a pause of a second, and a test, together with the question.
+    """Create a trial of `change_detection`: a sample, a pause of one second, a test with the decision.
 
     Args:
-        sample: places of what is shown first, deg, at least 50 apart; three are the most that are surely
-            held.
-        test: places of what is shown then.
+        sample: values of the sample items, deg, at least 50 apart; the memory holds up to three reliably.
+        test: values of the test items, deg.
         noise: as in `change_detection`.
     """
     model = change_detection(noise=noise)

@@ -1,18 +1,17 @@
-"""A field over space and feature with read-outs: what was seen where, asked by place or by feature.
+"""A feature-space field with read-outs: a cue for a position selects the feature there, and vice versa.
 
-`bound` holds objects below threshold. A cue in `feature` lifts a ridge of all places with this feature, a cue
-in `space` one of all features at this place; where a ridge meets an object there is a peak, and its
-contraction over the other dimension brings the bound value to the other field. So the two fields bind through
-one that holds both.
+`bound` receives objects as input below threshold. A cue in `feature` creates a ridge over all positions with
+this feature, a cue in `space` a ridge over all features at this position. Where a ridge overlaps an object, a
+peak forms; its contraction over the other dimension activates the bound value in the other field.
 
-What was selected outlives its cue: the peak in `bound` and those it brought forth hold each other. Inhibition
-of all three ends it.
+The selection outlives its cue: the peak in `bound` and the peaks that it activates excite each other.
+Inhibition of all three fields ends it.
 
 References:
     Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 5 and 6 and section 5 (expansion,
     contraction and the ridge that meets an object). Johnson, Spencer & Schöner (2008), Moving to higher
     ground: The dynamic field theory and the dynamics of visual cognition, New Ideas in Psychology 26(2)
-    (coupled feature-space fields). All parameters are ours.
+    (coupled feature-space fields). All parameters are deodar's.
 """
 
 from __future__ import annotations
@@ -33,17 +32,17 @@ from deodar.numerics.windows import Window
 TAU, RESTING, STEEP = 20.0, -5.0, 4.0
 
 RIDGE, READ = 2.2, 6.0
-"""From a read-out to `bound`, and from the strongest place along the other dimension back.
+"""Strengths from a read-out field to `bound`, and from the maximum along the other dimension back.
 
-An object of 3.5 and a ridge of 2.2 detect together (0.7 above threshold, before local excitation); two ridges
-that meet where nothing is stay at -0.6. What is read out lifts a read-out to 1.
+An object of 3.5 and a ridge of 2.2 together create a peak (0.7 above threshold, before local excitation); two
+ridges that cross without an object stay at -0.6. The value read out raises a read-out field to 1.
 """
 
 OBJECT, CUE, RELEASE = 3.5, 6.0, -10.0
 
 
 def axes() -> tuple[Axis, Axis]:
-    """Space and feature where none are given."""
+    """Return the default axes of space and feature."""
     return Axis("space", 0.0, 100.0, 51, unit="deg"), Axis(
         "feature", 0.0, 360.0, 36, periodic=True, unit="deg"
     )
@@ -55,14 +54,14 @@ def feature_space(
     sigma: Sequence[float] = (5.0, 20.0),
     noise: float = 0.2,
 ) -> Model:
-    """The three fields `bound`, `space` and `feature`, to be inserted as a group.
+    """Create the three fields `bound`, `space` and `feature`, to be inserted as a group.
 
-    Objects arrive at `bound`, with about 3.5; cues at `space` or `feature`, with about 6.
+    Connect objects to `bound` with a strength of about 3.5, cues to `space` or `feature` with about 6.
 
     Args:
-        space: the axis of places; none: 0 to 100 deg.
+        space: the axis of positions; none: 0 to 100 deg.
         feature: the axis of features; none: a circle of hues.
-        sigma: width of what is excited locally, along space and along feature, in their units.
+        sigma: width of local excitation, along space and along feature, in their units.
         noise: strength of the noise of all fields.
     """
     x, f = space or axes()[0], feature or axes()[1]
@@ -86,7 +85,9 @@ def feature_space(
 
 
 def binding(noise: float = 0.2) -> Model:
-    """The template with three objects, a cue for a feature and then one for a place."""
+    """Create a `feature_space` model with three objects, a cue for a feature and then a cue for a
+    position.
+    """
     model = feature_space(noise=noise)
     model.describe(name="binding")
     x, f = axes()

@@ -1,9 +1,8 @@
-"""Follow the carrot: a vehicle steers towards a point of its path that lies a little ahead.
+"""Follow the carrot: a vehicle steers towards a point of its path at a fixed distance ahead.
 
-A plain method that planners are compared with.
-
-No fields: the path is given, and a step is a few lines. It moves the same vehicle in the same world as an
-architecture does, through the same sensors (`place`, `heading`) and motors (`left`, `right`).
+The method is a baseline for planners. It has no fields, and its path is an argument. It drives the same
+vehicle in the same world as an architecture, through the same sensors (`place`, `heading`) and motors
+(`left`, `right`).
 """
 
 from __future__ import annotations
@@ -27,10 +26,9 @@ class Carrot:
     """Parameters of the method.
 
     Attributes:
-        speed: of both wheels together, motor steps/s.
-        gain: difference of the wheels for an error of the heading, motor steps/s per rad.
-        ahead: how far before the vehicle the point lies from which the nearest point of the path is taken, in
-            the unit of the arena.
+        speed: mean speed of both wheels, motor steps/s.
+        gain: difference of the wheel speeds per error of the heading, motor steps/s per rad.
+        ahead: distance ahead of the vehicle of the point `look` in `wheels`, in the unit of the arena.
     """
 
     speed: float = 400.0
@@ -44,9 +42,10 @@ class Carrot:
             )
 
     def wheels(self, place: np.ndarray, heading: np.ndarray, paths: np.ndarray) -> np.ndarray:
-        """Speeds (copies, 2) of the left and the right wheel.
+        """Return the speeds (copies, 2) of the left and the right wheel.
 
-        The carrot is the point of the path nearest to the one that lies `ahead` before the vehicle::
+        The carrot is the point of the path nearest to the point at a distance `ahead` in front of the
+        vehicle::
 
             carrot = argmin over p of |p - look|,  look = place + ahead (cos heading, sin heading)
             turn = gain (angle of (carrot - place) - heading), the angle between -pi and pi
@@ -55,30 +54,30 @@ class Carrot:
         Args:
             place: (copies, 2).
             heading: (copies,), rad.
-            paths: (copies, points, 2); a shorter one is filled up with its last point.
+            paths: (copies, points, 2); shorter paths repeat their last point.
 
         Reference:
             Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), appendix B, eq. 18; after Barton
-            (2001). The paper gives the distance of 1 cm. It prints neither the speed nor the gain, nor how an
-            angle becomes speeds of wheels.
+            (2001). The paper states the distance, 1 cm. It states neither the speed and the gain nor the
+            conversion of an angle to wheel speeds.
         """
         look = place + self.ahead * np.stack([np.cos(heading), np.sin(heading)], axis=-1)
         nearest = np.argmin(((paths - look[:, None]) ** 2).sum(axis=-1), axis=1)
         to = paths[np.arange(len(paths)), nearest] - place
         error = np.arctan2(to[:, 1], to[:, 0]) - heading
         turn = self.gain * (error - 2 * np.pi * np.round(error / (2 * np.pi)))
-        # on the carrot there is no direction: straight on
+        # at the carrot its direction is undefined: drive straight on
         turn = np.where(np.linalg.norm(to, axis=1) > 1e-9, turn, 0.0)
         return np.stack([self.speed - turn / 2, self.speed + turn / 2], axis=-1)
 
 
 @dataclass(frozen=True)
 class Followed:
-    """Courses of a batch.
+    """The paths that a batch of vehicles drove.
 
     Attributes:
         pose: true x, y and heading, (steps + 1, copies, 3).
-        touching: whether it touched something, (steps + 1, copies).
+        touching: whether the vehicle touched an obstacle or wall, (steps + 1, copies).
         steps: for each copy the step at which it ended.
     """
 
@@ -89,12 +88,12 @@ class Followed:
 
 @dataclass(frozen=True)
 class Ending:
-    """When a copy ends: once it was within `radius` of the arena's goal `times` times, or at the limit.
+    """The condition at which a copy ends: `times` steps within `radius` of the arena's goal, or the limit.
 
     Attributes:
-        radius: of the goal, in the unit of the arena.
-        times: steps that a copy has to be there, not necessarily one after another.
-        limit: most steps, of the arena's period each.
+        radius: radius around the goal, in the unit of the arena.
+        times: number of steps within the radius, not necessarily consecutive.
+        limit: largest number of steps, each one period of the arena.
     """
 
     radius: float = 7.0
@@ -112,14 +111,14 @@ def follow(
     seed: int = 0,
     between: Callable[[], None] = lambda: None,
 ) -> Followed:
-    """Let a batch of vehicles follow a path each, from the starts that the arena has for their trials.
+    """Drive a batch of vehicles, each along its path, from the arena's starts of their trials.
 
-    The batch goes on until all copies have ended.
+    The batch runs until all copies have ended.
 
     Args:
-        arena: where they drive.
+        arena: the arena.
         paths: for each trial rows of x and y, in the unit of the arena.
-        trials: the trial of each copy; it keys its noise.
+        trials: trial number of each copy; it selects the noise of the copy.
         carrot: the parameters.
         ending: when a copy ends; none: the defaults of `Ending`.
         seed: seed of all noise.

@@ -1,14 +1,15 @@
-"""A plan on a line: the wave of motivation of simultaneous planning and action, in one dimension.
+"""A plan in one dimension: the wave of motivation of simultaneous planning and action.
 
-Two elementary behaviours go left and right along a corridor with a wall at either end. A goal excites the
-motivation of both. Motivation spreads from it at a constant speed, each behaviour's against its own
-direction, because every place worth leaving is a place worth getting to. Where it meets the place of the
-walker, the precondition is released, and an intention makes it walk, at every place as long as there is one.
-When the goal goes, the plan decays; when it comes back elsewhere, another one spreads.
+Two elementary behaviours move left and right along a corridor with a wall at either end. A goal excites the
+motivation of both. Motivation spreads from it at a constant speed, for each behaviour against its direction
+of motion, because the start position of a useful step is itself a position to reach. Where the wave meets the
+position of the walker, the precondition is released, and an intention moves the walker while it is active.
+When the goal is removed, the plan decays; when a goal appears elsewhere, a new plan spreads.
 
 Reference:
     Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action, Adapt. Behav. 23(5), figure 3,
-    with a second behaviour. The walker is ours: its place is the integral of what the intentions ask for.
+    with a second behaviour. The walker is deodar's addition: its position is the integral of the
+    speed that the intentions command.
 """
 
 from __future__ import annotations
@@ -36,28 +37,28 @@ OPPOSITE = -10.0
 """Strength from the precondition of one behaviour to the motivation of the other (connection 2d)."""
 
 SPEED = 0.27
-"""How fast the walker goes while it intends to, cm per step of 64 ms: about the speed of the robot in the
+"""Speed of the walker while an intention is active, cm per step of 64 ms: about the speed of the robot in the
 paper's mazes.
 """
 
 START = 100.0
 GOALS = ((40.0, (0.0, 450.0)), (150.0, (450.0, 1e6)))
-"""Places of the goal, and when it is there."""
+"""Positions of the goal, and the time window of each."""
 
 
 def corridor() -> Axis:
-    """The axis of all fields, one sample a cm."""
+    """Return the axis of all fields, with one sample per cm."""
     return Axis("x", 0.0, LENGTH, int(LENGTH) + 1, unit="cm")
 
 
 def plan(
     start: float = START, goals: Sequence[tuple[float, tuple[float, float]]] = GOALS, noise: float = 1.0
 ) -> Model:
-    """The corridor with a walker in it. Time is in steps of 64 ms, as in `spa`.
+    """Create the corridor with a walker. Time is in steps of 64 ms, as in `spa`.
 
     Args:
-        start: where the walker stands at the start, cm.
-        goals: for each goal its place in cm, and from when to when it is there.
+        start: position of the walker at the start, cm.
+        goals: for each goal its position in cm, and its time window.
         noise: strength of the noise of each field.
     """
     x = corridor()
@@ -74,7 +75,7 @@ def plan(
         )
         for k, (at, when) in enumerate(goals, 1)
     ]
-    # a node that excites itself as much as it decays keeps what it gets: it integrates
+    # a linear node whose self-excitation equals its decay is an integrator
     gone = model.add(Field("gone", [], tau=1.0, resting_level=0.0, sigmoid=Linear(), kernel=[Gaussian(1.0)]))
     here = model.add(SpaceCode([x], 3.0, 8.0, offset=start, name="own place"))
     gone >> here

@@ -1,15 +1,14 @@
-"""A transformation between frames of reference: from places on the retina and the gaze to places before the
-body.
+"""A transformation between reference frames: from retinal position and gaze to body-centred position.
 
-An object at x on the retina, seen with the gaze at g, is at x + g before the body. Two forms compute it. The
-steered form moves the whole pattern by the number g. The diagonal form needs nothing but fields: a field over
-both dimensions has a peak where the ridge of the object and the ridge of the gaze cross, and all pairs with
-the same sum lie on one diagonal, which is summed up. Both hold any number of objects.
+An object at x on the retina, seen with the gaze at g, is at x + g relative to the body. Two forms compute the
+sum. The steered form shifts the whole pattern by the number g. The diagonal form uses fields only: a field
+over both dimensions has a peak where the ridge of the object and the ridge of the gaze cross; all pairs with
+the same sum lie on one diagonal, and the read-out sums along it. Both forms transform any number of objects.
 
 Reference:
     Schneegans & Schöner (2012), A neural mechanism for coordinate transformation predicts pre-saccadic
     remapping, Biol. Cybern. 106, 89-109 (the transformation field and its diagonals). All parameters are
-    ours.
+    deodar's.
 """
 
 from __future__ import annotations
@@ -34,28 +33,29 @@ from deodar.parameters import show
 RETINA = Axis("retina", -30.0, 30.0, 61, unit="deg")
 GAZE = Axis("gaze", -30.0, 30.0, 61, unit="deg")
 BODY = Axis("body", -60.0, 60.0, 121, unit="deg")
-"""In steps of 1 deg; the body's axis holds every sum of the two others."""
+"""Axes in steps of 1 deg; the body's axis contains every sum of the other two."""
 
 TAU, RESTING, STEEP = 20.0, -5.0, 4.0
 WIDTH = 3.0
 
 RIDGE = 3.5
-"""Of an object and of the gaze in the transformation field: one alone stays at -1.5, both together reach 2.
+"""Strength of the ridges of an object and of the gaze in the transformation field: one ridge alone raises
+activation to -1.5, both together to 2.
 """
 
 SUMMED, SHIFTED = 0.85, 6.0
-"""Into the body's field, from the sum along diagonals (a peak is about 7 samples wide) and from the shifted
-pattern.
+"""Strengths of the inputs of the body's field: from the sum along diagonals (a peak is about 7 samples wide)
+and from the shifted pattern.
 """
 
 FORMS = ("diagonal", "steered")
 
 
 def reference_frame(form: str = "diagonal", noise: float = 0.2) -> Model:
-    """The fields `retina` and `body` and what lies between them, to be inserted as a group.
+    """Create the fields `retina` and `body` and the transformation between them, to be inserted as a group.
 
-    Objects arrive at `retina`, with about 6; the gaze, -20 to 20 deg (a peak nearer to the end of its axis is
-    cut), at `gaze`.
+    Connect objects to `retina` with a strength of about 6, and the gaze, -20 to 20 deg (a peak nearer to the
+    end of its axis would be cut off), to `gaze`.
 
     Equation::
 
@@ -64,7 +64,7 @@ def reference_frame(form: str = "diagonal", noise: float = 0.2) -> Model:
                   s_body(y) = 0.7 integral f(u_transform(y - g', g')) dg'
 
     Args:
-        form: diagonal or steered.
+        form: `diagonal` or `steered`.
         noise: strength of the noise of all fields.
     """
     if form not in FORMS:
@@ -81,8 +81,8 @@ def reference_frame(form: str = "diagonal", noise: float = 0.2) -> Model:
 
 
 def remapping(noise: float = 0.2) -> Model:
-    """Both forms side by side: one object stands still before the body while the gaze jumps, so that it jumps
-    on the retina; another is new.
+    """Create both forms side by side: the gaze jumps, so that an object that does not move jumps on the
+    retina; another object is new.
     """
     model = Model("remapping")
     place, jumps = 12.0, ((0.0, 0.0, 400.0), (15.0, 400.0, 800.0), (-10.0, 800.0, 1e6))

@@ -1,8 +1,8 @@
 """Saliency: a colour cue selects an object in a picture, and a motor variable turns to it.
 
-The architecture of figure 2 in Sandamirskaya (2014), with one change: the printed colour-space field is
-defined over image column and hue, where objects in other rows of a photograph merge; here it is defined over
-both image dimensions and hue.
+The architecture is that of figure 2 in Sandamirskaya (2014), with one change: the printed colour-space field
+is defined over image column and hue, where objects in different rows of a photograph merge; here it is
+defined over both image dimensions and hue.
 
 References:
     Sandamirskaya (2014), Dynamic neural fields as a step toward cognitive neuromorphic architectures, Front.
@@ -29,33 +29,33 @@ from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.windows import Window
 
 SIDE = 80.0
-"""Length of the scene's sides; a picture fills it along its longer side."""
+"""Length of the sides of the scene; the longer side of a picture has this length."""
 
 CUE_AT = 500.0
-"""Moment at which the cue comes, ms."""
+"""Time at which the cue begins, ms."""
 
 CELLS, PIXELS, HUES = 40, 160, 30
 
 QUADRATURE = "point"
-"""Of all fields: the parameters were found with sums over points.
+"""Quadrature of all fields; the parameters were found with `point`.
 
-With cells one colour less is selected on the untuned photographs (`python benchmarks/quadratures.py`).
+With `cell` one colour less is selected on the untuned photographs (`python benchmarks/quadratures.py`).
 """
 
-# The parameters were found on photographs by hand with a separate prototype, and moved here by the rule that
-# integrals carry the grid step; none is printed in the paper.
+# The parameters were tuned on photographs with a separate prototype and scaled so that integrals include the
+# grid step; the paper prints none of them.
 TAU, STEEP = 100.0, 15.0
 CUE_STRENGTH = 4.3
-"""Integral of the kernel that widens the colour field's peak into a ridge; the ridge is then 3.8 high."""
+"""Integral of the kernel from the colour field's peak to a ridge; the height of the ridge is then 3.8."""
 
 STILL = 0.15
 """Standard deviation of the noise of a field without interaction."""
 
 
 def scene() -> tuple[Axis, Axis, Axis]:
-    """The axes of the colour-space field: x to the right, y downwards, hue in degrees.
+    """Return the axes of the colour-space field: x to the right, y downwards, hue in degrees.
 
-    Samples stand in the middle of cells.
+    Samples are in the middle of cells.
     """
     edge = SIDE / CELLS / 2
     x, y = (Axis(name, edge, SIDE - edge, CELLS) for name in ("x", "y"))
@@ -63,8 +63,8 @@ def scene() -> tuple[Axis, Axis, Axis]:
 
 
 def retina() -> tuple[Axis, Axis, Axis]:
-    """The axes over which the picture is sensed: finer than the field's, so that every pixel keeps a colour
-    of its own.
+    """Return the axes over which the picture is sampled, finer than the field's, so that pixels are not
+    averaged before their hue is computed.
     """
     edge = SIDE / PIXELS / 2
     x, y = (Axis(name, edge, SIDE - edge, PIXELS) for name in ("x", "y"))
@@ -72,7 +72,7 @@ def retina() -> tuple[Axis, Axis, Axis]:
 
 
 def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
-    """The architecture, with a cue for one hue that comes at CUE_AT.
+    """Create the architecture, with a cue for one hue that begins at CUE_AT.
 
     Args:
         hue: cued hue, degrees.
@@ -101,7 +101,7 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
     )
     eye >> colours >> blur >> model.add(Gain(2.6, name="camera strength")) >> perceptual
 
-    # for looking at: the field seen along the rows, as the paper's figure draws it
+    # for figures only: the maximum of the field along the rows, as in the paper's figure
     perceptual["activation"] >> model.add(Project([x, hues], reduce="max", name="seen"))
 
     named = model.add(
@@ -142,5 +142,5 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
 
 
 def _noise(axes: list[Axis]) -> float:
-    """Strength at which a field's noise has the standard deviation STILL at every sample of these axes."""
+    """Return the strength at which a field's noise has the standard deviation STILL at each sample."""
     return STILL * math.sqrt(2 * TAU * cell(axes))

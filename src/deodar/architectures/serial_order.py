@@ -1,17 +1,17 @@
 """Serial order: a chain of ordinal nodes that learns a sequence of actions from a demonstration and produces
 it again.
 
-Each position in the sequence is a pair: an ordinal node that is on while its action is under way, and a
-memory node that stays on until the next one has begun. Weights lead from each ordinal node to an action
-field; they learn what the node stands for. An action ends when the field of the condition of satisfaction
-detects what it predicts. Its peak switches all ordinal nodes off, and the memory node hands over to the next.
+Each position in the sequence has two nodes: an ordinal node that is active during its action, and a memory
+node that is active until the next ordinal node is. Weights from each ordinal node to an action field learn
+the action of that node. An action ends when the field of the condition of satisfaction detects its predicted
+outcome. The peak of that field switches all ordinal nodes off, and the memory node activates the next one.
 
-`serial_order` is the chain by itself; `lesson` gives it a demonstration and then what is seen while it
-produces, as timed stimuli, so that it runs without any world.
+`serial_order` creates the chain; `lesson` adds a demonstration and then the perceived outcomes during
+production, both as timed stimuli, so that it runs without a world.
 
 Reference:
     Sandamirskaya & Schöner (2010), An embodied account of serial order, Neural Networks 23(10), sections 4.1
-    to 4.4, eqs. 4 to 8, table B.1. Where we depart from the table, it says so below.
+    to 4.4, eqs. 4 to 8, table B.1. Deviations from the table are stated below.
 """
 
 from __future__ import annotations
@@ -40,16 +40,19 @@ TAU, STEEP = 10.0, 100.0
 """Time constant of all nodes and fields, ms, and beta of all sigmoids (table B.1)."""
 
 QUADRATURE = "point"
-"""Of all fields: the strengths count active samples of a grid in steps of 1.
+"""Quadrature of all fields: the strengths count active samples of a grid in steps of 1.
 
-Sums over cells produce the same sequences (`python benchmarks/quadratures.py`).
+With `cell` the model produces the same sequences (`python benchmarks/quadratures.py`).
 """
 
 LEARN = 1 / 20.0
 """Speed of learning, 1/ms: tau_l is 20 ms (table B.1)."""
 
 RESTING = {"node": -0.5, "memory": -2.0, "action": -1.8, "satisfaction": -2.0}
-"""Table B.1 prints -5 for ordinal nodes: too low for c2, the next one would never come on."""
+"""Resting levels.
+
+Table B.1 prints -5 for ordinal nodes: too low for c2, as no next node could become active.
+"""
 
 STRENGTHS = {
     "c0 self-excitation": 7.2,
@@ -60,46 +63,48 @@ STRENGTHS = {
     "c5 other nodes to memory": -2.0,
     "c6 to memory": 2.6,
 }
-"""Document parameters, numbered as in eqs. 4 and 5, with their sign: one knob for all pairs."""
+"""Document parameters, shared by all pairs, numbered as in eqs. 4 and 5, with their sign."""
 
 EXCITATION, WIDTH, INHIBITION = 0.9, 3.0, 0.5
 """Kernel of action and satisfaction, for an axis in steps of 1.
 
-The table prints 5.0 for the inhibition, with which no peak can stand.
+The table prints 5.0 for the inhibition, with which no peak can exist.
 """
 
 READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -15.0
-"""c_ord; the homogeneous boost (c_ord in the table: the whole field would be above threshold); c_A (1.5 in
-the table); c_CoS.
+"""c_ord; the homogeneous boost (c_ord in the table, with which the whole field would be above threshold); c_A
+(1.5 in the table); c_CoS.
 """
 
 SHOWN, SEEN = 2.0, 0.95
-"""Strengths of what arrives at the action field while it is demonstrated (c_vis), and at the satisfaction
-field (c_vis^C, a little below its 1).
+"""Strengths of the input of the action field during the demonstration (c_vis), and of the satisfaction field
+(c_vis^C, slightly below the table's 1).
 """
 
 START, CLEAR = 3.8, -20.0
-"""Pulse that turns the first node on, and what clears all between learning and production.
+"""Strengths of the pulse that activates the first node, and of the inhibition of all nodes and fields between
+learning and production.
 
-Ours: the paper says nothing of either.
+Both are deodar's; the paper does not mention them.
 """
 
 SHOW, DEMONSTRATION, LOOK = 1000.0, 1000.0, 400.0
-"""When the first action is shown, from one to the next, and from one place to the next during production, ms.
+"""Time of the first demonstrated action, interval between demonstrated actions, and interval between
+perceived positions during production, ms.
 """
 
 MOST = 50
-"""Longest chain (a guess: nobody learns a longer list at once)."""
+"""Longest chain (a guess: longer lists are not learned from one demonstration)."""
 
 
 def action_axis() -> Axis:
-    """The axis of actions where none is given: a circle in steps of 1."""
+    """Return the default axis of actions: a circle in steps of 1."""
     return Axis("action", 0.0, 60.0, 60, periodic=True)
 
 
 def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
-    """One position of a sequence, to be inserted as a group: ordinal node, memory node, and the weights to
-    what they stand for.
+    """Create one position of a sequence, to be inserted as a group: ordinal node, memory node, and the
+    weights to the action field.
 
     Equation::
 
@@ -107,11 +112,11 @@ def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
         tau dm/dt = -m + h_m + c4 f(m) + c5 others + c6 f(d)
         tau_l dM(x)/dt = gate (f(U_A(x)) - M(x)) f(d)
 
-    `others` is the sum of all other ordinal nodes: the sum of all, which arrives at `others.input`, less the
-    own one. U_A arrives at `meaning.post`; `meaning.output` is f(d) M(x).
+    `others` is the sum of all other ordinal nodes: the sum of all nodes, which arrives at `others.input`,
+    minus this one. U_A arrives at `meaning.post`; `meaning.output` is f(d) M(x).
 
     Args:
-        axis: of the actions.
+        axis: axis of the actions.
         noise: strength of the noise of both nodes; 0.22 is a standard deviation of 0.05 at rest.
 
     Reference:
@@ -135,16 +140,16 @@ def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
 
 
 def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) -> Model:
-    """The chain: pairs `item 1`, `item 2`, ..., the fields `action` and `satisfaction`.
+    """Create the chain: pairs `item 1`, `item 2`, ..., the fields `action` and `satisfaction`.
 
-    What is demonstrated arrives at `action`, what is perceived at `satisfaction`. `learning` and `producing`
-    are the modes: the weights learn during the one and are read during the other (the paper reads them
-    always; then a slip of learning would hold itself). `start` is a pulse at the first node, `clear` inhibits
-    everything but the weights.
+    Connect demonstrated actions to `action` and perceived outcomes to `satisfaction`. `learning` and
+    `producing` are the modes: the weights learn during the first and are read during the second (in the paper
+    they are always read, so that an error of learning would sustain itself). `start` is a pulse at the first
+    node, `clear` inhibits all nodes and fields; the weights keep their values.
 
     Args:
-        items: positions, 1 to 50. A sequence may be shorter.
-        axis: of the actions and of what is perceived when they are done, in steps of 1; none: a circle of 60.
+        items: number of positions, 1 to 50. A sequence may be shorter.
+        axis: axis of the actions and of their perceived outcomes, in steps of 1; none: a circle of 60.
         noise: strength of the noise of all nodes, and of the fields at each of their samples.
 
     Reference:
@@ -201,19 +206,19 @@ def lesson(
     axis: Axis | None = None,
     noise: float = 0.22,
 ) -> Model:
-    """The chain with a demonstration and then a world to produce in, both as timed stimuli.
+    """Create the chain with a demonstration and the perceived outcomes during production, as timed stimuli.
 
-    First each action of the sequence is shown for 0.6 s, and towards its end what is perceived when it is
-    done; a second for each. Then all is cleared but the weights, and the first node is started. From then on
-    the places in `seen` are perceived one after another, over and over, 0.2 s each with 0.2 s between:
-    whatever is being done can be completed when its place comes round, and not before.
+    First each action of the sequence is shown for 0.6 s, and its outcome towards the end of that time; each
+    action takes one second. Then all activation is cleared, and the first node is started. From then on
+    the positions in `seen` are perceived one after another, repeatedly, each for 0.2 s with a pause of 0.2 s:
+    an action ends only when its position is perceived.
 
     Args:
-        sequence: places of the actions on the axis, in their order; repeats are allowed.
-        seen: places that are perceived during production, in this order; none: those of the sequence, each
-            once, from low to high.
-        items: positions of the chain; none: as many as the sequence has. With more, the node after the last
-            comes on and stands for nothing.
+        sequence: positions of the actions on the axis, in their order; repeats are allowed.
+        seen: positions that are perceived during production, in this order; none: those of the sequence, each
+            once, in increasing order.
+        items: positions of the chain; none: the length of the sequence. In a longer chain, the node after the
+            last action becomes active without an action.
         axis: as in `serial_order`.
         noise: as in `serial_order`.
     """
@@ -257,17 +262,17 @@ def lesson(
 
 
 def production_start(items: int) -> float:
-    """When production begins in a lesson of so many items, ms."""
+    """Return the time at which production begins in a lesson of `items` items, ms."""
     return SHOW + DEMONSTRATION * items
 
 
 def lesson_end(items: int, places: int) -> float:
-    """When the last place has been perceived for the last time in a lesson, and what follows is over, ms."""
+    """Return the time at which a lesson ends: after the last position and the transition that follows, ms."""
     return production_start(items) + 1000.0 + LOOK * items * places + 400.0
 
 
 def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str = "") -> None:
-    """A connection whose strength is a document parameter."""
+    """Add a connection whose strength is a document parameter."""
     through = model.add(Gain(STRENGTHS[knob], name=knob.split(" ", 1)[1]), group=group)
     model.link(f"{through.path}.factor", knob)
     source >> through >> target

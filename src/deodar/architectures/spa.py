@@ -1,22 +1,22 @@
 """Simultaneous planning and action: a wave of motivation spreads from a goal, and a robot follows it through
 a maze.
 
-Four elementary behaviours (`_elementary_behaviour`) go north, south, west and east. The goal excites all
-motivation fields; obstacles inhibit them. Each place worth going north from makes the places south of it
-preconditions, and these motivate whatever leads there. Where the wave of motivation meets the robot, its
-place releases the precondition: an intention rises, excites an action field over turning angles, and the
-wheels turn. Nothing says when planning ends and acting begins, so that a plan changes while it is carried
-out.
+Four elementary behaviours (`_elementary_behaviour`) move north, south, west and east. The goal excites all
+motivation fields; obstacles inhibit them. Motivation to go north at a position activates the precondition one
+step south of it, which motivates the behaviours that lead there. Where the wave of motivation meets the
+robot, the robot's position releases the precondition: an intention becomes active, excites an action field
+over turning angles, and the wheels turn. Planning and acting are simultaneous, so a plan can change while the
+robot follows it.
 
-The document counts time in steps of the published simulation, 64 ms each, and space in cm, which are its
-cells: its numbers stand here as they are. Space is that of the arena (x to the east, y to the north); row r
-and column c of the published fields are `place(r, c)`.
+The unit of time is a step of the published simulation, 64 ms, and the unit of space is 1 cm, a cell of the
+published fields, so the published numbers apply unchanged. Space is that of the arena (x to the east, y to
+the north); row r and column c of the published fields are `place(r, c)`.
 
 References:
     Billing, Lowe & Sandamirskaya (2015), Simultaneous planning and action: neural-dynamic sequencing of
     elementary behaviors in robot navigation, Adapt. Behav. 23(5), section 3.2, figure 4, appendix A, table 2.
-    Their published simulator (BSD) decides where print and code differ: eq. 12 prints pi for tau; eq. 4 lets
-    satisfaction inhibit motivation, which the code does not; the action field's tau is 3.
+    Their published simulator (BSD) is followed where paper and code differ: eq. 12 prints pi for tau; eq. 4
+    lets satisfaction inhibit motivation, which the code does not; the action field's tau is 3.
 """
 
 from __future__ import annotations
@@ -51,14 +51,14 @@ from deodar.worlds.arena.arena import Arena
 
 STEP_MS = 64.0
 STEP = 5.0
-"""How far one execution of a behaviour leads, cm."""
+"""Displacement by one execution of a behaviour, cm."""
 
 DIRECTIONS = {"north": (0.0, STEP), "south": (0.0, -STEP), "west": (-STEP, 0.0), "east": (STEP, 0.0)}
 OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}
 
 NOISE = {"none": (0.0, 0.0, 1.0), "low": (0.05, 0.5, 1.0), "high": (1.0, 2.0, 1.2)}
-"""Levels of section 4: of the map (share of its strength), of the place sense (cm), and a factor on the place
-input (published code only).
+"""Levels of noise of section 4: on the map (share of its strength), on the position sensor (cm), and the
+factor on the position input (published code only).
 """
 
 BETWEEN = {
@@ -67,60 +67,61 @@ BETWEEN = {
 }
 """Strengths between behaviours, as document parameters.
 
-They are not shifted, and have no kernel. Connection 2b does not occur.
+These connections have no shift and no kernel. Connection 2b is not used.
 """
 
 ENDS = "periodic"
-"""Kernels in space wrap round the ends, as published.
+"""Kernels in space wrap around the ends, as published.
 
-What lies beyond the ends must inhibit: kernels that see nothing there leave the outermost cells half of the
-walls' inhibition, motivation leaks into them, and intentions rise where no precondition can hold them down.
+The outermost cells need inhibition from beyond the ends. With zero padding they receive half of the walls'
+inhibition, motivation spreads into them, and intentions become active where no precondition inhibits them.
 """
 
 TOUCHED = 1e-3
-"""Share of a cell from which it counts as wall: as in the published map, all cells that a wall touches."""
+"""Covered share from which a cell counts as wall: all cells that a wall touches, as in the published map."""
 
 GOAL, PLACE, MAP = 10.0, 8.0, -15.0
 SPOT = 3.0
-"""Width of the Gaussians at the goal and at the robot's place, cm."""
+"""Width of the Gaussians at the goal and at the robot's position, cm."""
 
 BIN = 3.6
-"""Degrees in one of the 100 angles of action and proximity fields."""
+"""Width of each of the 100 bins of the action and proximity fields, degrees."""
 
 SENSOR_BINS = (55, 65, 90, 100, 1, 10, 35, 45)
 SENSOR_SHARES = (1.0, 1.0, 0.5, 0.5, 0.5, 0.5, 1.0, 1.0)
-"""Bins at which the infrared sensors 0 to 7 act (50 is straight ahead, larger is to the right), and how much:
-those aside and behind half.
+"""Bins of the infrared sensors 0 to 7 (50 is straight ahead, larger is to the right), and their strengths:
+half for the sensors at the sides and the back.
 """
 
 SPEED, TURN = 500.0, 400.0
-"""Motor steps per second: of a wheel for an input of 1, and the largest difference between both."""
+"""Speed of a wheel for an input of 1, and largest difference between the wheels, motor steps per second."""
 
 MAZES = ("z", "large")
 
 CASE_3 = ((50, 60), (40, 40))
 """Row and column of start and goal of case 3.
 
-The goal is published. The start is inferred: the text does not print it, and the pose in the world file is in
-sight of the goal; from this one, looking east, route and times of the narrative come out.
+The goal is published. The start is inferred: the text does not state it, and from the pose in the world file
+the goal is visible; from this start, with a heading to the east, the robot takes the route of the narrative
+at the published times.
 """
 
 OBSTACLES = {"full": ((-65.0, 90.0), (10.0, 20.0)), "partial": ((-65.0, 82.5), (30.0, 15.0))}
-"""Middle and size (x and y, cm) of the obstacles of case 3: the one closes the northern route, the other
+"""Middle and size (x and y, cm) of the obstacles of case 3: `full` closes the northern route, `partial`
 leaves a lane of 10 cm.
 """
 
 
 def place(row: float, column: float) -> tuple[float, float]:
-    """Where a cell of the published fields stands (counted from 1), x and y in cm; in the Z-maze and in the
-    large one alike.
+    """Return x and y in cm of a cell of the published fields (counted from 1), in the Z-maze and the large
+    maze.
     """
     return column - 105.0, 105.0 - row
 
 
 def space(arena: Arena) -> tuple[Axis, Axis]:
-    """The axes of the planning fields: the arena and a margin of 5 cm, one sample a cm, as in the published
-    fields.
+    """Return the axes of the planning fields: the arena and a margin of 5 cm, one sample per cm, as
+    published.
     """
     left, low, right, high = (100 * v for v in arena.layout.border)
     x = math.floor(left + 1e-6) - 4, math.ceil(right - 1e-6) + 5
@@ -129,7 +130,7 @@ def space(arena: Arena) -> tuple[Axis, Axis]:
 
 
 def turning() -> Axis:
-    """Angles to turn by, to the right positive; samples are the 100 bins, the 50th straight ahead."""
+    """Return the axis of turning angles, positive to the right: 100 bins, the 50th straight ahead."""
     return Axis("turn", -49 * BIN, 51 * BIN, 100, periodic=True, unit="deg")
 
 
@@ -140,12 +141,13 @@ def maze(
     goal: Sequence[float] | np.ndarray | None = None,
     **others: Any,
 ) -> Arena:
-    """A published maze with the robot in it, lengths in cm; start and goal are those of case 3 (in the large
-    maze: the file's) unless given.
+    """Create a published maze with the robot, lengths in cm.
+
+    The default start and goal are those of case 3 (in the large maze: those of its file).
 
     Args:
-        name: z or large, or another arena.
-        noise: none, low or high: of the place sense, which is new at every second step.
+        name: `z` or `large`, or another arena.
+        noise: `none`, `low` or `high`: noise of the position sensor, resampled every second step.
         start: x, y and heading (rad), or a row for each trial.
         goal: x and y, or a row for each trial.
         others: see `Arena`.
@@ -163,22 +165,22 @@ def maze(
 
 
 def level(noise: str) -> tuple[float, float, float]:
-    """The numbers of a level of noise."""
+    """Return the numbers of a level of noise."""
     if noise not in NOISE:
         raise ParameterError(f"there is no level of noise {noise!r}", fix=did_you_mean(noise, NOISE))
     return NOISE[noise]
 
 
 def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> Model:
-    """The architecture for an arena; it is run in this one, or in another of the same size and unit.
+    """Create the architecture for an arena; it can run in this arena or another of the same size and unit.
 
     Args:
-        arena: says how large the planning fields are, and in which unit places are read; `maze` makes the
-            published ones.
-        noise: none, low or high: on the map, and how strong the place input is. That of the place sense
-            itself is the arena's.
-        place_factor: factor on the place input. None takes that of the level of noise: 1.2 with high noise, 1
-            otherwise. The paper does not mention the 1.2; the published code has it.
+        arena: the arena, which defines the size of the planning fields and the unit of positions; `maze`
+            creates the published ones.
+        noise: `none`, `low` or `high`: noise on the map, and the default `place_factor`. The noise of the
+            position sensor is a parameter of the arena.
+        place_factor: factor on the position input. None: the factor of the level of noise, 1.2 with high
+            noise, 1 otherwise. The paper does not mention the 1.2; the published code has it.
     """
     on_map, _, by_level = level(noise)
     trust = by_level if place_factor is None else place_factor
@@ -208,7 +210,7 @@ def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> 
         _compete(model, name)
     model.add(
         Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose")
-    )  # these two are for records and figures; nothing reads them
+    )  # these two are only for records and figures
     model.add(Sensor("touching", sensor="touching"))
     return model
 
@@ -216,8 +218,8 @@ def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> 
 def _planning_inputs(
     model: Model, axes: Sequence[Axis], on_map: float, trust: float, cm: float
 ) -> tuple[Handle, Handle, Handle]:
-    """What the motivation fields hear of walls and goal, and the satisfaction fields of the robot's place;
-    `cm`: in a unit of the arena.
+    """Create the inputs from walls and goal to the motivation fields, and from the robot's position to the
+    satisfaction fields; `cm`: the arena's unit in cm.
     """
     both = Axis("x, y", 0, 1, 2)
     walls = model.add(Convolve([Gaussian(MAP, 2.0, normalized=True, boundary=[ENDS])], name="walls"))
@@ -232,8 +234,8 @@ def _planning_inputs(
 
 
 def _proximity(model: Model) -> tuple[Handle, Handle]:
-    """The proximity field: what it inhibits around each obstacle, and the little that it adds everywhere
-    (published code).
+    """Create the proximity field: inhibition around each obstacle, and a weak homogeneous input (published
+    code).
     """
     turn = turning()
     seen = model.add(Sensor("infrared", [Axis("sensor", 0, 7, 8)], sensor="infrared"))
@@ -262,8 +264,8 @@ def _proximity(model: Model) -> tuple[Handle, Handle]:
 
 
 def _action(model: Model, name: str, compass: Handle, biases: Sequence[Handle], wheels: Handle) -> None:
-    """The action field of a behaviour: below threshold by the heading alone, it turns the wheels when there
-    is an intention.
+    """Create the action field of a behaviour: below threshold with the heading alone, it turns the wheels
+    while an intention is active.
     """
     turn, (east, north) = turning(), DIRECTIONS[name]
     base = math.degrees(math.atan2(north, east))
@@ -290,7 +292,7 @@ def _action(model: Model, name: str, compass: Handle, biases: Sequence[Handle], 
     model[f"{name}.intention"] >> strongest >> model.add(Gain(2.0, name="go"), group=name) >> action
     for bias in biases:
         bias >> action
-    # right mirrors left about bin 50.5, as published, and straight ahead is 50: half a bin to the left
+    # right is left mirrored at bin 50.5, as published; straight ahead is bin 50, so half a bin to the left
     angles = np.deg2rad(turn.points)
     weights = {
         "left": np.sin(angles - math.radians(BIN) + math.pi / 3),
@@ -308,8 +310,8 @@ def _action(model: Model, name: str, compass: Handle, biases: Sequence[Handle], 
 
 
 def _compete(model: Model, name: str) -> None:
-    """Where one behaviour's precondition asks to be, both perpendicular ones are motivated, and the opposite
-    one is not.
+    """Connect preconditions: each excites the motivation of both perpendicular behaviours and inhibits that
+    of the opposite one.
     """
     asks = model[f"{name}.precondition"]
     aside, against = BETWEEN

@@ -1,22 +1,22 @@
-"""A field in two layers: excitation in one, inhibition in another that it drives.
+"""A two-layer field: an excitatory layer that drives an inhibitory layer.
 
-The one-layer field computes inhibition without delay. With a layer of its own inhibition comes later, by the
-time constant of that layer, has a threshold, and may be shared: connect other fields to `inhibitory`, and
-`inhibitory` to them.
+The one-layer field computes inhibition without delay. In a two-layer field, inhibition lags by the time
+constant of the inhibitory layer, has a threshold, and may be shared: connect other fields to `inhibitory`,
+and `inhibitory` to them.
 
     tau u' = -u + h + s(x, t) + integral k(x - x') g(u(x')) dx'
              + integral k_v(x - x') g_v(v(x')) dx' - c integral g_v(v) dx
     tau_v v' = -v + h_v + integral k_d(x - x') g(u(x')) dx'
 
-With tau_v far below tau, h_v = 0 and g_v linear it is the one-layer field whose kernels are those of k, and
-those of k_v convolved with k_d.
+With tau_v far below tau, h_v = 0 and g_v linear it equals the one-layer field whose kernels are those of k,
+and those of k_v convolved with k_d.
 
 References:
-    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.1 (when a layer of its own may be left out). Amari
-    (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27, section
-    5 (two layers). Johnson, Spencer & Schöner (2009), A layered neural architecture for the consolidation,
-    maintenance, and updating of representations in visual working memory, Brain Res. 1299, 17-32 (a layer of
-    inhibition shared by two fields).
+    Sandamirskaya (2014), Front. Neurosci. 7:276, section 2.1 (when the inhibitory layer may be omitted).
+    Amari (1977), Dynamics of pattern formation in lateral-inhibition type neural fields, Biol. Cybern. 27,
+    section 5 (two layers). Johnson, Spencer & Schöner (2009), A layered neural architecture for the
+    consolidation, maintenance, and updating of representations in visual working memory, Brain Res. 1299,
+    17-32 (a layer of inhibition shared by two fields).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Layer:
     """The field dynamics of one layer.
 
     Attributes:
-        tau: time constant, in the document's time unit; > 0, and no shorter than the step.
+        tau: time constant, in the document's time unit; > 0, and at least one step.
         resting_level: h, attractor without input.
         sigmoid: g, output; none: the logistic function.
         noise: strength of the noise.
@@ -52,7 +52,7 @@ class Layer:
     noise: float = 0.0
 
     def field(self, name: str, axes: Sequence[Axis], kernel: Sequence[Kernel] = ()) -> Field:
-        """The layer as a field."""
+        """Return the layer as a field."""
         sigmoid = self.sigmoid or Logistic()
         return Field(name, axes, self.tau, self.resting_level, sigmoid, kernel, noise=self.noise)
 
@@ -67,16 +67,17 @@ def two_layer_field(
     excitatory: Layer | None = None,
     inhibitory: Layer | None = None,
 ) -> Model:
-    """The two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group; input
-    goes to `excitatory`.
+    """Create the two layers, fields `excitatory` and `inhibitory`, to be inserted into a model as a group.
+
+    Connect inputs to `excitatory`.
 
     Args:
-        axes: the metric dimensions, of both layers.
+        axes: the metric dimensions of both layers.
         kernel: k, excitation within the excitatory layer, summed.
         inhibition: k_v, from the inhibitory layer to the excitatory one, summed; its amplitudes are negative,
             as in a Field.
-        global_inhibition: c, on the integral of the inhibitory layer's output.
-        drive: k_d, from the excitatory layer to the inhibitory one, summed; none: place by place, with a
+        global_inhibition: c, factor of the integral of the inhibitory layer's output.
+        drive: k_d, from the excitatory layer to the inhibitory one, summed; none: pointwise, with a
             strength of 1.
         excitatory: tau, h, g and noise of the excitatory layer; none: the defaults of `Layer`.
         inhibitory: tau_v, h_v, g_v and noise of the inhibitory layer; none: the defaults of `Layer`, with a
