@@ -1,3 +1,3 @@
-"""Experiments: trials with actions, events and measures; one row each; carried out in any pieces with the
-same result.
+"""Experiments: trials with actions, events and measures, one row per trial; the results do not depend on the
+pieces in which trials are run.
 """

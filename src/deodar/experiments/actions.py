@@ -1,4 +1,4 @@
-"""What is done to a running trial, at a time that was set or when something has happened."""
+"""Actions on a running trial, at a stated time or after an event."""
 
 from __future__ import annotations
 
@@ -25,34 +25,34 @@ WHEN = Recompile(meaning="the event after which it is done; empty: at a time of 
 
 
 class Action(Part):
-    """Base of what is done to a trial.
+    """Base of actions on a trial.
 
     Attributes:
-        at: document time at which it is done; with `when` the time from that event on.
-        when: name of an event; empty: it is done at a time of its own.
+        at: document time of the action; with `when` the time from that event on.
+        when: name of an event; empty: the action has a time of its own.
     """
 
     at: float
     when: str
 
     world_method: ClassVar[str] = ""
-    """Method of the world that `apply` calls: "place", "move" or "remove"; "": none."""
+    """Name of the world's method that `apply` calls: "place", "move" or "remove"; empty: none."""
 
     def paths(self) -> Iterator[str]:
-        """Parameters of the model that it changes."""
+        """Yield the parameters of the model that the action changes."""
         return iter(())
 
     def ports(self) -> Iterator[str]:
-        """Ports of the model that it reads."""
+        """Yield the ports of the model that the action reads."""
         return iter(())
 
     def apply(self, running: RunningTrial) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         raise NotImplementedError
 
 
 ACTIONS = Family(Action)
-"""The kinds of actions, each registered where it is declared."""
+"""The kinds of actions; each is registered where it is declared."""
 
 
 def _plane(action: Action, *names: str) -> Iterator[tuple[str, str]]:
@@ -64,15 +64,15 @@ def _plane(action: Action, *names: str) -> Iterator[tuple[str, str]]:
 @ACTIONS.register
 @dataclass(frozen=True)
 class Place(Action):
-    """Put a thing into the world, or replace the one of that name.
+    """Put a thing into the world, or replace the thing of that name.
 
     Attributes:
-        at: document time from which on it stands there; with `when` the time after that event.
-        thing: its name.
-        center: x and y of its middle, in the unit of the world.
+        at: document time from which on the world contains it; with `when` the time after that event.
+        thing: name of the thing.
+        center: x and y of its centre, in the unit of the world.
         size: along x and y.
         color: red, green and blue, 0 to 1.
-        when: the event after which it is done; empty: at a time of its own.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -102,10 +102,10 @@ class Move(Action):
     """Move a thing of the world.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
-        thing: its name.
-        center: x and y of its middle, in the unit of the world.
-        when: the event after which it is done; empty: at a time of its own.
+        at: document time of the action; with `when` the time after that event.
+        thing: name of the thing.
+        center: x and y of its new centre, in the unit of the world.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -129,9 +129,9 @@ class Remove(Action):
     """Remove a thing from the world.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
-        thing: its name.
-        when: the event after which it is done; empty: at a time of its own.
+        at: document time of the action; with `when` the time after that event.
+        thing: name of the thing.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -147,13 +147,13 @@ class Remove(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Set(Action):
-    """Give a parameter of the model another value.
+    """Set a parameter of the model.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event.
         path: the parameter, of an element or of the document.
-        value: a number, or whatever the parameter takes.
-        when: the event after which it is done; empty: at a time of its own.
+        value: a number, or another valid value of the parameter.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -171,14 +171,14 @@ class Set(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Ramp(Action):
-    """Take a parameter of the model evenly from one value to another, with a new one at each step.
+    """Change a parameter of the model linearly from one value to another, at each step.
 
     Attributes:
         at: document time at which it begins; with `when` the time after that event.
         path: the parameter, a number of an element or of the document.
-        end: its value at the end and from then on.
-        lasting: document time that it takes.
-        start: its value at the beginning; none: the one it then has.
+        end: its value at the end and afterwards.
+        lasting: duration in document time.
+        start: its value at the beginning; none: its present value.
         when: the event after which it begins; empty: at a time of its own.
     """
 
@@ -206,14 +206,16 @@ class Ramp(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Push(Action):
-    """A homogeneous input to a field or node for a while: the boost that brings a field over its detection
-    instability, or a forgetting.
+    """Add a homogeneous input to a field or node for a while.
+
+    For example a boost that brings a field over its detection instability, or one that makes it forget a
+    peak.
 
     Attributes:
         at: document time at which it begins; with `when` the time after that event.
         element: path of the field or node.
-        amount: what is added to its input.
-        lasting: document time for which it is there.
+        amount: value that is added to its input.
+        lasting: duration in document time.
         when: the event after which it begins; empty: at a time of its own.
     """
 
@@ -224,7 +226,7 @@ class Push(Action):
     when: Annotated[str, WHEN] = ""
 
     def apply(self, running: RunningTrial) -> None:
-        if self.when:  # one that has its own time stands in the model, with a window
+        if self.when:  # a push with a time of its own is part of the model, with a window
             session, path = running.session, f"{running.pushes[self]}.amplitude"
             session.set(path, self.amount)
             running.later(
@@ -235,14 +237,14 @@ class Push(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Record(Action):
-    """Start or stop recording, from the next look on.
+    """Start or stop recording, from the next sampling time on.
 
-    A trial in which recording is started is not recorded before.
+    A trial with an action that starts recording is not recorded before that action.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
-        on: whether what is recorded is kept from then on.
-        when: the event after which it is done; empty: at a time of its own.
+        at: document time of the action; with `when` the time after that event.
+        on: whether values are recorded from then on.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -256,13 +258,13 @@ class Record(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Snapshot(Action):
-    """Keep what ports hold at one moment.
+    """Record the values of ports at one moment.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
-        label: what the record calls it.
+        at: document time of the action; with `when` the time after that event.
+        label: name of the snapshot in the record.
         of: paths of the ports; the path of a field alone means its activation.
-        when: the event after which it is done; empty: at a time of its own.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -287,12 +289,13 @@ class Snapshot(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Reset(Action):
-    """Put the states of all elements back to what they were at the start; time, noise, parameters and the
-    world go on.
+    """Reset the states of all elements to their values at the start of the trial.
+
+    Time, noise, parameters and the world continue.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
-        when: the event after which it is done; empty: at a time of its own.
+        at: document time of the action; with `when` the time after that event.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -308,9 +311,9 @@ class End(Action):
     """End the trial.
 
     Attributes:
-        at: document time at which it is done; with `when` the time after that event.
-        outcome: what the row says.
-        when: the event after which it is done; empty: at a time of its own.
+        at: document time of the action; with `when` the time after that event.
+        outcome: the outcome in the row of the trial.
+        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
@@ -326,14 +329,14 @@ class End(Action):
 
 
 def require(actions: Sequence[Action], world: World | None) -> None:
-    """Refuse actions that call a method which the world does not have."""
+    """Refuse actions that call a method that the world lacks."""
     for action in actions:
         if action.world_method:
             changed(action, world)
 
 
 def targets(action: Action, doc: Document) -> None:
-    """Refuse an action that names what is not in a document."""
+    """Refuse an action that names an element, port or parameter that the document lacks."""
     for path in action.paths():
         find.target(doc, path)
     for path in action.ports():
@@ -343,10 +346,11 @@ def targets(action: Action, doc: Document) -> None:
 
 
 def changed(action: Action, world: World | None) -> World:
-    """The world that an action changes.
+    """Return the world that an action changes.
 
     Raises:
-        WorldError: there is no world, or it does not have the method, or cannot be put back after the trial.
+        WorldError: the model has no world, the world lacks the method, or it cannot be restored after the
+            trial.
     """
     name = type(action).__name__
     if world is None:

@@ -1,4 +1,4 @@
-"""Run many trials of one model as one batch, which becomes narrower as trials end."""
+"""Run many trials of one model as one batch, whose width shrinks as trials end."""
 
 from __future__ import annotations
 
@@ -31,19 +31,17 @@ from deodar.session.session import require_model, require_seed
 from deodar.worlds._base import World
 
 LOOKS = 24
-"""Looks that are taken in one call of the program.
+"""Number of sampling times per call of the program.
 
-What a trial does after it has ended is thrown away: on average half of them.
+The steps of a trial after its end are discarded: on average half of a call.
 """
 
 SHRINKS = 0.5
-"""Share of running copies from which on the batch is halved, so that the same few programs serve every batch
-of its width.
-"""
+"""Share of running copies at which the batch is halved, so that few compiled programs serve every width."""
 
 WORTH = 1e8
-"""Samples of ports times steps that a smaller batch has to save: compiling it takes about half a second (3 ns
-a sample were measured).
+"""Number of samples of ports times steps that a smaller batch must save: compiling takes about half a second
+(measured: 3 ns per sample).
 """
 
 
@@ -63,31 +61,32 @@ def run_batch(
     measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
 ) -> list[Trial]:
-    """Run trials all at once; the result of each is that of `run_trial` but for rounding.
+    """Run trials in one batch; the result of each equals that of `run_trial` up to rounding.
 
     When half of the copies have ended, the others continue in a batch of half the width: always in a world,
     otherwise where this saves more time than compiling takes. The widths follow from the trials alone, so the
     same call gives the same bits each time. Beside other trials the widths may differ: activations then agree
-    to 1e-4 in float32 and to 1e-10 in float64, until the model amplifies the difference. A world is computed
-    inside the step, so each trial has its own; sensors of the world are looked at through the model's own.
-    What events and measures make of a field (its maximum, say) is computed inside the step too; only what is
-    watched is copied whole.
+    same call gives the same bits each time. In a batch with other trials the widths may differ: activations
+    then agree to 1e-4 in float32 and to 1e-10 in float64, until the model amplifies the difference. A world
+    is computed inside the step, so each trial has its own; values of sensors of the world are read from the
+    model's sensors. The reduction of a field for events and measures (for example its maximum) is computed
+    inside the step too; only watched ports are copied whole.
 
     Args:
-        model: the model, as it now is.
-        limit: document time after which each trial ends at the latest.
-        trials: which trials of the seed.
-        watch: paths of ports whose values are kept; the path of a field alone means its activation.
-        events: what may happen; those that `ends` says end a trial.
+        model: the model in its present state.
+        limit: document time after which a trial times out.
+        trials: numbers of the trials of the seed.
+        watch: paths of ports whose values are returned; the path of a field alone means its activation.
+        events: the events to detect; events with `ends` end a trial.
         seed: seed of all noise.
-        world: what the model's sensors read and its motors move, one of pure functions such as an arena; of
-            starts and goals given for each trial each takes its own.
-        every: document time between looks; none: dt.
+        world: the world of the model's sensors and motors, one of pure functions such as an arena; if its
+            starts and goals are given per trial, each trial has its own.
+        every: sampling interval in document time; none: dt.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
         between: called after each call of the program with the number of trials that still run.
-        values: for parameter paths the value that each trial has; not together with a world.
-        measures: what is measured.
+        values: for parameter paths the value of each trial; not together with a world.
+        measures: the measures of each trial.
         tolerant: return the results although all trials diverge, and do not warn.
 
     Returns:
@@ -133,7 +132,7 @@ def run_batch(
     times: list[float] = []
 
     def take(first: int, arrays: Sequence[np.ndarray]) -> None:
-        """Looks after `first` steps and each `gap` more: (trials, looks, ...)."""
+        """Take the samples after `first` steps and each `gap` more: (trials, sampling times, ...)."""
         ticks = [min(first + n * gap, steps) for n in range(arrays[0].shape[1])]
         new = [doc.t0 + tick * float(step) for tick in ticks]
         times.extend(new)
@@ -196,8 +195,9 @@ def run_batch(
 
 
 def _blank(values: np.ndarray, good: np.ndarray) -> np.ndarray:
-    """What looks saw, (copies, looks, ...), with 0 for the looks of a copy from number `good` on: conditions
-    need not know values like NaN.
+    """Return samples, (copies, sampling times, ...), with 0 from number `good` of each copy on.
+
+    Events then need no rule for values like NaN.
     """
     bad = np.arange(values.shape[1]) >= good[:, None]
     return np.where(bad.reshape(*bad.shape, *[1] * (values.ndim - 2)), 0, values) if bad.any() else values
@@ -209,7 +209,7 @@ def _place(doc: Document, view: Observable) -> ReadPlace:
 
 
 def _anything(doc: Document) -> ReadPlace:
-    """The smallest thing to read where only the time is looked at."""
+    """Return the smallest port, to read where only the time is needed."""
     if not doc.entries:
         raise ParameterError("the model is empty, so there is nothing to run")
     return doc.entries[0].id, find.outputs(doc.entries[0])[0]
@@ -217,13 +217,12 @@ def _anything(doc: Document) -> ReadPlace:
 
 @dataclass
 class _Flock:
-    """Copies of a model that run beside each other, and which trials they are.
+    """Copies of a model that run in one batch, and their trials.
 
     Attributes:
-        rows: for each copy the number of its trial among `trials`.
-        batch: the copies, as they run.
-        errors: for the row of each copy that diverged the reason; it may have been one of a trial that had
-            ended.
+        rows: for each copy, the index of its trial in `trials`.
+        batch: the running copies.
+        errors: for the row of each copy that diverged, the reason; its trial may have ended before.
     """
 
     model: Model
@@ -245,7 +244,7 @@ class _Flock:
             self.batch.state, self.batch.keys = self._start(self.batch.program, self.batch.values)
 
     def good(self, ticks: np.ndarray) -> np.ndarray:
-        """For each copy how many of these ticks, in ascending order, come before it diverged."""
+        """Return for each copy how many of these ticks, in ascending order, come before it diverged."""
         out = np.full(len(self.rows), len(ticks))
         for (k, *_), error in self.batch.lost.items():
             self.errors[self.rows[k]] = error
@@ -253,8 +252,10 @@ class _Flock:
         return out
 
     def shrink(self, running: Sequence[int], left: int) -> None:
-        """Halve the batch as long as those that run find room, if that pays in the steps that are left; some
-        that have ended stay, to fill it.
+        """Halve the batch while the running copies fit and the remaining steps save more time than compiling
+        takes.
+
+        Some copies that have ended stay, to fill the batch.
         """
         size = len(self.rows)
         while len(running) <= SHRINKS * size:
@@ -276,8 +277,8 @@ class _Flock:
         self.rows, self.batch = [self.rows[k] for k in keep], fewer
 
     def _begin(self, rows: Sequence[int]) -> Run:
-        """A run of some trials at its start: trials of one batch, or, where parameters differ, points of a
-        sweep.
+        """Return a run of some trials at its start: trials of one batch, or points of a sweep if parameters
+        differ.
         """
         sweep = tuple(map(tuple, self.leaves))
         copies = Batch(len(rows), None, sweep) if sweep else Batch(None, len(rows))
@@ -301,8 +302,8 @@ class _Flock:
         return run
 
     def _start(self, program: Executable, values: Any) -> tuple[Any, Any]:
-        """State and noise keys at the start of points that are trials of their own: points of a sweep share
-        the noise of one.
+        """Return state and noise keys at the start of points that are separate trials: points of a sweep
+        share the noise of one.
         """
         own = {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
         many = jax.vmap(program.program.init, in_axes=(own, None, 0))

@@ -1,4 +1,4 @@
-"""What can be known to be wrong with an experiment before anything runs."""
+"""Checks of an experiment before any trial runs."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 
 def check(experiment: Design, model: Model, world: World | None) -> None:
-    """Refuse an experiment that names what is not there, or holds what cannot be; every problem is listed.
+    """Refuse an experiment with unknown names or invalid values; every problem is listed.
 
     Raises:
-        ParameterError: with all problems.
+        ParameterError: the experiment has problems; the error lists all.
     """
     problems: list[Problem] = []
 
@@ -163,7 +163,7 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
         and isinstance(sigmoid, SigmoidFunction)
         and float(sigmoid(cast("Array", np.array(-1.0)))) > view.threshold
     ):
-        # the smooth foot of a sigmoid would make the whole field one peak, whose centroid is drawn to the
+        # the smooth foot of a sigmoid would make the whole field one peak, whose centroid moves towards the
         # middle of the axis
         what = (
             f"{entry.path}.output is above {view.threshold:g} everywhere, so the whole field would count as"

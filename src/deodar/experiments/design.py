@@ -1,4 +1,4 @@
-"""The design of an experiment as data: model, trials, conditions, actions, factors and measures; and its
+"""The design of an experiment as data: model, trials, conditions, actions, factors and measures, and its
 file.
 """
 
@@ -30,10 +30,10 @@ KINDS: Mapping[str, Mapping[str, type[Part]]] = {
     "factors": {"Factor": Factor},
     "measures": MEASURES,
 }
-"""What may stand under each key of a file."""
+"""The kinds of parts that are valid under each key of a file."""
 
 USUAL = {"factors": "Factor", "measures": "Measure"}
-"""The kind that a file need not write, by key."""
+"""The default kind under each key, which a file need not state."""
 
 OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 """Names of columns that every table has."""
@@ -76,7 +76,7 @@ class Design(Part):
     )
 
     def __post_init__(self) -> None:
-        if self.world is None:  # a parameter that may be anything may also be nothing
+        if self.world is None:  # the type of this parameter is open, so that None is accepted too
             object.__setattr__(self, "world", "")
         super().__post_init__()
 
@@ -107,7 +107,7 @@ class Design(Part):
     # -------------------------------------------------------------------------------------------------- files
 
     def to_data(self) -> dict[str, Any]:
-        """Plain data, as a file holds it; a model or a world that is no file is left out."""
+        """Return plain data as a file contains them; a model or a world without a file is left out."""
         out: dict[str, Any] = {"experiment": VERSION, "name": self.name}
         out |= {"model": str(self.model)} if isinstance(self.model, (str, Path)) else {}
         out |= {"world": self.world} if isinstance(self.world, str) and self.world else {}
@@ -125,15 +125,15 @@ class Design(Part):
 
     @classmethod
     def from_data(cls, data: Any, folder: Path | None = None, read: Callable[[str], Model] = load) -> Self:
-        """The experiment that plain data describe.
+        """Return the experiment that plain data describe.
 
         Args:
             data: the plain data.
-            folder: where the files that it names stand.
-            read: what opens the model of an experiment of version 1, whose paths are rewritten.
+            folder: folder of the files that the data name.
+            read: function that opens the model of an experiment of version 1, whose paths are converted.
 
         Raises:
-            DocumentError: the data describe none; every problem is listed.
+            DocumentError: the data do not describe an experiment; every problem is listed.
         """
         if not isinstance(data, dict) or "experiment" not in data:
             raise DocumentError("is no experiment: it has no key 'experiment'")
@@ -177,7 +177,7 @@ class Design(Part):
         return found
 
     def save(self, path: str | Path, force: bool = False) -> None:
-        """Write it as a file; a model that is no file yet is written beside it, as NAME.model.json."""
+        """Write a file; a model without a file is written beside it, as NAME.model.json."""
         path = output.claim(path, force)
         data = self.to_data()
         if isinstance(self.model, Model):
@@ -198,10 +198,11 @@ class Design(Part):
 
         Args:
             path: the file.
-            read: what opens the model of an experiment of version 1, whose paths are rewritten.
+            read: function that opens the model of an experiment of version 1, whose paths are converted.
 
         Raises:
-            DocumentError: there is none, or it holds something else; every problem is listed.
+            DocumentError: the file does not exist or does not describe an experiment; every problem is
+                listed.
         """
         path = output.location(path)
         try:
@@ -225,7 +226,7 @@ class Design(Part):
 
     @staticmethod
     def schema() -> dict[str, Any]:
-        """JSON Schema of a file."""
+        """Return the JSON Schema of a file."""
         own: dict[str, Any] = schema({"Experiment": Design}, named=False)["oneOf"][0]["properties"]
         own = {key: value for key, value in own.items() if key not in (*KINDS, "kind")}
         own |= {
@@ -255,13 +256,13 @@ class Design(Part):
 
 
 EXAMPLE = "example:"
-"""What the name of an example begins with, which the commands open in the place of a file."""
+"""Prefix of the name of an example, which commands accept in place of a file."""
 
 
 def _migrated(data: Mapping[str, Any], folder: Path | None, read: Callable[[str], Model]) -> dict[str, Any]:
-    """Plain data in the present version.
+    """Return plain data in the present version.
 
-    Of a model that cannot be opened the paths stay as they are: nothing runs before it can.
+    If the model cannot be opened, the paths are not converted: no trial can run without the model.
     """
     model = _beside(data.get("model", ""), folder, False)
     if data["experiment"] != 1:
@@ -273,13 +274,13 @@ def _migrated(data: Mapping[str, Any], folder: Path | None, read: Callable[[str]
 
 
 def _beside(text: Any, folder: Path | None, world: bool) -> Any:
-    """The path of a file that an experiment names, which stands in its folder."""
+    """Return the path of a file that an experiment names, which is in its folder."""
     if not isinstance(text, str) or folder is None or not text:
         return text
     if not world and text.startswith(EXAMPLE):
         return text
     kind, sign, argument = text.partition(":") if world else ("", "", text)
     if world and not (argument and (folder / argument).exists()):
-        # the name of something that comes with deodar, or a file that is found from the working folder
+        # a name of something that deodar installs, or a file in the working folder
         return text
     return f"{kind}{sign}{folder / argument}"

@@ -1,7 +1,7 @@
-"""Events of a trial: each is judged when the trial is sampled, and may end it.
+"""Events of a trial: each is evaluated when the trial is sampled, and may end it.
 
-Events see arrays with the copies and the looks as their first two axes, so that a thousand trials are judged
-at once.
+Events receive arrays whose first two axes are the copies and the sampling times, so that a thousand trials
+are evaluated at once.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ COMPARES = {"above": operator.gt, "below": operator.lt}
 
 @dataclass
 class Looks:
-    """Looks at some copies.
+    """Samples of some copies.
 
     Attributes:
-        times: document time of each look.
-        seen: what each look saw, (copies, looks, ...).
-        first: what the first look of the trials saw, (copies, 1, ...).
-        holds: which events hold at which look, (copies, looks), as far as they have been judged.
+        times: document time of each sampling time.
+        seen: the sampled values, (copies, sampling times, ...).
+        first: the values at the first sampling time of the trials, (copies, 1, ...).
+        holds: which events hold at which sampling time, (copies, sampling times), as far as evaluated.
     """
 
     times: np.ndarray
@@ -38,12 +38,12 @@ class Looks:
 
 
 class Event(Part):
-    """Base of what may happen in a trial.
+    """Base of events of a trial.
 
     Attributes:
-        name: what rows call it.
+        name: name of the event in rows.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then; its name is the outcome.
+        ends: whether the event ends the trial; its name is then the outcome.
     """
 
     name: str
@@ -55,37 +55,37 @@ class Event(Part):
 
     @property
     def views(self) -> tuple[Observable, ...]:
-        """What has to be sampled."""
+        """The values to sample, or their reductions."""
         return ()
 
     @property
     def others(self) -> tuple[str, ...]:
-        """Names of other events that it is made of."""
+        """Names of the other events that the event is made of."""
         return ()
 
     def holds(self, looks: Looks) -> np.ndarray:
-        """Whether it is so at each look, (copies, looks)."""
+        """Return whether the event holds at each sampling time, (copies, sampling times)."""
         raise NotImplementedError
 
 
 EVENTS = Family(Event)
-"""The kinds of events, each registered where it is declared."""
+"""The kinds of events; each is registered where it is declared."""
 
 
 @EVENTS.register
 @dataclass(frozen=True)
 class Crosses(Event):
-    """A port or a sensor lies beyond a value.
+    """A port or a sensor is above or below a value.
 
     Attributes:
-        name: what rows call it.
+        name: name of the event in rows.
         of: path of the port, or name of a sensor of the world; the path of a field alone means its
             activation.
         level: the value.
         side: `above` or `below` it.
-        reduce: what is compared of an array: max, min, mean or sum.
+        reduce: reduction of an array to the compared number: max, min, mean or sum.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -110,9 +110,9 @@ class Reached(Event):
     """A time is reached.
 
     Attributes:
-        name: what rows call it.
-        at: the document time; the first look at it or later counts.
-        ends: whether the trial ends then.
+        name: name of the event in rows.
+        at: the document time; the first sampling time at it or later counts.
+        ends: whether the event ends the trial.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -126,16 +126,16 @@ class Reached(Event):
 @EVENTS.register
 @dataclass(frozen=True)
 class Appears(Event):
-    """A peak appears in a field: its activation is above a threshold somewhere, or near a place.
+    """A peak appears in a field: its activation is above a threshold anywhere, or near a position.
 
     Attributes:
-        name: what rows call it.
-        field: path of the field, or of one of its ports; the activation where no port is named.
-        threshold: of the activation.
-        near: a place, in axis units, one number or one for each axis; none: anywhere.
-        radius: how far around that place, along every axis.
+        name: name of the event in rows.
+        field: path of the field, or of one of its ports; a field alone means its activation.
+        threshold: threshold of the activation.
+        near: a position, in axis units, one number or one per axis; none: anywhere.
+        radius: distance from that position, along every axis.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -170,17 +170,17 @@ class Appears(Event):
 @EVENTS.register
 @dataclass(frozen=True)
 class Vanishes(Appears):
-    """A peak that stood in a field is gone: nowhere, or nowhere near a place, is its activation above the
-    threshold any more.
+    """A peak of a field vanishes: its activation falls below the threshold everywhere, or everywhere near a
+    position.
 
     Attributes:
-        name: what rows call it.
-        field: path of the field, or of one of its ports; the activation where no port is named.
-        threshold: of the activation.
-        near: a place, in axis units, one number or one for each axis; none: anywhere.
-        radius: how far around that place, along every axis.
+        name: name of the event in rows.
+        field: path of the field, or of one of its ports; a field alone means its activation.
+        threshold: threshold of the activation.
+        near: a position, in axis units, one number or one per axis; none: anywhere.
+        radius: distance from that position, along every axis.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     turns: ClassVar[bool] = True
@@ -192,15 +192,15 @@ class Vanishes(Appears):
 @EVENTS.register
 @dataclass(frozen=True)
 class Within(Event):
-    """One place lies within a radius of another: a goal is reached.
+    """One position is within a radius of another, for example of a goal.
 
     Attributes:
-        name: what rows call it.
-        radius: in the unit of the world.
-        of: the sensor or port whose first two values are the place.
+        name: name of the event in rows.
+        radius: the distance, in the unit of the world.
+        of: the sensor or port whose first two values are the position.
         goal: the sensor or port whose first two values are the goal.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -222,14 +222,14 @@ class Within(Event):
 @EVENTS.register
 @dataclass(frozen=True)
 class Leaves(Event):
-    """A place lies farther than a radius from where it was at the first look: something has moved.
+    """A position is farther than a radius from its value at the first sampling time: something has moved.
 
     Attributes:
-        name: what rows call it.
-        radius: in the unit of the world.
-        of: the sensor or port whose first two values are the place.
+        name: name of the event in rows.
+        radius: the distance, in the unit of the world.
+        of: the sensor or port whose first two values are the position.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -250,13 +250,13 @@ class Leaves(Event):
 @EVENTS.register
 @dataclass(frozen=True)
 class All(Event):
-    """All of some events hold at the same look.
+    """All of some events hold at the same sampling time.
 
     Attributes:
-        name: what rows call it.
+        name: name of the event in rows.
         of: their names.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     name: Annotated[str, Recompile(meaning="what rows call it")]
@@ -282,10 +282,10 @@ class AnyOf(All):
     """At least one of some events holds.
 
     Attributes:
-        name: what rows call it.
+        name: name of the event in rows.
         of: their names.
         times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the trial ends then.
+        ends: whether the event ends the trial.
     """
 
     def holds(self, looks: Looks) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""An experiment: its design, and how it is checked and run."""
+"""An experiment: its design, its check and its run."""
 
 from __future__ import annotations
 
@@ -23,29 +23,28 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Experiment(Design):
-    """An unattended experiment: many trials of a model, each until a condition ends it, with one row of a
-    table for each.
+    """An unattended experiment: many trials of a model, each ended by a condition, and a table of the
+    results.
 
-    Trials run beside each other in batches where nothing is done to them on the way and their world, if there
-    is one, can be computed inside the step; otherwise one by one. Trial k has the noise of trial k of the
-    seed, whatever runs beside it.
+    Trials run together in batches if no action changes them and their world, if any, can be computed inside
+    the step; otherwise one by one. Trial k has the noise of trial k of the seed in any batch.
 
     Attributes:
-        name: what it is called.
+        name: name of the experiment.
         model: the model, or the path of its document.
-        limit: document time after which a trial ends at the latest.
-        trials: of each combination of levels; with a random design of the whole experiment.
-        conditions: what may happen; those that `ends` says end a trial, and give its outcome.
-        actions: what is done to each trial, and when.
-        factors: what trials differ in.
-        measures: what is measured of each trial.
+        limit: document time after which a trial times out.
+        trials: number of trials for each combination of levels; for a random design in total.
+        conditions: the events to detect; events with `ends` end a trial, and give its outcome.
+        actions: the actions on each trial, with their times.
+        factors: parameters in which trials differ, and their levels.
+        measures: the measures of each trial.
         design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for
             each trial).
-        seed: of all noise, and of what is drawn.
-        every: document time between looks (and records); none: each step.
-        record: paths of ports of which every trial keeps a record; the path of a field alone means its
+        seed: seed of all noise, and of the random order or levels.
+        every: sampling interval, also of records, in document time; none: each step.
+        record: paths of ports that are recorded in every trial; the path of a field alone means its
             activation.
-        world: what sensors read and motors move: a world, or KIND:ARGUMENT as on the command line.
+        world: the world of the model's sensors and motors: a world, or KIND:ARGUMENT as on the command line.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
     """
@@ -56,16 +55,15 @@ class Experiment(Design):
             raise renamed.no_member(self, name)
 
     def setup(self, trust: bool = False) -> Setup:
-        """The experiment with its model and its world opened, and everything checked that can be checked
-        before a trial runs.
+        """Open the model and the world, and check the experiment before any trial runs.
 
         Raises:
-            ParameterError: it names what is not there, or holds what cannot be; all problems are listed.
+            ParameterError: the experiment has unknown names or invalid values; the error lists all problems.
         """
         return Setup.open(self, trust)
 
     def check(self) -> list[Problem]:
-        """What is wrong with it; nothing where it can be run."""
+        """Return the problems of the experiment; an empty list: it can be run."""
         try:
             self.setup(trust=True)
         except DeodarError as error:
@@ -79,25 +77,25 @@ class Experiment(Design):
         progress: Callable[[Standing], None] | None = None,
         trust: bool = False,
     ) -> xarray.Dataset:
-        """Run all trials that are not there yet, and give the table of all.
+        """Run all trials without a row, and return the table of all trials.
 
         Args:
-            out: folder of the results. The run of an earlier call in this folder is resumed, with the same
-                results as without the stop. None: nothing is kept.
+            out: folder of the results. An existing run in this folder is resumed, with the same results as
+                without the stop. None: results are not stored.
             workers: number of processes of one core each; none: this process.
-            progress: called with a `Standing` after each piece.
+            progress: function that is called with a `Standing` after each piece.
             trust: whether functions that the document names may be imported and run.
 
         Returns:
-            A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: did
-            not happen) and measures as variables. A trial that diverges has the outcome `diverged`, and NaN
+            A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: it did
+            not occur) and measures as variables. A trial that diverges has the outcome `diverged`, and NaN
             for every number; the variable `diverged` gives its reason, the attribute `diverged` counts such
             trials, and a `RunWarning` repeats it. The rows of the other trials are not affected. A
-            `RunWarning` is also given before trials that may take 10^9 steps in total.
+            `RunWarning` also precedes trials that may take 10^9 steps in total.
 
         Raises:
-            OutputExists: the folder holds another experiment, or something else.
-            KeyboardInterrupt: on Ctrl-C, when the pieces that run are done; their rows are kept.
+            OutputExists: the folder contains another experiment, or something else.
+            KeyboardInterrupt: on Ctrl-C, after the running pieces have ended; their rows are stored.
         """
         setup = self.setup(trust)
         if setup.trials * setup.steps >= LONG_STEPS:

@@ -1,4 +1,4 @@
-"""A factor: what trials of an experiment differ in, and how trials are given its levels."""
+"""A factor: parameters in which trials of an experiment differ, and the assignment of levels to trials."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from deodar.parameters import Part, Recompile, real, show
 DESIGNS = ("crossed", "shuffled", "random")
 
 Label = str | float
-"""What rows call a level: its value where it is one number or text, else its name."""
+"""Label of a level in rows: its value if it is one number or text, else its name."""
 
 
 @dataclass(frozen=True)
 class Factor(Part):
-    """What trials differ in.
+    """Parameters in which trials differ, and their levels.
 
     Attributes:
-        name: what rows call it.
+        name: name of the factor in rows.
         levels: a list of values of one parameter, or for each level its name and the values of parameters:
             {"near": {"left.center": 45}}.
         path: the parameter, of an element or of the document, whose values the levels are; empty where levels
@@ -63,7 +63,7 @@ class Factor(Part):
 
     @property
     def labels(self) -> list[Label]:
-        """What rows call each level."""
+        """The label of each level in rows."""
         levels: Any = self.levels
         if isinstance(levels, Mapping):
             return list(cast("Mapping[str, Any]", levels))
@@ -71,7 +71,7 @@ class Factor(Part):
 
     @property
     def sets(self) -> list[dict[str, Any]]:
-        """For each level the parameters it sets."""
+        """For each level, the parameters it sets."""
         levels: Any = self.levels
         values = (
             list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
@@ -80,15 +80,15 @@ class Factor(Part):
 
 
 def assign(factors: Sequence[Factor], design: str, trials: int, seed: int) -> list[tuple[int, ...]]:
-    """For each trial the level (its number) of each factor.
+    """Return for each trial the level (its number) of each factor.
 
     Args:
-        factors: what trials differ in.
+        factors: parameters in which trials differ.
         design: `crossed`: `trials` of each combination, one combination after another; `shuffled`: the same
             in an order drawn from the seed; `random`: `trials` in total, each with levels drawn from the
             seed.
-        trials: how many.
-        seed: of the order and the draws.
+        trials: number of trials, per combination or in total.
+        seed: seed of the order and the draws.
     """
     counts = [len(f.labels) for f in factors]
     draw = np.random.default_rng(seed)

@@ -1,6 +1,4 @@
-"""Jobs: the trials of an experiment in pieces that are carried out one by one, or in processes beside each
-other.
-"""
+"""Jobs: the trials of an experiment in pieces that run one by one, or in parallel processes."""
 
 from __future__ import annotations
 
@@ -18,14 +16,13 @@ from deodar.session.interrupt import stoppable
 class Job:
     """A piece of an experiment: one trial, or several that are run as one batch.
 
-    What it gives depends on nothing but its arguments, so that it may be run at any time, in any process, and
-    again.
+    Its rows depend on its arguments alone, so that it can be run at any time, in any process, and again.
 
     Attributes:
-        keys: of the rows that it gives.
-        function: a function of a module, called with `arguments`, which gives the rows.
+        keys: keys of the rows that it returns.
+        function: a function of a module, called with `arguments`, which returns the rows.
         arguments: plain data.
-        cost: about how long it takes, in s; only their proportions matter, to tell the time that is left.
+        cost: approximate duration in s; only ratios matter, for the estimate of the remaining time.
     """
 
     keys: tuple[str, ...]
@@ -34,19 +31,19 @@ class Job:
     cost: float = 1.0
 
     def run(self) -> Sequence[Row]:
-        """The rows."""
+        """Return the rows."""
         return self.function(**self.arguments)
 
 
 @dataclass(frozen=True)
 class Standing:
-    """How far an experiment has come.
+    """Progress of an experiment.
 
     Attributes:
-        rows: trials that are done.
-        of: all trials.
-        share: of the work that is done, by its cost.
-        left: s that it will still take, at the speed of this run; None before anything is known.
+        rows: number of trials that are done.
+        of: number of all trials.
+        share: share of the work that is done, by its cost.
+        left: estimated remaining time in s, at the speed of this run; None before the first job is done.
     """
 
     rows: int
@@ -61,19 +58,19 @@ def carry_out(
     progress: Callable[[Standing], None] | None = None,
     workers: int | None = None,
 ) -> None:
-    """Run the jobs whose rows are missing, and keep their rows.
+    """Run the jobs whose rows are missing, and store their rows.
 
     After a kill at any moment the same call resumes, with the same results.
 
     Args:
         jobs: all of the experiment.
-        rows: where they are kept; jobs whose rows are all there are not run again.
-        progress: called with a `Standing` after each job.
+        rows: the store of rows; a job all of whose rows exist is not run again.
+        progress: function that is called with a `Standing` after each job.
         workers: number of processes of one core each; none: this process, one job after another. A script
-            that is run itself, and calls this with workers, does so below `if __name__ == "__main__":`.
+            that calls this with workers must do so below `if __name__ == "__main__":`.
 
     Raises:
-        KeyboardInterrupt: on Ctrl-C, when the jobs that run are done; the rows are kept.
+        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored.
         WorkerError: a worker process has died.
     """
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
@@ -114,9 +111,7 @@ def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequen
     with stoppable() as check, Pool(min(workers, max(1, len(jobs))), main=True) as pool:
         waiting = list(reversed(jobs))
         while waiting or pool.busy:
-            while (
-                waiting and pool.idle
-            ):  # one for each worker: after Ctrl-C no more than those are waited for
+            while waiting and pool.idle:  # one per worker: after Ctrl-C only the running ones are awaited
                 job = waiting.pop()
                 pool.give(job.keys, Job.run, job)
                 running[job.keys] = job

@@ -13,11 +13,10 @@ from deodar.parameters import real
 
 
 def swept(doc: Document, path: str, values: Iterable[object]) -> bool:
-    """Whether copies of one batch may have these values: numbers for live parameters, of which none switches
-    something off.
+    """Return whether copies of one batch may have these values.
 
-    Copies that differ in a parameter that rebuilds, such as a kernel's width, would each need matrices of
-    their own.
+    They may if the values are numbers of live parameters, and none of them switches a term off. Copies that
+    differ in a parameter that rebuilds, such as a kernel's width, would each need their own matrices.
     """
     given = [real(v) for v in values]
     if any(v is None for v in given):

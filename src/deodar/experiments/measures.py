@@ -1,4 +1,4 @@
-"""What is measured of a trial: a value at its end, or when something happened."""
+"""Measures of a trial: a value at its end, or at an event."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from deodar.plugins import Plugin
 
 
 class BaseMeasure(Part):
-    """Base of measures: one number of a trial, or several.
+    """Base of measures: one number per trial, or several.
 
-    A measure of your own is a frozen dataclass that declares `name`, `of` and, where it may be taken at an
-    event, `when`, and that overrides `value`. All samples of what it reads are copied each time the trial is
-    sampled, and kept at the time of the measure.
+    A custom measure is a frozen dataclass that declares `name`, `of` and, if it may be taken at an event,
+    `when`, and that overrides `value`. All samples of the port are copied each time the trial is sampled, and
+    kept at the time of the measure.
 
     Attributes:
         name: name of its column in the results.
@@ -34,35 +34,35 @@ class BaseMeasure(Part):
 
     @property
     def view(self) -> Observable:
-        """What is sampled: all samples of `of`."""
+        """The sampled values: all samples of `of`."""
         return Observable(self.of)
 
     def value(self, samples: np.ndarray, axes: Axes | None) -> float | Sequence[float] | np.ndarray | None:
         """Return the measure.
 
         Args:
-            samples: what the view shows at the time of the measure.
+            samples: the samples of the view at the time of the measure.
             axes: the axes of the port; None for a sensor.
 
         Returns:
-            A number, several numbers, or None where there is nothing to measure (NaN in the table).
+            A number, several numbers, or None if the value is undefined (NaN in the table).
         """
         return samples
 
 
 @dataclass(frozen=True)
 class Measure(BaseMeasure):
-    """One number of a trial, or one for each axis.
+    """One number per trial, or one per axis.
 
     Attributes:
-        name: what rows call it.
+        name: name of its column in the results.
         of: path of a port, or name of a sensor of the world; the path of a field alone means its activation.
         reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units,
-            interpolated between samples as `dd.peaks` does. A trial without a peak has no place (NaN in the
-            table).
+            interpolated between samples as `dd.peaks` does. A trial without a peak has no position (NaN in
+            the table).
         when: the event at whose time it is taken; empty: when the trial ends.
-        near: only samples around this place, in axis units, one number or one for each axis; none: all.
-        radius: how far around that place, along every axis.
+        near: only samples around this position, in axis units, one number or one per axis; none: all.
+        radius: distance from that position, along every axis.
         threshold: samples above it belong to the peak, for `place`; 0 fits an activation, 0.5 an output.
     """
 
@@ -80,7 +80,7 @@ class Measure(BaseMeasure):
 
     @property
     def view(self) -> Observable:
-        """What has to be sampled."""
+        """The sampled values, or their reduction."""
         near = (
             ()
             if self.near is None
@@ -97,7 +97,7 @@ class Measure(BaseMeasure):
             yield "threshold", f"is {self.threshold:g}, and only reduce='place' has a threshold"
 
     def value(self, samples: np.ndarray, axes: Axes | None) -> np.ndarray | None:
-        """The sampled reduction; None where it is the position of a peak and there is no peak."""
+        """Return the sampled reduction; None if it is the position of a peak and no peak exists."""
         return None if self.reduce == PLACE and bool(np.isnan(samples).any()) else samples
 
 
@@ -106,7 +106,7 @@ def _own() -> dict[str, type[BaseMeasure]]:
 
 
 def _problem(plugin: Plugin, found: object) -> str:
-    """What is wrong with what a package names as a measure."""
+    """Return the problem of an object that a package names as a measure."""
     named = f"names {plugin.entry.value} as {plugin.name!r}, which "
     if not isinstance(found, type) or found.__name__ != plugin.name:
         return f"{named}is no class of that name"
@@ -114,4 +114,4 @@ def _problem(plugin: Plugin, found: object) -> str:
 
 
 MEASURES: Extensions[type[BaseMeasure]] = Extensions("measures", "measure", _own, _problem)
-"""The kinds of measures, those of installed packages included."""
+"""The kinds of measures, including those of installed packages."""

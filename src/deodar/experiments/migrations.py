@@ -1,4 +1,4 @@
-"""Experiments of older versions, rewritten as the present version: plain data in, plain data out.
+"""Convert experiments of older versions to the present version: plain data in, plain data out.
 
 Version 1: the path of a field alone meant its output. Since version 2 it means the activation.
 """
@@ -22,13 +22,13 @@ PATHS: Mapping[str, tuple[str, ...]] = {
 
 
 def migrate(data: Mapping[str, Any], doc: Document) -> dict[str, Any]:
-    """Rewrite an experiment of version 1; another one is returned as it is.
+    """Convert an experiment of version 1; one of another version is returned unchanged.
 
-    What is not of the expected form is left to the reader, which reports it.
+    Data of an unexpected form are not changed: the reader reports them.
 
     Args:
         data: the plain data of the experiment.
-        doc: the document of its model, which says what each path names.
+        doc: the document of its model, which resolves paths.
     """
     if data.get("experiment") != 1:
         return dict(data)

@@ -1,4 +1,4 @@
-"""What events and measures observe of a port or a sensor: its values, or one number computed from them."""
+"""Observables of events and measures: the values of a port or sensor, or one number computed from them."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from deodar.numerics.axes import Axes
 
 REDUCES: Mapping[str, Callable[..., Any]] = {"max": np.max, "min": np.min, "mean": np.mean, "sum": np.sum}
 PLACE = "place"
-"""Reduction to the position of the highest peak, in axis units: one number, or one for each axis."""
+"""Reduction to the position of the highest peak, in axis units: one number, or one per axis."""
 
 
 @dataclass(frozen=True)
 class Observable:
-    """What is looked at.
+    """An observed port or sensor, and its reduction.
 
     Attributes:
         of: path of a port, or name of a sensor of the world.
-        reduce: max, min, mean or sum of all samples, or `place` of the highest peak; empty: the values as
-            they are.
-        near: only samples around this place, in axis units, one number for each axis; empty: all.
-        radius: how far around it, along every axis.
-        port: which port a path without one means; empty: of a field its activation, else the default output.
+        reduce: max, min, mean or sum of all samples, or `place` of the highest peak; empty: all values.
+        near: only samples around this position, in axis units, one number per axis; empty: all.
+        radius: distance from that position, along every axis.
+        port: the port that a path without a port means; empty: of a field its activation, else the default
+            output.
         threshold: samples above it belong to a peak, for `place`.
     """
 
@@ -41,7 +41,7 @@ class Observable:
     threshold: float = 0.0
 
     def place(self, doc: Document) -> tuple[Entry, str]:
-        """The element and the port that it means in a document; an unknown one is an error that suggests the
+        """Return the element and the port in a document; the error of an unknown path suggests the
         nearest.
         """
         if not self.port:
@@ -55,7 +55,7 @@ class Observable:
         return entry, port
 
     def seen(self, values: np.ndarray, axes: Axes | None, lead: int) -> np.ndarray:
-        """What it makes of values, whose first `lead` axes count copies and looks and are kept."""
+        """Return the reduction of values, whose first `lead` axes (copies and sampling times) are kept."""
         if not self.reduce:
             return values
         inside = None if axes is None else mask(axes, self.near, self.radius)
@@ -71,8 +71,8 @@ class Observable:
         return REDUCES[self.reduce](flat, axis=-1)
 
     def given(self, values: np.ndarray) -> np.ndarray:
-        """What it makes of the output of its reader (`reader.py`): a position is NaN where there is no
-        peak.
+        """Return the reduction from the output of its reader (`reader.py`): a position without a peak is
+        NaN.
         """
         if self.reduce != PLACE:
             return values
@@ -86,11 +86,10 @@ class Observable:
 
 
 def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
-    """Which samples lie within a radius of a place along every axis, the shorter way round where it wraps;
-    None: all do.
+    """Return which samples are within a radius of a position along every axis, with wrapping; None: all are.
 
     Raises:
-        AxesError: the place does not fit the axes, or no sample lies there.
+        AxesError: the position does not fit the axes, or no sample is within the radius.
     """
     if not near:
         return None

@@ -1,4 +1,4 @@
-"""Events and measures of trials that run side by side: what has happened when, and what was measured then."""
+"""Events and measures of trials that run together: the time of each event, and the value of each measure."""
 
 from __future__ import annotations
 
@@ -13,20 +13,19 @@ from deodar.experiments.observable import Observable
 from deodar.numerics.axes import Axes
 
 TIME = "time"
-"""Outcome of a trial that was ended by nothing but its limit."""
+"""Outcome of a trial that timed out."""
 
 DIVERGED = "diverged"
 """Outcome of a trial in which a value became infinite or undefined."""
 
 
 class Observations:
-    """What looks at trials have shown so far.
+    """The results of all samples so far.
 
     Attributes:
         outcome: for each trial the event that ended it, or `time`; empty while it runs.
-        found: for each event (by its number) and trial the document time at which it happened; NaN: it did
-            not.
-        measured: for each measure and trial what its view showed; None: it was not taken.
+        found: document time of each event (by its number) in each trial; NaN: it did not occur.
+        measured: for each measure and trial the sampled value; None: it was not taken.
     """
 
     def __init__(self, events: Sequence[Event], measures: Sequence[BaseMeasure], trials: int) -> None:
@@ -49,19 +48,20 @@ class Observations:
         last: bool,
         good: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Take down looks at some trials: `times` of the looks, and what they saw, (trials, looks, ...).
+        """Evaluate samples of some trials: `times` of the samples, and the values, (trials, sampling times,
+        ...).
 
         Args:
-            rows: which trials these are.
-            times: document time of each look.
-            seen: for each view what the looks saw.
-            last: whether the limit is reached at the last of these looks.
-            good: for each of these trials how many of the looks come before it diverges; none: all do. One
-                that has not ended by then diverges.
+            rows: numbers of these trials.
+            times: document time of each sample.
+            seen: for each view the sampled values.
+            last: whether the limit is reached at the last of these times.
+            good: for each of these trials the number of samples before it diverges; none: all. A trial that
+                has not ended by then diverges.
 
         Returns:
-            For each of these trials how many of the looks belong to it: all while it runs, none when it had
-            ended before.
+            For each of these trials the number of samples that belong to it: all while it runs, none after
+            its end.
         """
         at, n = np.asarray(rows), len(times)
         if not self._first:
@@ -87,7 +87,7 @@ class Observations:
         ends = np.full(len(rows), n)
         for k in reversed(
             range(len(self.events))
-        ):  # of several at one look the first in the list is the outcome
+        ):  # of several at one time the first in the list is the outcome
             if self.events[k].ends:
                 self._end(rows, running & (hits[k] < n) & (hits[k] <= ends), self.events[k].name)
                 ends = np.minimum(ends, hits[k])
@@ -107,14 +107,16 @@ class Observations:
         return np.where(running, np.minimum(ends + 1, n), 0)
 
     def end(self, row: int, outcome: str, seen: Mapping[Observable, np.ndarray]) -> None:
-        """End a trial by hand, at what a look just saw."""
+        """End a trial with a given outcome, at the last sample."""
         self.outcome[row] = outcome
         for m, measure in enumerate(self.measures):
             if not measure.when:
                 self.measured[m][row] = np.array(seen[measure.view][0, -1])
 
     def events_of(self, row: int) -> dict[str, float | None]:
-        """Document time of each event of a trial; None: it did not happen, or the trial diverged."""
+        """Return the document time of each event of a trial; None: it did not occur, or the trial
+        diverged.
+        """
         if self.outcome[row] == DIVERGED:
             return {e.name: None for e in self.events}
         return {
@@ -125,11 +127,11 @@ class Observations:
     def measures_of(
         self, row: int, axes: Mapping[Observable, Axes | None]
     ) -> dict[str, float | list[float] | None]:
-        """Return each measure of a trial; None: it was not taken, there was nothing to measure, or the trial
+        """Return each measure of a trial; None: it was not taken, its value is undefined, or the trial
         diverged.
 
         Args:
-            row: the trial.
+            row: number of the trial.
             axes: for each view the axes of what it samples.
         """
         if self.outcome[row] == DIVERGED:
@@ -147,9 +149,7 @@ class Observations:
 
 
 def require(events: Sequence[Event], measures: Sequence[BaseMeasure] = ()) -> None:
-    """Refuse events and measures that rows could not tell apart, and those made of events that are not
-    there.
-    """
+    """Refuse events and measures with equal names, and events made of unknown events."""
     names = [*(e.name for e in events), *(m.name for m in measures)]
     twice = next((n for n in names if names.count(n) > 1 or n in (TIME, DIVERGED)), None)
     if twice is not None:
@@ -171,7 +171,7 @@ def require(events: Sequence[Event], measures: Sequence[BaseMeasure] = ()) -> No
 
 
 def _order(events: Sequence[Event]) -> list[int]:
-    """Numbers of the events, those first that others are made of."""
+    """Return the numbers of the events in an order of evaluation: an event after those it is made of."""
     done: list[str] = []
     left = list(events)
     while left:

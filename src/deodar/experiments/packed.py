@@ -1,4 +1,4 @@
-"""An experiment as a worker process gets it, as plain data."""
+"""An experiment as plain data, for a worker process."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PackedExperiment:
     """An experiment, its model and its world.
 
     Attributes:
-        experiment: its plain data, as JSON text.
+        experiment: the plain data of the experiment, as JSON text.
         setup: the model and the world.
     """
 
@@ -28,22 +28,22 @@ class PackedExperiment:
 
     @classmethod
     def of(cls, setup: Setup) -> PackedExperiment:
-        """A setup, packed.
+        """Pack a setup.
 
         Raises:
-            WorkerError: something of it cannot be handed to another process.
+            WorkerError: a part of it cannot be sent to another process.
         """
         plain = setup.experiment.to_data() | {"model": "as handed over"}
         return cls(codec.line(plain), packed.PackedModel.of(setup.model, setup.world))
 
     def open(self) -> Setup:
-        """The setup again."""
-        model = self.setup.model  # first: it imports what the experiment's model is made of
+        """Return the setup."""
+        model = self.setup.model  # first: it imports the modules that the experiment's model needs
         return Setup(Design.from_data(codec.parse(self.experiment)), model, self.setup.world())
 
 
 def work(handed: PackedExperiment, trials: Sequence[int], records: Path | None) -> list[Row]:
-    """The rows of some trials, in a worker."""
+    """Run some trials in a worker and return their rows."""
     return _opened(handed).rows(trials, records)
 
 

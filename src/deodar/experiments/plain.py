@@ -1,4 +1,4 @@
-"""Parts of an experiment as JSON: their schema, out, and in again with every problem listed."""
+"""Parts of an experiment as JSON: their schema, writing, and reading that lists every problem."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from deodar.parameters import Part, an, parameters, show
 
 
 def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -> dict[str, Any]:
-    """Plain data of a part: its kind, and every parameter that is not what it is by default, `without` those
-    that stand elsewhere.
+    """Return plain data of a part: its kind, and every parameter that differs from its default.
+
+    Parameters in `without` are left out: they are stored elsewhere.
     """
     out: dict[str, Any] = {"kind": type(part).__name__} if kind else {}
     for p in parameters(type(part)):
@@ -37,15 +38,15 @@ def from_data(
     problems: list[Problem],
     kind: str = "",
 ) -> Any:
-    """The part that plain data describe, or None with what is wrong added to `problems`.
+    """Return the part that plain data describe, or None with its problems added to `problems`.
 
     Args:
         data: the plain data.
-        where: how messages call its place.
-        kinds: what it may be.
-        given: parameters that stand elsewhere.
-        problems: what is wrong.
-        kind: what it is, where the data need not say.
+        where: name of its place in messages.
+        kinds: the valid kinds.
+        given: parameters that are stored elsewhere.
+        problems: the list to which problems are added.
+        kind: default kind, where the data need not state it.
     """
     if not isinstance(data, dict):
         problems.append(Problem(where, f"needs an object, not {show(data)}"))
@@ -58,7 +59,7 @@ def from_data(
         return None
     try:
         cls = kinds[name]
-    except UnknownName as error:  # of a package that cannot be used
+    except UnknownName as error:  # from a package that cannot be used
         problems += [Problem(f"{where}.kind", p.what, p.fix) for p in error.problems]
         return None
     known = [p.name for p in parameters(cls) if p.name not in given]
@@ -83,12 +84,12 @@ def from_data(
 
 
 def schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
-    """JSON Schema of any of some kinds; `named`: their name stands beside them."""
+    """Return the JSON Schema of any of some kinds; `named`: their name is the key beside them."""
     out: list[dict[str, Any]] = []
     for cls in kinds.values():
         found = schema_of(cls, lambda base: {})
         for p in parameters(cls):
-            if p.of is object:  # whatever the parameter takes that it is for
+            if p.of is object:  # any value that the parameter that it sets accepts
                 found["properties"][p.name] = {"description": p.meaning}
         found["required"] = [
             "kind",
@@ -103,7 +104,7 @@ def schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
 
 
 def _defaults(cls: type[Part]) -> set[str]:
-    """Parameters that need not be given."""
+    """Return the names of parameters that need not be given."""
     return {
         f.name
         for f in dc.fields(cast(Any, cls))

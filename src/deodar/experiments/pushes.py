@@ -1,4 +1,4 @@
-"""Pushes as boosts that stand in the model: those with a time of their own need no hand while the trial
+"""Pushes as boosts in the model, so that a push with a time of its own needs no intervention while the trial
 runs.
 """
 
@@ -13,8 +13,8 @@ from deodar.model.model import Model
 
 
 def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Push, str]]:
-    """The model with a boost for each push, and the paths of those that wait for an event; the model itself
-    where nothing is pushed.
+    """Return the model with a boost for each push, and the paths of those that wait for an event; without
+    pushes the model itself.
     """
     wanted = list(dict.fromkeys(a for a in actions if isinstance(a, Push)))
     if not wanted:
@@ -31,5 +31,5 @@ def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Pu
         if push.when:
             waiting[push] = entry.path
     staged = Model(document=doc, trusted=model.trusted)
-    staged.programs = model.programs  # so that the next trial finds what this one compiles
+    staged.programs = model.programs  # so that the next trial uses the programs that this one compiles
     return staged, waiting

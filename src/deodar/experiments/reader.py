@@ -1,5 +1,5 @@
-"""The reader: one number made of a field inside the compiled step, so that a look at many trials copies no
-fields.
+"""The reader: one number computed from a field inside the compiled step, so that sampling many trials copies
+no fields.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ _REDUCES = {"max": jnp.max, "min": jnp.min, "sum": jnp.sum}
 
 @dataclass(frozen=True)
 class Reader(Coupling):
-    """y = max, min, mean or sum of the samples around a place, or the position of their highest peak.
+    """y = max, min, mean or sum of the samples around a position, or the position of their highest peak.
 
-    A position is one number for each axis, then 1 where there is a peak and 0 where there is none: values
-    that are not finite would end the run. It is never part of a document that is written: `with_readers` adds
+    A position is one number per axis, then 1 if a peak exists and 0 if not: values that are not finite would
+    end the run. It is never part of a document that is written: `with_readers` adds
     it to the copy that a batch runs.
     """
 
@@ -67,9 +67,10 @@ class Reader(Coupling):
 
 
 def with_readers(doc: Document, views: Sequence[Observable]) -> tuple[Document, dict[Observable, ReadPlace]]:
-    """The document with a reader for each view of a field that can have one, and where each of these is read.
+    """Return the document with a reader for each view of a field that can have one, and the port of each
+    reader.
 
-    Views of single numbers, of input ports and of whole arrays are left out: they are read as they are.
+    Views of single numbers, of input ports and of whole arrays are left out: they are read directly.
     """
     nodes = {node.id: node for node in resolve(doc)[0]}
     at: dict[Observable, ReadPlace] = {}

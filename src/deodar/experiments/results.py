@@ -1,5 +1,5 @@
-"""The results of an experiment: a folder with a row for each trial, which can be resumed, and the table made
-of the rows.
+"""The results of an experiment: a folder with a row for each trial, which can be resumed, and the table of
+the rows.
 """
 
 from __future__ import annotations
@@ -47,13 +47,13 @@ def carry(
     workers: int | None = None,
     progress: Callable[[Standing], None] | None = None,
 ) -> xarray.Dataset:
-    """Run the trials whose rows are not there yet, write the table, and give it.
+    """Run the trials without a row, write the table, and return it.
 
     Args:
-        setup: the experiment, opened.
-        out: the folder; None: nothing is kept.
+        setup: the opened experiment.
+        out: the folder; None: results are not stored.
         workers: number of processes of one core each; none: this process.
-        progress: called with a `Standing` after each piece.
+        progress: function that is called with a `Standing` after each piece.
     """
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
@@ -95,7 +95,7 @@ def _jobs(setup: Setup, workers: int | None, records: Path | None) -> Iterator[J
 
 
 def _about(setup: Setup, workers: int | None, folder: Path) -> dict[str, Any]:
-    """What makes the experiment: rows of another one are never mixed with its own."""
+    """Return the identity of the experiment: a file never mixes rows of two experiments."""
     digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
     made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
     unit = setup.model.document.time_unit
@@ -110,7 +110,7 @@ def _digest(text: str, arrays: bytes | None) -> str:
 def _digest_in(folder: Path, doc: Document) -> str:
     """The digest of the model file in the folder, if it holds the same document, or "".
 
-    An older version of deodar wrote the same document as another text.
+    An older version of deodar wrote the same document as a different text.
     """
     try:
         if documents.load(folder / MODEL) != doc:
@@ -126,7 +126,7 @@ def _digest_in(folder: Path, doc: Document) -> str:
 
 
 def _plan(setup: Setup) -> dict[str, Any]:
-    """The plain data of an experiment whose model stands beside it."""
+    """Return the plain data of an experiment whose model is beside it."""
     return codec.parse(codec.line({**setup.experiment.to_data(), "model": MODEL}))
 
 
@@ -134,7 +134,7 @@ def _plan(setup: Setup) -> dict[str, Any]:
 
 
 def load_results(path: str | Path) -> xarray.Dataset:
-    """The table of an experiment, from its folder; of one that was stopped, the trials that are there.
+    """Read the table of an experiment from its folder; of an incomplete experiment the existing trials.
 
     Raises:
         RecordError: it is not the folder of an experiment.
@@ -152,12 +152,12 @@ def load_results(path: str | Path) -> xarray.Dataset:
 
 
 def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
-    """Rows as a Dataset over `trial`.
+    """Return rows as a Dataset over `trial`.
 
     Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time
-    of each condition and the measures are variables. What did not happen is NaN. Measures of several numbers
-    have a dimension of their own. Where trials diverged, the variable `diverged` gives the reason of each
-    (empty: it did not), and the attribute of this name counts them.
+    of each condition and the measures are variables. A condition that did not occur is NaN. Measures of
+    several numbers have a dimension of their own. If trials diverged, the variable `diverged` gives the
+    reason of each (empty: it did not diverge), and the attribute of this name counts them.
     """
     # start-up time
     import xarray
@@ -197,7 +197,7 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
 
 
 def table(data: xarray.Dataset) -> str:
-    """The table as CSV, one line for each trial; empty where something did not happen."""
+    """Return the table as CSV, one line per trial; a cell is empty if the condition did not occur."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     columns: list[tuple[str, np.ndarray]] = []
@@ -220,7 +220,7 @@ def _cell(value: Any) -> str:
 
 
 def _column(values: Sequence[Any]) -> np.ndarray:
-    """Numbers where all are, else text."""
+    """Return numbers if all values are numbers, else text."""
     return (
         np.asarray(values, float)
         if not any(isinstance(v, str) for v in values)

@@ -1,5 +1,5 @@
-"""The rows of an experiment in a file: appended as trials end, and read again when the experiment is resumed
-or extended.
+"""The rows of an experiment in a file, appended as trials end and read when the experiment is resumed or
+extended.
 """
 
 from __future__ import annotations
@@ -14,33 +14,33 @@ from deodar.model import output
 from deodar.recording import places
 
 Row = dict[str, Any]
-"""What is kept of one trial, as plain data; `key` tells it from all others."""
+"""The results of one trial as plain data; `key` identifies the trial."""
 
 ABOUT, KEY = "about", "key"
 
 
 class Rows:
-    """A file of JSON lines: first what makes the experiment, then a row for each trial that has ended.
+    """A file of JSON lines: first the identity of the experiment, then a row for each trial that has ended.
 
-    An existing file is resumed if it holds the same experiment, or the same experiment with fewer conditions:
-    then a second line of what makes the experiment is appended, and the rows of the new conditions follow it.
-    A last line that was cut off when a process died is dropped.
+    An existing file is resumed if it contains the same experiment, or the same experiment with fewer
+    conditions: then a second identity line is appended, and the rows of the new conditions follow it. A last
+    line that is incomplete because a process was killed is dropped.
 
     Args:
-        path: the file; it is made where there is none.
-        about: what makes the experiment, as plain data: rows of another one are never mixed with these.
+        path: the file; it is created if it does not exist.
+        about: the identity of the experiment, as plain data: a file never mixes rows of two experiments.
         by_condition: names of the entries of `about` that map names of conditions to their settings. A
             condition that the file has must have the same settings in all of these entries; a condition that
             the file does not have is an extension. Every other entry must be equal.
-        read: makes of the `about` that the file holds the same of the present version.
+        read: function that converts the `about` of the file to the present version.
 
     Attributes:
         found: rows by their keys.
 
     Raises:
         OutputExists: the file holds another experiment.
-        RecordError: the file holds something else, or a line before the last is broken.
-        OutputError: it cannot be written.
+        RecordError: the file contains something else, or a line before the last is broken.
+        OutputError: the file cannot be written.
     """
 
     def __init__(
@@ -73,7 +73,7 @@ class Rows:
         self.found = {row[KEY]: row for row in lines if KEY in row}
 
     def append(self, rows: Iterable[Row]) -> None:
-        """Keep rows, on the disk when this returns; those of a key that is there already are left out."""
+        """Store rows, on the disk when this returns; a row whose key exists is left out."""
         new = [row for row in rows if row[KEY] not in self.found]
         if new:
             text = "".join(codec.line(row, ascii=True, finite=True) + "\n" for row in new)
@@ -111,12 +111,12 @@ class Rows:
 
 
 def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:
-    """The entries in which a design differs from the one that rows were made with; of entries by condition
+    """Return the entries in which a design differs from the design of the rows; of entries by condition only
     those of conditions with rows.
 
     Args:
-        new: what makes the experiment now.
-        made: what made it when the rows were run.
+        new: the identity of the experiment now.
+        made: its identity when the rows were run.
         by_condition: names of the entries that map names of conditions to settings.
     """
     changed = [k for k in {*new, *made} - {*by_condition} if new.get(k) != made.get(k)]
@@ -132,11 +132,11 @@ def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Seq
 
 
 def claim(folder: Path, file: str, of: str) -> None:
-    """Make the folder in which rows are kept, or take the one that an earlier call began, which holds `file`;
-    another one is left alone.
+    """Create the folder of the rows, or accept the folder of an earlier call, which contains `file`; refuse
+    any other.
 
     Raises:
-        OutputExists: the folder holds something else; `of` says of what it should be.
+        OutputExists: the folder contains something else; `of` names the expected content.
     """
     if folder.is_dir() and any(folder.iterdir()) and not (folder / file).is_file():
         raise OutputExists(

@@ -1,4 +1,4 @@
-"""One trial, sampled at regular intervals, with actions on the way, until an event or the limit ends it."""
+"""One trial, sampled at regular intervals, with actions, until an event or the limit ends it."""
 
 from __future__ import annotations
 
@@ -51,26 +51,26 @@ def run_trial(
 ) -> Trial:
     """Run one trial and return its result.
 
-    The first look is at the start. At a time at which something is done, the look comes first: what is done
-    shows one step (for a world, one period) later. The same arguments give the same result, whatever ran
-    before; things that actions moved in the world are put back.
+    The first sample is at the start. At the time of an action the trial is sampled before the action: its
+    effect shows one step (for a world, one period) later. The same arguments give the same result,
+    independent of earlier trials; things that actions moved in the world are put back.
 
     Args:
-        model: the model, as it now is.
-        limit: document time after which the trial ends at the latest.
-        world: what its sensors read and its motors move; of starts and goals given for each trial it takes
-            those of this one.
+        model: the model in its present state.
+        limit: document time after which a trial times out.
+        world: the world of the model's sensors and motors; if its starts and goals are given per trial, those
+            of this trial are used.
         seed: seed of all noise.
-        trial: which trial of the seed it is.
-        watch: paths of ports and names of sensors of the world whose values are kept; the path of a field
+        trial: number of the trial of the seed.
+        watch: paths of ports and names of sensors of the world whose values are returned; the path of a field
             alone means its activation.
-        events: what may happen; those that `ends` says end the trial.
-        actions: what is done, at which times, or after which events.
-        every: document time between looks; none: dt.
+        events: the events to detect; events with `ends` end the trial.
+        actions: the actions, at their times or after their events.
+        every: sampling interval in document time; none: dt.
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
-        between: called after each look; what it raises ends the trial.
-        measures: what is measured.
+        between: function that is called after each sample; an exception that it raises ends the trial.
+        measures: the measures of the trial.
         tolerant: return a trial that diverges, with the outcome `diverged`, its `error`, and NaN as its
             values.
 
@@ -105,7 +105,7 @@ def run_trial(
     try:
         with _put_back(world, actions):
             while True:
-                values, seen = eye.see()  # also where only an action is due: it finds the world at its moment
+                values, seen = eye.see()  # also at an action alone: the world must be at its time
                 looked = session.tick % gap == 0 or session.tick == steps
                 if looked:
                     keep(values)
@@ -148,7 +148,9 @@ def run_trial(
 
 
 def _require_events(actions: Sequence[Action], names: Sequence[str], model: Model) -> None:
-    """Refuse actions on what the model lacks, and actions that wait for an event that nothing reports."""
+    """Refuse actions on elements that the model lacks, and actions that wait for an event that cannot be
+    reported.
+    """
     for action in actions:
         targets(action, model.document)
         if action.when and action.when not in names:
@@ -159,8 +161,8 @@ def _require_events(actions: Sequence[Action], names: Sequence[str], model: Mode
 
 
 def _schedule(running: RunningTrial, actions: Sequence[Action]) -> list[tuple[int, Action]]:
-    """Schedule the actions of stated times; those that wait for an event are returned, each with its steps
-    after it.
+    """Schedule the actions of stated times; return those that wait for an event, each with its delay in
+    steps.
     """
     waiting: list[tuple[int, Action]] = []
     for action in actions:
@@ -179,7 +181,7 @@ def _schedule(running: RunningTrial, actions: Sequence[Action]) -> list[tuple[in
 def _schedule_after(
     running: RunningTrial, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]
 ) -> list[tuple[int, Action]]:
-    """Schedule the actions whose event has happened, and return the others."""
+    """Schedule the actions whose event has occurred, and return the others."""
     for moment, action in waiting:
         if happened[action.when] is not None:
             running.later(moment, lambda action=action: action.apply(running))
@@ -187,8 +189,8 @@ def _schedule_after(
 
 
 class _Eye:
-    """Reads what is looked at: all ports by one program, then sensors of the world, which that has brought to
-    the present.
+    """Samples all ports by one program, then the sensors of the world, which the program has brought up to
+    date.
     """
 
     def __init__(self, session: Session, watch: Sequence[str], views: Sequence[Observable]) -> None:
@@ -205,13 +207,13 @@ class _Eye:
         self.places = list(dict.fromkeys(self.ports.values()))
         if (
             session.world is not None and not self.places
-        ):  # reading a port of what is tied to the world brings the world to the present
+        ):  # reading a port that is connected to the world brings the world up to date
             tied = [e.id for e in session.document.entries if isinstance(e.element, (Motor, Sensor))]
             self.places = [(ident, "output") for ident in tied[:1]]
         self.look: Look = look(session.program, self.places)
 
     def see(self) -> tuple[dict[str, np.ndarray], dict[Observable, np.ndarray]]:
-        """The values of what is watched, and what each view shows, as one look at one trial."""
+        """Return the values of the watched ports, and the value of each view, as one sample of one trial."""
         session = self.session
         if self.look.program is not session.program:  # an action compiled another one
             self.look = look(session.program, self.places)
@@ -231,8 +233,8 @@ class _Eye:
         return values, seen
 
     def _require_finite(self, arrays: Mapping[tuple[str, str], np.ndarray]) -> None:
-        """Refuse ports that are not finite although all states are, as a batch does: a coupling's output may
-        be.
+        """Refuse ports that are not finite although all states are, as a batch does: the output of a coupling
+        may be infinite.
         """
         session = self.session
         for (ident, port), values in arrays.items():
@@ -243,7 +245,7 @@ class _Eye:
                 raise not_finite([f"{entry.path}.{port}"], clock, session.document.time_unit)
 
     def axes(self) -> dict[Observable, Axes | None]:
-        """For each view the axes of what it samples; None for a sensor."""
+        """Return for each view the axes of what it samples; None for a sensor."""
         return {view: None if view.of in self.sensors else self._axes(view) for view in self.views}
 
     def _axes(self, view: Observable) -> Axes:
@@ -276,7 +278,7 @@ def _axes(shape: Sequence[int]) -> Axes:
 
 @contextlib.contextmanager
 def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]:
-    """Put what actions change in the world back when the trial is over."""
+    """Restore the changes of actions to the world after the trial."""
     if world is None or not any(a.world_method for a in actions):
         yield
         return

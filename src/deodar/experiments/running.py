@@ -1,4 +1,4 @@
-"""A running trial, as actions see it."""
+"""A running trial, as actions access it."""
 
 from __future__ import annotations
 
@@ -13,19 +13,18 @@ from deodar.session.session import Session
 from deodar.session.snapshot import SessionSnapshot
 
 Kept = tuple[float, Mapping[str, np.ndarray]]
-"""Document time, and for each port what it then held."""
+"""Document time, and the value of each port at that time."""
 
 
 class RunningTrial:
-    """A trial that runs, and what is still to be done to it.
+    """A running trial, and its scheduled actions.
 
     Attributes:
         session: the model in its world.
-        pushes: for each action that pushes when something has happened the path of the boost that stands in
-            the model for it.
-        recording: whether what is recorded is kept now.
-        snapshots: what was kept, by name.
-        outcome: what an action ended the trial with; empty while it runs.
+        pushes: for each push that waits for an event, the path of its boost in the model.
+        recording: whether values are recorded now.
+        snapshots: the recorded snapshots, by name.
+        outcome: the outcome with which an action ended the trial; empty while it runs.
     """
 
     def __init__(self, session: Session, pushes: Mapping[Any, str], restarts: bool) -> None:
@@ -40,20 +39,20 @@ class RunningTrial:
 
     def later(self, steps: int, what: Callable[[], object]) -> None:
         """Call `what` in `steps` steps from now; 0: before the next step."""
-        self._count += 1  # what falls on one moment is done in the order in which it was asked for
+        self._count += 1  # calls at one time run in the order in which they were scheduled
         heapq.heappush(self._due, (self.session.tick + steps, self._count, what))
 
     def do(self) -> None:
-        """All that is due, until the trial has ended."""
+        """Run all calls that are due, until the trial has ended."""
         while self._due and self._due[0][0] <= self.session.tick and not self.outcome:
             heapq.heappop(self._due)[2]()
 
     def until(self) -> int | None:
-        """Steps until something is due; None: nothing is."""
+        """Return the number of steps until the next call; None without one."""
         return self._due[0][0] - self.session.tick if self._due else None
 
     def restart(self) -> None:
-        """States of all elements as they were at the start; everything else goes on."""
+        """Reset the states of all elements to their values at the start; everything else continues."""
         assert self._start is not None
         now = self.session.snapshot()
         self.session.restore(dc.replace(now, states=self._start.states))

@@ -33,19 +33,19 @@ from deodar.session.exchange import embodied
 from deodar.worlds._base import World
 
 MOST_COPIES = 250
-"""Trials of one batch at most: enough to be quick (from 64 copies of a line on more hardly help), few enough
-to lose little by a kill.
+"""Largest number of trials in one batch: enough to be fast (from 64 copies of a line on more hardly help),
+few enough that a kill loses little work.
 """
 
 RECORD_BYTES = 256 * 2**20
-"""What the records of one batch may take before they are written (a guess that leaves room on a small
+"""Largest size in bytes of the records of one batch before they are written (a guess that fits a small
 machine).
 """
 
 
 @dataclass
 class Setup:
-    """An experiment that can be run.
+    """An experiment that is ready to run.
 
     Attributes:
         experiment: the experiment.
@@ -59,9 +59,7 @@ class Setup:
 
     @classmethod
     def open(cls, experiment: Design, trust: bool = False) -> Setup:
-        """Open model and world of an experiment, and check everything that can be checked before a trial
-        runs.
-        """
+        """Open the model and the world of an experiment, and check it before any trial runs."""
         given: Any = experiment.model
         model = given if isinstance(given, Model) else load(given, trust)
         wanted: Any = experiment.world
@@ -71,12 +69,12 @@ class Setup:
 
     @cached_property
     def cells(self) -> list[tuple[int, ...]]:
-        """For each trial the level (its number) of each factor."""
+        """Return for each trial the level (its number) of each factor."""
         return self.experiment.cells
 
     @property
     def trials(self) -> int:
-        """Trials in total."""
+        """Number of trials in total."""
         return len(self.cells)
 
     @property
@@ -86,17 +84,17 @@ class Setup:
 
     @property
     def steps(self) -> int:
-        """Steps of a trial that no condition ends."""
+        """Number of steps of a trial that times out."""
         return round(self.experiment.limit / self.dt)
 
     def shortened(self, steps: int) -> Setup:
-        """The same with another limit, in steps, to measure how long a step takes."""
+        """Return the same setup with another limit, in steps, to measure the time of a step."""
         return Setup(dc.replace(self.experiment, limit=steps * self.dt), self.model, self.world)
 
     @cached_property
     def batched(self) -> bool:
-        """Whether trials run beside each other in one program: nothing is done on the way, and what they see
-        is computed in it.
+        """Whether trials run together in one program: they have no actions, and their world is computed in
+        the program.
         """
         e, doc = self.experiment, self.model.document
         known = () if self.world is None else self.world.sensors
@@ -107,7 +105,9 @@ class Setup:
 
     @cached_property
     def swept(self) -> list[str]:
-        """Parameters in which the trials of one batch differ; of others each value has batches of its own."""
+        """Parameters in which the trials of one batch differ; each value of another parameter has its own
+        batches.
+        """
         if not self.batched or self.world is not None:
             return []
         values: dict[str, list[Any]] = {}
@@ -121,7 +121,7 @@ class Setup:
         return [path for path, given in values.items() if swept(self.model.document, path, given)]
 
     def pieces(self) -> list[list[int]]:
-        """The trials, in the pieces in which they are run: always the same, whoever runs them."""
+        """Return the trials in the pieces in which they are run: the same for any number of workers."""
         if not self.batched:
             return [[k] for k in range(len(self.cells))]
         groups: dict[str, list[int]] = {}
@@ -135,14 +135,14 @@ class Setup:
         return out
 
     def changes(self, trial: int) -> dict[str, Any]:
-        """The parameters that a trial's levels set."""
+        """Return the parameters that a trial's levels set."""
         out: dict[str, Any] = {}
         for factor, level in zip(self.experiment.factors, self.cells[trial], strict=True):
             out |= factor.sets[level]
         return out
 
     def rows(self, trials: Sequence[int], records: Path | None = None) -> list[Row]:
-        """Run some trials and give their rows; `records`: the folder for what is recorded."""
+        """Run some trials and return their rows; `records`: the folder of their records."""
         out: list[Row] = []
         for k, result, model in self._results(trials, records is not None):
             levels = {
@@ -197,7 +197,7 @@ class Setup:
         return [(k, result, model) for k, result in zip(trials, results, strict=True)]
 
     def _with(self, changes: Mapping[str, Any]) -> Model:
-        """The model with other parameters; it shares the programs that have been compiled."""
+        """Return the model with other parameters; it shares the compiled programs."""
         doc = self.model.document
         for path, value in changes.items():
             doc = edit.change(doc, path, value)
@@ -206,7 +206,7 @@ class Setup:
         return out
 
     def _most(self) -> int:
-        """Trials of one batch at most."""
+        """Return the largest number of trials in one batch."""
         nodes = resolve(self.model.document)[0]
         size, e = memory.copy_bytes(nodes, self.experiment.precision), self.experiment
         by = {node.id: node for node in nodes}

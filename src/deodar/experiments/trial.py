@@ -1,4 +1,4 @@
-"""The result of one trial: what was seen of it, and what happened when."""
+"""The result of one trial: sampled values, events and measures."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ Value = float | list[float] | None
 
 @dataclass(frozen=True)
 class Trial:
-    """One trial, run.
+    """The result of one trial.
 
     Attributes:
-        times: document time of each look, the first at the start.
-        values: for each thing that was watched its values, looks first; those at which recording was stopped
-            are left out.
-        events: document time of each event; None: it did not happen.
+        times: document time of each sample, the first at the start.
+        values: the values of each watched port or sensor, sampling times first; samples taken while recording
+            was stopped are left out.
+        events: document time of each event; None: it did not occur.
         outcome: the event that ended the trial, `time`, or `diverged`.
-        measures: each measure; None: what it waits for did not happen.
-        recorded: document time of each look that `values` holds.
-        snapshots: what actions kept, by their labels: document time, and for each port its values.
-        error: of a trial that diverged, why: its values are NaN, its events and measures None; none: it did
-            not.
+        measures: each measure; None: its event did not occur.
+        recorded: document time of each sample in `values`.
+        snapshots: the snapshots of actions, by their labels: document time, and the values of each port.
+        error: reason of a trial that diverged: its values are NaN, its events and measures None; none: it did
+            not diverge.
     """
 
     times: np.ndarray
@@ -42,5 +42,5 @@ class Trial:
 
     @property
     def duration(self) -> float:
-        """Document time from the first look to the last."""
+        """Document time from the first sample to the last."""
         return float(self.times[-1] - self.times[0]) if len(self.times) else 0.0

@@ -1,4 +1,4 @@
-"""Records of trials: a file for each, with what was recorded of it."""
+"""Records of trials: one file for each trial."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ RECORDS = "records"
 def write_records(
     folder: Path, key: str, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Any]
 ) -> None:
-    """Write what was recorded of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; what stands there of
-    an earlier try is replaced.
+    """Write the record of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; files of an earlier attempt
+    are replaced.
     """
     if record:
         _write(folder / f"{key}.nc", doc, record, result.recorded, result.values, about)
