@@ -1,6 +1,6 @@
-"""The contract of a world: a plant with named sensors and motors, at its own rate.
+"""The contract of a world: an environment with named sensors and motors, updated at its own rate.
 
-Models name them; a world provides them.
+A model refers to sensors and motors by name; a world provides them.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from deodar.worlds._scene import Scene
 
 @dataclass(frozen=True)
 class Signal:
-    """What a world says of one of its sensors or motors.
+    """Description of a sensor or a motor of a world.
 
     Attributes:
-        meaning: what it reads or moves, in words.
-        shape: samples along each axis; None: whatever axes the model states, the world samples itself over
-            them.
-        unit: of the values; "" where they have none.
-        period: ms between two new values; None: the world's own.
-        each: whether every copy of a model reads its own (a robot of its own), or all the same (one camera).
+        meaning: a phrase that says what the sensor reads or the motor moves.
+        shape: samples along each axis; None: the world samples the sensor over any axes that the model
+            states.
+        unit: unit of the values; "" if they have none.
+        period: ms between two new values; None: the period of the world.
+        each: True if each copy of a model has its own signal (its own robot), False if all copies share one
+            (one camera).
     """
 
     meaning: str
@@ -43,24 +44,24 @@ class Signal:
 
 
 class World:
-    """A world on the host: it stands still while a model steps, and is read and told at its own rate.
+    """Base class of worlds: computed on the host, constant between two exchanges with the model.
 
-    At each multiple t of the period the sensors are read and shown to the model, and the motors are read from
-    it; what they do to the sensors shows at t + period. A world that moves by itself moves in `act`, or by
-    the time that it is given.
+    At each multiple t of the period, the model receives the readings of the sensors and the world receives
+    the values of the motors, whose effect on the sensors appears at t + period. A world with dynamics of its
+    own advances in `act`, or as a function of the time argument of `sense`.
 
-    Several copies of a model (trials, points of a sweep) run at once; each has a robot of its own. Motors
-    come with a leading axis of copies, and so do readings of sensors whose signal says `each`; other readings
-    have none, all copies see the same.
+    Several copies of a model (trials, points of a sweep) run at once, each with its own robot. Motor values
+    have a leading axis of copies, and so have readings of sensors whose signal has `each`; other readings
+    have no such axis and are the same for all copies.
 
     Class attributes:
-        sensors: each sensor by name.
-        motors: each motor by name.
-        stands_in: whether its example may stand in where no world was chosen; not where it needs an extra, or
-            a device.
+        sensors: signals of the sensors by name.
+        motors: signals of the motors by name.
+        stands_in: whether the example of this class may be used when the user chose no world; False if the
+            class needs an extra or a device.
 
     Attributes:
-        period: ms between two exchanges; None: the world never changes, one reading serves a whole run.
+        period: ms between two exchanges; None: the world never changes, and a run reads each sensor once.
     """
 
     sensors: Mapping[str, Signal] = {}
@@ -69,38 +70,43 @@ class World:
     stands_in: ClassVar[bool] = True
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
-        """Put the world back to its start.
+        """Return the world to its initial state.
 
         Args:
-            seed: of all noise.
-            trials: the trial of each copy; copies of one trial see the same noise.
-            precision: of the model's numbers, float32 or float64; a simulated world computes in it too.
+            seed: seed of all noise.
+            trials: trial number of each copy; copies of one trial have the same noise.
+            precision: precision of the model, float32 or float64; a simulated world uses the same precision.
         """
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
-        """What a sensor reads at a time (ms), sampled over the axes: finite, of their shape, with copies
-        first where the signal says `each`.
+        """Return the reading of a sensor at `time` (ms), sampled over `axes`.
+
+        Values are finite. The array has the shape of the axes, after a leading axis of copies if the signal
+        has `each`.
         """
         raise NotImplementedError
 
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
-        """Go on by one period from `time` (ms), with what the motors were told then: for each driven motor an
-        array, copies first.
+        """Advance by one period from `time` (ms) with constant motor values.
+
+        Args:
+            motors: for each driven motor an array with copies first.
+            time: start of the period, ms.
         """
 
     def keep(self) -> Any:
-        """What `put` needs to go back to this moment."""
+        """Return the present state, as an argument for `put`."""
         return None
 
     def put(self, kept: Any) -> None:
-        """Back to a moment that `keep` kept."""
+        """Restore a state that `keep` returned."""
 
     def scene(self) -> Scene | None:
-        """What there is to see from above, now; None: nothing that could be drawn so."""
+        """Return the present view from above; None if the world has none."""
         return None
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Put a thing or a mark of the scene elsewhere: x and y of its middle."""
+        """Move a thing or a mark of the scene; `center` is the new x and y of its middle."""
         raise WorldError(f"nothing in the world {type(self).__name__} can be moved", where=name)
 
     def place(
@@ -110,45 +116,53 @@ class World:
         size: Sequence[float],
         color: Sequence[float] = (0.72, 0.53, 0.3),
     ) -> None:
-        """Put a thing there, or replace the one of that name: x and y of its middle, its size along both,
-        red, green and blue from 0 to 1.
+        """Add a thing to the scene, or replace the one of the same name.
+
+        Args:
+            name: name of the thing.
+            center: x and y of its middle.
+            size: size along x and y.
+            color: red, green and blue, 0 to 1.
         """
         raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
 
     def remove(self, name: str) -> None:
-        """Take a thing away."""
+        """Remove a thing from the scene."""
         raise WorldError(f"nothing can be taken out of the world {type(self).__name__}", where=name)
 
     def arrangement(self) -> Any:
-        """All that `place`, `move` and `remove` change, as it is now, for `arrange`.
+        """Return the present state of everything that `place`, `move` and `remove` change, for `arrange`.
 
         Actions of experiments need both methods.
         """
         raise WorldError(f"the world {type(self).__name__} does not say what its things are")
 
     def arrange(self, kept: Any) -> None:
-        """Put things back as they were when `arrangement` returned `kept`."""
+        """Restore the things as they were when `arrangement` returned `kept`."""
         raise WorldError(f"the world {type(self).__name__} cannot put its things back")
 
     def describe(self) -> dict[str, Any]:
-        """What a record keeps of the world, as plain data."""
+        """Return the description of the world that a record stores, as plain data."""
         return {"world": type(self).__name__}
 
     @classmethod
     def open(cls, argument: str) -> World:
-        """The world that the command line names: `--world picture:coffee.jpg` gives `coffee.jpg`."""
+        """Make a world from an argument of the command line.
+
+        For `--world picture:coffee.jpg` the argument is `coffee.jpg`.
+        """
         raise WorldError(f"the world {cls.__name__} cannot be opened from the command line")
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> World:
-        """The world that `describe` told a record of, opened again."""
+        """Open a world again from the description that `describe` returned."""
         file = described.get("file")
         if not isinstance(file, str) or file == "array":
             raise WorldError(f"the world {cls.__name__} was not opened from a file")
         return cls.open(file)
 
     def require(self, sensor: str) -> None:
-        """Refuse a sensor that this world does not have."""
+        """Raise WorldError if this world has no such sensor."""
         if sensor not in self.sensors:
             raise WorldError(
                 f"the world {type(self).__name__} has no sensor {sensor!r}",
@@ -156,7 +170,7 @@ class World:
             )
 
     def require_motor(self, motor: str) -> None:
-        """Refuse a motor that this world does not have."""
+        """Raise WorldError if this world has no such motor."""
         if motor not in self.motors:
             raise WorldError(
                 f"the world {type(self).__name__} has no motor {motor!r}",
@@ -165,12 +179,12 @@ class World:
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:
-        """Axes over which a sensor of the example can be read."""
+        """Return axes over which a sensor of the example can be read."""
         raise NotImplementedError
 
 
 def fitting(name: str, signal: Signal, axes: Axes) -> None:
-    """Refuse axes over which a sensor or motor is not sampled."""
+    """Raise WorldError if the axes do not have the shape of a sensor or motor."""
     if signal.shape is not None and shape(axes) != signal.shape:
         wanted = (
             "no axes, it is one number"

@@ -1,4 +1,4 @@
-"""Pictures from films and cameras, read by OpenCV (extra `vision`)."""
+"""Pictures from video files and cameras, read by OpenCV (extra `vision`)."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ import numpy as np
 from deodar.errors import MissingExtra, WorldError
 
 RATE = 5
-"""OpenCV's number for the pictures in a second (CAP_PROP_FPS)."""
+"""OpenCV's number of the property for pictures per second (CAP_PROP_FPS)."""
 
 
 def opencv(purpose: str) -> Any:
-    """OpenCV, or an error that says how to get it."""
+    """Import OpenCV, or raise an error that says how to install it."""
     try:
         # an extra
         import cv2
@@ -30,7 +30,7 @@ def opencv(purpose: str) -> Any:
 
 
 def capture(source: int | str, purpose: str) -> Any:
-    """A film or camera, opened; what OpenCV would print where there is none is left to our own message."""
+    """Open a video file or a camera; OpenCV's log is silent, because deodar reports a failure itself."""
     cv2 = opencv(purpose)
     log: Any = cv2.utils.logging
     level = log.getLogLevel()
@@ -42,11 +42,11 @@ def capture(source: int | str, purpose: str) -> Any:
 
 
 class Film:
-    """The pictures of a video file by time.
+    """Reader that returns the pictures of a video file by time.
 
     Attributes:
         size: width and height in pixels.
-        rate: pictures in a second.
+        rate: pictures per second.
     """
 
     def __init__(self, path: Path) -> None:
@@ -62,7 +62,7 @@ class Film:
         self.size = (int(self._shown.shape[1]), int(self._shown.shape[0]))
 
     def rewind(self) -> None:
-        """To the first picture."""
+        """Return to the first picture."""
         if self._opened is not None:
             self._opened.release()
         self._opened = capture(str(self.path), "reading a video")
@@ -73,8 +73,9 @@ class Film:
         self._shown, self._number, self._end = first, 0, False
 
     def picture(self, moment: float, again: bool) -> np.ndarray:
-        """The picture (height, width, 3) at a time in ms; after the end the last one, or from the start
-        again.
+        """Return the picture (height, width, 3) at a time in ms.
+
+        After the end of the video, return the last picture, or with `again` start from the first one.
         """
         wanted = int(moment * self.rate / 1000 + 1e-6)
         if again and self._end:
@@ -101,8 +102,7 @@ class Film:
 
 
 class Eye:
-    """A camera that is read in a thread of its own, so that whoever asks gets the newest picture and never
-    waits for the next.
+    """Camera reader with its own thread; `picture` returns the newest picture without waiting for the next.
 
     Attributes:
         size: width and height in pixels.
@@ -126,10 +126,10 @@ class Eye:
         weakref.finalize(self, self._stream.closing.set)
 
     def picture(self) -> np.ndarray:
-        """The newest picture (height, width, 3).
+        """Return the newest picture (height, width, 3).
 
         Raises:
-            WorldError: the camera has stopped.
+            WorldError: the camera has delivered no picture for `patience` seconds.
         """
         silent = time.monotonic() - self._stream.since
         if silent > self.patience:
@@ -141,14 +141,15 @@ class Eye:
         return self._stream.newest
 
     def close(self) -> None:
-        """Give the camera back."""
+        """Release the camera."""
         self._stream.closing.set()
         self._thread.join(timeout=1.0)
 
 
 class _Stream:
-    """The newest picture, and the thread's work; it does not hold the eye, so that an eye that nobody holds
-    closes.
+    """The newest picture and the loop of the thread.
+
+    It has no reference to its `Eye`, so that the camera is released when the `Eye` is garbage-collected.
     """
 
     def __init__(self, opened: Any, first: np.ndarray, patience: float) -> None:
@@ -156,7 +157,7 @@ class _Stream:
         self.closing = threading.Event()
 
     def watch(self) -> None:
-        """Read until closed, or until nothing has come for too long."""
+        """Read pictures until closed, or until none arrives for `patience` seconds."""
         try:
             while not self.closing.is_set() and time.monotonic() - self.since <= self.patience:
                 there, picture = self.opened.read()
@@ -169,8 +170,9 @@ class _Stream:
 
 
 def example(moves: bool = True) -> Path:
-    """A short film in the folder of temporary files, gone at exit: a red square of 16 pixels crosses a grey
-    ground in a second, or stands still.
+    """Write a short video into the folder of temporary files, and delete it at exit.
+
+    A red square of 16 pixels crosses a grey ground in one second, or with `moves=False` does not move.
     """
     cv2 = opencv("writing a video")
     folder = Path(tempfile.mkdtemp(prefix="deodar-"))

@@ -1,4 +1,4 @@
-"""Pictures on axes: the mean colour of the pixels in each cell; black beside the picture."""
+"""Sampling of pictures over axes: the mean colour of the pixels in each cell; black outside the picture."""
 
 from __future__ import annotations
 
@@ -14,17 +14,19 @@ from deodar.worlds._base import Signal
 CHANNELS = 3
 
 PICTURE = Signal("colour over two dimensions; the last axis is red, green, blue")
-"""What a sensor `picture` reads, whatever world it is of."""
+"""Signal of the sensor `picture` in all worlds that have one."""
 
 
 @dataclass(frozen=True)
 class Frame:
-    """Where a picture lies on axes: it keeps its shape, fills the longer side of their area, and stands in
-    the middle of the other.
+    """Position of a picture on axes.
+
+    The picture keeps its aspect ratio, fills the axes' area along one dimension, and is centred along the
+    other.
 
     Attributes:
         across, down: column and row of the outer edge of the first cell.
-        scale: axis units in a pixel.
+        scale: axis units per pixel.
     """
 
     across: float
@@ -32,7 +34,7 @@ class Frame:
     scale: float
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
-        """Column and row of the picture that a place on the axes stands for."""
+        """Return the column and row of the picture at a position on the axes."""
         return (
             self.across + (x - axes[0].lower + axes[0].step / 2) / self.scale,
             self.down + (y - axes[1].lower + axes[1].step / 2) / self.scale,
@@ -40,7 +42,7 @@ class Frame:
 
 
 def frame(size: tuple[int, int], axes: Axes) -> Frame:
-    """Where a picture of so many pixels (width, height) lies."""
+    """Compute the position on axes of a picture with `size` pixels (width, height)."""
     width, height = size
     extent = [a.samples * a.step for a in axes[:2]]
     scale = min(extent[0] / width, extent[1] / height)
@@ -48,7 +50,7 @@ def frame(size: tuple[int, int], axes: Axes) -> Frame:
 
 
 def sampled(pixels: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
-    """A picture (height, width, 3) of bytes over axes: (x, y, channel), values from 0 to 1."""
+    """Sample a picture (height, width, 3) of bytes over axes (x, y, channel); values are from 0 to 1."""
     if len(axes) != 3 or axes[2].samples != CHANNELS:
         raise WorldError(
             f"a picture has two dimensions and three channels, not {len(axes)} axes", where=sensor
@@ -71,7 +73,7 @@ def _resized(picture: Any, box: tuple[float, float, float, float], size: tuple[i
     # start-up time
     from PIL import Image
 
-    # each side is padded by whole pixels, so that the box lies inside; what is added is black
+    # pad each side with whole black pixels, so that the box lies inside the sheet
     pad = [int(np.ceil(max(0.0, -box[0]))) + 1, int(np.ceil(max(0.0, -box[1]))) + 1]
     wide = picture.width + pad[0] + int(np.ceil(max(0.0, box[2] - picture.width))) + 1
     high = picture.height + pad[1] + int(np.ceil(max(0.0, box[3] - picture.height))) + 1

@@ -1,4 +1,4 @@
-"""Worlds of pure functions: written for one copy, computed for as many as there are."""
+"""Base class of worlds that are pure functions: written for one copy, vectorised over all copies."""
 
 from __future__ import annotations
 
@@ -23,43 +23,43 @@ from deodar.worlds._base import World
 
 
 class PureWorld(World):
-    """A world whose state is a tree of arrays, and whose step is a function of arrays that JAX can trace.
+    """A world whose state is a PyTree of arrays, and whose step is a function of arrays that JAX can trace.
 
-    What the functions see:
-        shared: arrays that are the same for all copies (walls, amplitudes), as `shared` gives them now: they
-            may change while it runs.
-        own: arrays of one copy, as `own` gives them; and under `keys` two words for each name in `noises`,
-            which key its noise.
-        state: what `start` and `advance` return.
+    Arguments of the functions:
+        shared: arrays that are the same for all copies (walls, amplitudes), as `shared` returns them; they
+            may change during a run.
+        own: arrays of one copy, as `own` returns them; and under `keys` two words for each name in `noises`,
+            the key of its noise.
+        state: the PyTree that `start` and `advance` return.
 
-    Noise is drawn as that of elements is (`numerics.noise`), keyed by the seed, the trial and the name: it is
-    the same in every batch, in both precisions, and wherever the world is computed.
+    Noise is drawn like that of elements (`numerics.noise`), keyed by the seed, the trial and the name of the
+    noise: it is the same in every batch, in both precisions, on the host and inside the compiled step.
     """
 
     noises: tuple[str, ...] = ()
     inside = True
-    """Whether batches compute it inside the compiled step; beside it the same run results, more slowly."""
+    """Whether batches compute the world inside the compiled step; outside it, results are equal but slow."""
 
     # ------------------------------------------------------------------------------------ what a world writes
 
     def shared(self) -> dict[str, np.ndarray]:
-        """Arrays that all copies share, as they now are."""
+        """Return the arrays that all copies share, with their present values."""
         return {}
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
-        """Arrays of each copy, copies first, for the trial of each."""
+        """Return the arrays of each copy, copies first; `trials` has the trial number of each copy."""
         return {}
 
     def start(self, shared: PyTree, own: PyTree) -> PyTree:
-        """The state at the start."""
+        """Return the initial state."""
         raise NotImplementedError
 
     def read(self, shared: PyTree, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Any:
-        """What a sensor reads, over axes."""
+        """Return the reading of a sensor, sampled over `axes`."""
         raise NotImplementedError
 
     def advance(self, shared: PyTree, own: PyTree, state: PyTree, motors: Mapping[str, Any]) -> PyTree:
-        """The state one period later, with what every motor was told."""
+        """Return the state one period later; `motors` has the value of every motor."""
         raise NotImplementedError
 
     # ----------------------------------------------------------------------------------- computed on the host
@@ -111,13 +111,14 @@ class PureWorld(World):
             self._state = kept
 
     def structure(self) -> Hashable:
-        """All that the functions use of the object itself: worlds that agree in it share compiled
-        programs.
+        """Return a key of all attributes that the functions use.
+
+        Worlds of one class with equal keys share compiled programs.
         """
         return id(self)
 
     def parts(self) -> tuple[PyTree, PyTree, PyTree]:
-        """What the functions see now: `shared`, `own` and `state`, the last two with copies first."""
+        """Return the present `shared`, `own` and `state`, the last two with copies first."""
         return *self._values(), self._now()
 
     def _now(self) -> PyTree:
@@ -134,15 +135,15 @@ class PureWorld(World):
         return array.astype(self._dtype) if array.dtype.kind == "f" else array
 
     def call(self, name: Hashable, make: Callable[[Any], Callable[..., Any]], *args: Any) -> Any:
-        """Run a function of this world compiled, in the precision of the model.
+        """Compile and run a function of this world, in the precision of the model.
 
-        Worlds of one structure share it.
+        Worlds of one structure share the compiled function.
 
         Args:
-            name: what tells this function from others of the world; all that it uses beside the world and
-                `args` is part of it.
-            make: gives the function of a world.
-            args: its arguments.
+            name: key of the function among those of the world; it must contain every value that the function
+                uses besides the world and `args`.
+            make: returns the function for a world.
+            args: arguments of the function.
         """
         function = _compiled(_Program(type(self), self.structure(), name, self._dtype, self, make))
         with jax.enable_x64(True) if self._dtype == np.float64 else contextlib.nullcontext():
@@ -151,7 +152,7 @@ class PureWorld(World):
 
 @dataclass(frozen=True)
 class _Program:
-    """A function of a world: equal where kind, structure, name and precision are."""
+    """Cache key of a compiled function; keys with the same kind, structure, name and precision are equal."""
 
     kind: type
     structure: Hashable
@@ -163,7 +164,7 @@ class _Program:
 
 @functools.lru_cache(maxsize=64)
 def _compiled(program: _Program) -> Callable[..., Any]:
-    """The function compiled, from a copy of the world: what the original becomes later does not reach it."""
+    """Compile a function of a copy of the world, which later changes of the original do not affect."""
     return jax.jit(program.make(copy.copy(program.world)))
 
 
@@ -172,7 +173,8 @@ def _keys(_: Any) -> Callable[..., Any]:
 
 
 def number(name: str) -> int:
-    """The number that keys a noise of a world; elements are numbered by hashes of their paths, so that none
-    has the same.
+    """Return the number that keys a noise of a world.
+
+    The hashed text starts with "world: ", so that it differs from the paths that elements are numbered by.
     """
     return int.from_bytes(hashlib.blake2b(f"world: {name}".encode(), digest_size=4).digest(), "big")

@@ -1,4 +1,4 @@
-"""A world as it is seen from above: what a picture of it needs, and where something fits."""
+"""The view of a world from above: the data to draw it, and the test whether a thing fits at a position."""
 
 from __future__ import annotations
 
@@ -11,13 +11,19 @@ from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.parameters import real, show
 
 TOUCH = 1e-5
-"""A share of the longer side: what overlaps by less only touches. Places come in single precision."""
+"""Largest overlap that is only a touch, as a share of the border's longer side; positions are in float32."""
 
 
 @dataclass(frozen=True)
 class SceneBox:
-    """Something solid that stands parallel to both axes: its middle, its size, its colour (red, green, blue,
-    0 to 1); `fixed`: no hand moves it.
+    """A solid box with sides parallel to the axes.
+
+    Attributes:
+        name: name of the box.
+        center: x and y of its middle.
+        size: size along x and y.
+        color: red, green and blue, 0 to 1.
+        fixed: whether the user cannot move it.
     """
 
     name: str
@@ -27,7 +33,7 @@ class SceneBox:
     fixed: bool = False
 
     def gap(self, x: float, y: float) -> float:
-        """How far a place lies from it; 0 inside."""
+        """Return the distance of a position from the box; 0 inside."""
         return math.hypot(
             max(abs(x - self.center[0]) - self.size[0] / 2, 0.0),
             max(abs(y - self.center[1]) - self.size[1] / 2, 0.0),
@@ -36,7 +42,7 @@ class SceneBox:
 
 @dataclass(frozen=True)
 class Mark:
-    """A place that has a name and is not solid, such as a goal; `fixed`: no hand moves it."""
+    """A named position that is not solid, such as a goal; `fixed`: the user cannot move it."""
 
     name: str
     center: tuple[float, float]
@@ -45,8 +51,13 @@ class Mark:
 
 @dataclass(frozen=True)
 class SceneBody:
-    """Something round that moves by itself: its middle, where it looks (rad; 0 along x, counter-clockwise),
-    its radius.
+    """A round body that moves by itself.
+
+    Attributes:
+        name: name of the body.
+        center: x and y of its middle.
+        heading: rad; 0 along x, counter-clockwise.
+        radius: radius, in the unit of the scene.
     """
 
     name: str
@@ -57,12 +68,12 @@ class SceneBody:
 
 @dataclass(frozen=True)
 class Scene:
-    """What there is to see of a world from above, at one moment.
+    """View of a world from above, at one moment.
 
     Attributes:
-        unit: of all lengths.
+        unit: unit of all lengths.
         border: lower x, lower y, upper x, upper y.
-        boxes, marks, bodies: what stands in it, what is marked, what moves by itself.
+        boxes, marks, bodies: solid things, named positions, and bodies that move by themselves.
     """
 
     unit: str
@@ -72,7 +83,12 @@ class Scene:
     bodies: tuple[SceneBody, ...] = ()
 
     def thing(self, name: str) -> SceneBox | Mark:
-        """What a hand may move, by its name."""
+        """Return the box or mark of a name, if the user may move it.
+
+        Raises:
+            UnknownName: the scene has no box or mark of that name.
+            WorldError: it is fixed.
+        """
         things = {thing.name: thing for thing in (*self.marks, *self.boxes)}
         if name not in things:
             raise UnknownName(f"nothing here is called {name!r}", fix=did_you_mean(name, things))
@@ -81,8 +97,10 @@ class Scene:
         return things[name]
 
     def require_room(self, name: str, center: Sequence[float], size: Sequence[float] | None = None) -> None:
-        """Refuse a place where something of that name does not fit: with its middle beyond the border or
-        inside a box, or (with a size) on a body or a mark.
+        """Raise WorldError if a thing does not fit at a position.
+
+        Its middle must lie within the border and outside all other boxes; a thing with a size must not cover
+        a body or a mark.
         """
         x, y = pair(f"{name}.center", center)
         left, low, right, high = self.border
@@ -105,7 +123,7 @@ class Scene:
 
 
 def pair(what: str, given: Any) -> tuple[float, float]:
-    """Two finite numbers."""
+    """Convert a value to two finite floats, or raise WorldError."""
     numbers = [real(v) for v in given] if isinstance(given, Sequence) and not isinstance(given, str) else []
     found = [n for n in numbers if n is not None and math.isfinite(n)]
     if len(numbers) != 2 or len(found) != 2:

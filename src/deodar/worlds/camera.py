@@ -19,20 +19,19 @@ from deodar.worlds._image import PICTURE, frame, sampled
 
 @register
 class Camera(World):
-    r"""What a camera sees now: one sensor, `picture`, over two dimensions and the channels red, green and
-    blue.
+    r"""A camera: one sensor, `picture`, over two dimensions and the channels red, green and blue.
 
-    Values are means of the newest picture, 0 to 1. The camera runs by the wall clock: pace the model to it
-    (`session.run_live`). A run in it cannot be repeated; record what the sensor shows, and replay that
-    (`Recording`).
+    Values are means over the pixels of the newest picture, 0 to 1. The camera follows the wall clock: pace
+    the model to it (`session.run_live`). A run with a camera cannot be repeated; record the output of the
+    sensor and replay it (`Recording`).
 
     Equation:
         y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
-        number: of the camera, 0 for the first; or the address of one in the network, as OpenCV takes it.
+        number: number of the camera, 0 for the first; or the network address of one, as OpenCV accepts it.
         period: ms between two readings; a whole number of steps of the model.
-        patience: seconds without a new picture after which the camera counts as stopped, which is an error.
+        patience: seconds without a new picture after which a reading raises an error.
 
     Shapes:
         x runs over columns from the left, y over rows from the top.
@@ -66,17 +65,17 @@ class Camera(World):
         return sampled(self.picture(), axes, sensor)
 
     def picture(self) -> np.ndarray:
-        """The newest picture (height, width, 3) of bytes."""
+        """Return the newest picture (height, width, 3) of bytes."""
         return self._open().picture()
 
     def close(self) -> None:
-        """Give the camera back to other programs; a reading opens it again."""
+        """Release the camera for other programs; the next reading opens it again."""
         if self._eye is not None:
             self._eye.close()
             self._eye = None
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
-        """Column and row of the picture that a place on the axes stands for."""
+        """Return the column and row of the picture at a position on the axes."""
         return frame(self._open().size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Any]:
@@ -105,7 +104,7 @@ class Camera(World):
 
     @classmethod
     def example(cls) -> Camera:
-        """A film in the place of a camera, of a scene that stands still."""
+        """Return a camera that reads a video file of a constant scene."""
         return cls(str(_capture.example(moves=False)), patience=600.0)
 
     @staticmethod

@@ -24,11 +24,10 @@ MOST_PIXELS = 100_000_000
 
 @register
 class Picture(World):
-    r"""A photograph that stands still: one sensor, `picture`, over two dimensions and the channels red, green
-    and blue.
+    r"""A constant picture: one sensor, `picture`, over two dimensions and the channels red, green and blue.
 
-    Values are 0 to 1, and 0 beside the picture. The picture keeps its shape: it fills the longer side of
-    the axes' area and lies in the middle of the other.
+    Values are 0 to 1, and 0 outside the picture. The picture keeps its aspect ratio: it fills the axes' area
+    along one dimension and is centred along the other.
 
     Equation:
         y(x, y, c) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
@@ -62,7 +61,7 @@ class Picture(World):
         return sampled((self.pixels * 255).round().astype(np.uint8), axes, sensor)
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
-        """Column and row of the picture that a place on the axes stands for."""
+        """Return the column and row of the picture at a position on the axes."""
         return frame(self.size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Any]:
@@ -75,7 +74,7 @@ class Picture(World):
 
     @classmethod
     def example(cls) -> Picture:
-        """A small picture of four colours."""
+        """Return a small picture of four colours."""
         colours = np.array([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [1, 1, 0]]], float)
         return cls(colours.repeat(8, axis=0).repeat(8, axis=1))
 
@@ -107,7 +106,8 @@ def _read(path: Path) -> np.ndarray:
         )
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # the bound below is ours
+            # MOST_PIXELS replaces Pillow's limit
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             opened = Image.open(path)
         with opened as picture:
             if picture.width * picture.height > MOST_PIXELS:

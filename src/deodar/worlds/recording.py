@@ -23,25 +23,25 @@ NEAR = 1e-6
 
 @register
 class Recording(World):
-    r"""What sensors showed in a recorded run, shown again: open loop, exact.
+    r"""Replay of the sensors of a recorded run: open loop, exact.
 
-    Each sensor shows its recorded output of the last recorded time. Motors are taken and do nothing. The
-    same model, with the same seed, does what it did, if every reading was recorded.
+    Each sensor shows its output at the last recorded time. Motors are accepted and have no effect. The same
+    model with the same seed repeats the recorded run if every reading was recorded.
 
     Equation:
         y(t) = \mathrm{recorded}(t_k),\quad t_k \le t < t_{k+1}
 
     Parameters:
         record: an `xarray.Dataset` that `simulate` returned, with the output of sensors among its variables.
-        file: where it was read from; "" where it was not.
+        file: path of the file that the record was read from; "" if it was not read from a file.
 
     Shapes:
-        Each sensor has the axes it was recorded over. Where trials were recorded, each copy of a model reads
+        Each sensor has the axes it was recorded over. If the record has trials, each copy of a model reads
         its own trial.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.2 (recorded input in the
-        place of sensors).
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.2 (recorded input instead
+        of sensors).
     """
 
     def __init__(self, record: xarray.Dataset, file: str = "") -> None:
@@ -130,7 +130,7 @@ class Recording(World):
 
     @classmethod
     def example(cls) -> Recording:
-        """Four readings of one sensor, in two trials."""
+        """Return a recording of one sensor: 20 readings in each of two trials."""
         x, shown = Axis("x", 0, 4, 5), np.arange(200.0, dtype=np.float32).reshape(2, 20, 5)
         elements = {"eye": {"kind": "Sensor", "sensor": "light"}, "leg": {"kind": "Motor", "motor": "left"}}
         coords: dict[str, Any] = {

@@ -21,19 +21,19 @@ from deodar.worlds._image import PICTURE, frame, sampled
 
 @register
 class Video(World):
-    r"""A film that runs with the time of the model: one sensor, `picture`, over two dimensions and the
-    channels red, green and blue.
+    r"""A video file: one sensor, `picture`, over two dimensions and the channels red, green and blue.
 
-    Values are means of the picture that the video shows at t, 0 to 1. After its end it shows its last
-    picture, or begins again.
+    The video plays in the time of the model. Values are means over the pixels of the picture at time t, 0 to
+    1. After its end the video shows its last picture, or starts again.
 
     Equation:
         y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
         file: path of a video file that OpenCV can read.
-        period: ms between two readings; a whole number of steps of the model. The film may have another rate.
-        loop: whether it begins again after its end.
+        period: ms between two readings; a whole number of steps of the model. The video may have another
+            rate.
+        loop: whether the video starts again after its end.
 
     Shapes:
         x runs over columns from the left, y over rows from the top.
@@ -62,11 +62,11 @@ class Video(World):
         return sampled(self.picture(time), axes, sensor)
 
     def picture(self, time: float) -> np.ndarray:
-        """The picture (height, width, 3) of bytes that the film shows at a time in ms."""
+        """Return the picture (height, width, 3) of bytes at a time in ms."""
         return self._film.picture(max(time, 0.0), self.loop)
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
-        """Column and row of the picture that a place on the axes stands for."""
+        """Return the column and row of the picture at a position on the axes."""
         return frame(self.size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Any]:
@@ -90,8 +90,9 @@ class Video(World):
 
     @classmethod
     def example(cls) -> Video:
-        """A red square that crosses a grey ground in a second; written anew into the folder of temporary
-        files.
+        """Return a video of a red square that crosses a grey ground in one second.
+
+        Each call writes a new file into the folder of temporary files.
         """
         return cls(_capture.example(), loop=True)
 

@@ -38,11 +38,11 @@ from deodar.worlds.arena.view import coloured, require_plane, sides
 CONTACTS = ("slide", "stick")
 GOAL = "goal"
 WRAP = 2.0**15
-"""Encoders count from -WRAP to WRAP and begin again, as those of the e-puck (16 bits)."""
+"""Encoders count from -WRAP to WRAP and then wrap around, like those of the e-puck (16 bits)."""
 
 
 def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
-    """The sensors of a vehicle in an arena."""
+    """Return the signals of a vehicle's sensors in an arena."""
     out = {
         "infrared": Signal(
             "infrared sensors, from the right of the front clockwise; large when near",
@@ -72,10 +72,10 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
 class Arena(PureWorld):
     r"""A vehicle with two wheels among walls, boxes and coloured blocks, seen from above.
 
-    In a period the axle runs on a circle, whose turn and path follow from the steps of both wheels. The
-    body is a disc; it slides along what it touches, or sticks to it, and never gets through it however long
-    the period. d_i is the distance along one infrared ray, T and N are tables of the vehicle. The measured
-    place is new at every `place_every`-th period and held between.
+    In a period the axle moves on a circle, whose turn and path follow from the steps of both wheels. The body
+    is a disc; it slides along what it touches, or sticks to it, and never passes through it, however long the
+    period. d_i is the distance along one infrared ray, T and N are tables of the vehicle. The place sensor
+    has a new reading every `place_every` periods and keeps it in between.
 
     Equation:
         \mathrm{turn} = \frac{\mathrm{right} - \mathrm{left}}{\mathrm{axle}},\quad \mathrm{path} =
@@ -85,28 +85,28 @@ class Arena(PureWorld):
         \mathrm{place} = \text{true place} + \mathrm{place\_noise}\, \xi
 
     Parameters:
-        layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME in a file
-            of several, or a dictionary.
-        start: x, y and heading (rad), or a row of these for each trial; none: the file's, else the free place
-            nearest the middle.
-        goal: x and y, or a row for each trial; none: the file's.
-        unit: of all lengths that are given or read: m, cm or mm.
-        vehicle: what drives in it; by default an e-puck.
+        layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME for one
+            arena of a file with several, or a dictionary.
+        start: x, y and heading (rad), or a row of these for each trial; None: that of the layout, else the
+            free place nearest the middle.
+        goal: x and y, or a row for each trial; None: that of the layout.
+        unit: unit of all lengths in arguments and readings: m, cm or mm.
+        vehicle: the vehicle; by default an e-puck.
         period: ms between two exchanges with the model.
         contact: `slide` along what is touched, or `stick` to it.
-        reflection: how well things reflect infrared: they are read as if they stood at their distance divided
-            by it. 0.6 is a fit: with 1 the published planner stops at the gaps of 10 cm of its large maze,
-            which it passed.
-        place_noise: standard deviation of the place sense, in `unit`.
-        place_every: periods for which a reading of the place is held.
-        infrared_noise: factor on the noise of the infrared sensors; 0 silences it.
-        slip: standard deviation of what a wheel rolls in a period, as a share of it.
-        encoder_noise: standard deviation of what an encoder counts in a period, as a share of it.
+        reflection: infrared reflectance of things: a thing is read as if its distance were divided by it. 0.6
+            is a fit: with 1 the published planner stops at the gaps of 10 cm of its large maze, which it
+            passed.
+        place_noise: standard deviation of the place sensor, in `unit`.
+        place_every: number of periods for which a reading of the place is kept.
+        infrared_noise: factor on the noise of the infrared sensors; 0 removes it.
+        slip: standard deviation of the distance that a wheel rolls in a period, as a share of that distance.
+        encoder_noise: standard deviation of an encoder's count in a period, as a share of that count.
 
     Shapes:
         `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and
-        `above` are sampled over the model's axes, x the one called x, else the first. The file's plane x,z (y
-        up) is turned so that x here is -z, y here -x, and heading 0 looks along -z.
+        `above` are sampled over the model's axes; x is the axis named x, else the first. For a file with the
+        plane x,z (y up), x is the file's -z, y is the file's -x, and heading 0 points along the file's -z.
 
     Reference:
         Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4 and its published simulator;
@@ -177,7 +177,7 @@ class Arena(PureWorld):
         self.starts = self._settled(wanted)
         self.sensors = signals(vehicle, unit, self.goals is not None)
 
-    # ----------------------------------------------------------------------------- things, also while it runs
+    # -------------------------------------------------------------------------- things, also changed in a run
 
     def place(
         self,
@@ -187,21 +187,23 @@ class Arena(PureWorld):
         color: Sequence[float] = (0.72, 0.53, 0.3),
         windows: Sequence[float] | np.ndarray | None = None,
     ) -> None:
-        """Put a thing into the arena, or another one in the place of one of that name; it is there from the
-        next period on.
+        """Add a thing to the arena from the next period on, or replace the one of the same name.
 
         Args:
-            name: what it is called.
+            name: name of the thing.
             center: x and y of its middle.
-            size: along x and y.
+            size: size along x and y.
             color: red, green and blue, 0 to 1.
-            windows: (start, stop) in ms of the time of the run between which it stands, or a row for each
-                trial; none: from now on.
+            windows: (start, stop) in ms of the run's time between which the thing is present, or a row for
+                each trial; None: from now on.
         """
         self.furniture.place(make(name, center, size, color, self.scale), windows)
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Put a thing elsewhere: x and y of its middle. What is called `goal` and is no thing is the goal."""
+        """Move a thing; `center` is the new x and y of its middle.
+
+        The name `goal` moves the goal, unless a thing has that name.
+        """
         if (
             name == GOAL
             and self.goals is not None
@@ -212,13 +214,14 @@ class Arena(PureWorld):
             self.furniture.move(name, center, self.scale)
 
     def remove(self, name: str) -> None:
-        """Take a thing away."""
+        """Remove a thing."""
         self.furniture.remove(name)
 
     def aim(self, goal: Sequence[float]) -> None:
-        """Put the goal elsewhere, for all copies: x and y.
+        """Move the goal of all copies to x and y.
 
-        Refused inside a thing, outside the arena, and where the arena had no goal.
+        Raises:
+            WorldError: the position is inside a thing or outside the arena, or the arena has no goal.
         """
         if self.goals is None:
             raise WorldError("the arena has no goal to move", fix="Give it one: Arena(..., goal=(x, y))")
@@ -229,16 +232,18 @@ class Arena(PureWorld):
         self.goals = goals
 
     def arrangement(self) -> Any:
-        """All that may be changed while it runs, things and goals, as it is now: for `arrange`."""
+        """Return the present things and goals, which may change during a run, for `arrange`."""
         return copy.deepcopy((self.furniture, self.goals))
 
     def arrange(self, kept: Any) -> None:
-        """Things and goals as they were."""
+        """Restore things and goals that `arrangement` returned."""
         self.furniture, self.goals = kept
 
     def scene(self) -> Scene:
-        """The arena from above, in its unit: what stands in it now for the first copy, its goals, and the
-        vehicle of each copy once it has begun.
+        """Return the arena from above, in its unit.
+
+        The scene has the things that are present for the first copy, the goals and, after `reset`, the
+        vehicle of each copy.
         """
         state, trials = (self._now(), self._trials) if hasattr(self, "_state") else (None, (0,))
         now = 0 if state is None else int(np.asarray(state["tick"])[0])
@@ -349,8 +354,9 @@ class Arena(PureWorld):
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
     def _deviates(self, own: PyTree, tick: Any, dtype: DTypeLike) -> dict[str, Any]:
-        """Standard normal deviates of a period for each noise, as many as the largest needs: one graph for
-        all compiles faster.
+        """Draw the standard normal deviates of a period for each noise.
+
+        Every noise gets the number that the largest one needs, because one graph for all compiles faster.
         """
         keys = jnp.stack([own["keys"][name] for name in self.noises])
         drawn = jax.vmap(lambda key: normal((max(2, self.vehicle.infrared.count),), key, tick, dtype))(keys)
@@ -359,7 +365,7 @@ class Arena(PureWorld):
     def _sensed(
         self, shared: PyTree, own: PyTree, body: PyTree, tick: Any, deviates: Mapping[str, Any], held: Any
     ) -> PyTree:
-        """The state with what the noisy sensors read in it, so that one period has one reading."""
+        """Add the readings of the noisy sensors to the state, so that one period has one reading."""
         boxes = shared["boxes"]
         seen = distances(
             self.vehicle.infrared,
@@ -385,12 +391,17 @@ class Arena(PureWorld):
         require_plane(sensor, axes, sensor == "above")
         one, other = sides(axes[:2], shared["boxes"], self.scale)
         one = one * _there(own, state["tick"])[:, None]
-        if sensor == "obstacles":  # one product of matrices: no array over boxes and the plane
+        if sensor == "obstacles":  # one matrix product, which needs no array over boxes and the plane
             return jnp.clip(jnp.einsum("bi,bj->ij", one, other, precision="highest"), 0.0, 1.0)
         return coloured(one[:, :, None] * other[:, None, :], shared["colours"])
 
     def _settled(self, starts: np.ndarray | None) -> np.ndarray:
-        """The starts; where none was given, one that can be. Refused are starts and goals that cannot."""
+        """Check starts and goals, and return the starts; if none was given, choose one.
+
+        Raises:
+            WorldError: a start or goal lies outside the arena or inside a thing, a goal cannot be reached
+                from its start, or the vehicle fits nowhere.
+        """
         standing, radius = self.furniture.standing(), self.vehicle.radius
         room = Room(self.layout, radius, np.asarray([t.box for t in standing]))
         if starts is None:
@@ -455,7 +466,7 @@ class Arena(PureWorld):
 
     @classmethod
     def example(cls) -> Arena:
-        """An e-puck among coloured blocks."""
+        """Return an arena with an e-puck among coloured blocks."""
         return cls("blocks", place_noise=0.005, place_every=2, slip=0.01, encoder_noise=0.02)
 
     @staticmethod

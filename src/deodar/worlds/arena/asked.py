@@ -1,4 +1,4 @@
-"""An arena as it is asked for on the command line: what stands in it, and how it is set up."""
+"""Parser of arenas on the command line: the layout and the settings."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ from deodar.errors import WorldError, did_you_mean
 
 WORDS = ("unit", "contact")
 PLACES = {"start": (2, 3), "goal": (2, 2)}
-"""How many numbers a place has, at least and at most; a start without a heading looks along x."""
+"""Smallest and largest count of numbers of a place; a start without a heading points along x."""
 
 NUMBERS = ("period", "reflection", "place_noise", "place_every", "infrared_noise", "slip", "encoder_noise")
 
 
 def asked(argument: str) -> tuple[str, Mapping[str, Any]]:
-    """The layout and the settings in `LAYOUT, NAME=VALUE, ...`, for example `z, unit=cm, goal=-27 78,
-    place_noise=0.5`.
+    """Parse `LAYOUT, NAME=VALUE, ...` into a layout and settings.
+
+    An example is `z, unit=cm, goal=-27 78, place_noise=0.5`.
 
     Raises:
-        WorldError: there is no such setting, or its value is none.
+        WorldError: a setting is unknown, or its value is invalid.
     """
     layout, *pieces = (piece.strip() for piece in argument.split(","))
     found: dict[str, Any] = {}

@@ -1,9 +1,9 @@
-"""A disc among boxes: how far it gets, along which walls it slides. Pure functions of one copy.
+"""Contact of a disc with boxes: how far it moves, and how it slides along walls. Pure functions of one copy.
 
-Boxes are rows (lower x, lower y, upper x, upper y) of an array, parallel to the axes; a flag for each says
-whether it is there. The disc never jumps over a wall however long the step: it is swept along its straight
-path, and stops or slides at the first touch. A disc against a box is a point against a box with round corners
-(the Minkowski sum), which is convex.
+Boxes are rows (lower x, lower y, upper x, upper y) of an array, parallel to the axes; a flag for each box
+says whether it is present. The disc never jumps over a wall, however long the step: it is swept along its
+straight path, and stops or slides at the first touch. A disc against a box is a point against a box with
+round corners (the Minkowski sum), which is convex.
 """
 
 from __future__ import annotations
@@ -13,34 +13,32 @@ import jax.numpy as jnp
 from jax import lax
 
 SKIN = 1e-6
-"""Gap that is left at a touch, m: above the rounding of single precision at 10 m, far below anything that
-matters.
-"""
+"""Gap that remains at a touch, m: above the rounding error of float32 at 10 m, negligible for the motion."""
 
 CLOSE = 4e-6
 """Gap below which the disc counts as touching, m."""
 
 GRAZING = 1e-6
-"""Share of a step that may point into a touched wall and still counts as along it: rounding of the slide."""
+"""Share of a step that may point into a touched wall without a new touch: rounding error of the slide."""
 
 SLIDES = 6
-"""Walls that one step may meet; a corner takes two, a notch three. What is left of the step then is dropped.
+"""Number of walls that one step may meet; a corner takes two, a notch three.
+
+The rest of the step is dropped.
 """
 
 PUSHES = 8
-"""Boxes out of which a disc is pushed in one step, when they were put on it."""
+"""Largest number of boxes, placed over the disc, out of which it is pushed in one step."""
 
 NOT_HIT = 2.0
 
 
 Carry = tuple[jax.Array, jax.Array, jax.Array]
-"""Position, what is left of the step, and whether something was touched."""
+"""Position, rest of the step, and whether something was touched."""
 
 
 def gaps(position: jax.Array, boxes: jax.Array, radius: jax.Array | float) -> tuple[jax.Array, jax.Array]:
-    """For each box (n, 4) the gap between it and the disc, negative inside, and the unit vector (n, 2) out of
-    it.
-    """
+    """Return for each box (n, 4) its gap to the disc, negative inside, and its outward unit vector (n, 2)."""
     lower, upper = boxes[:, :2], boxes[:, 2:]
     away = position - jnp.clip(position, lower, upper)
     square = jnp.sum(away * away, axis=1)
@@ -56,9 +54,7 @@ def gaps(position: jax.Array, boxes: jax.Array, radius: jax.Array | float) -> tu
 def push_out(
     position: jax.Array, boxes: jax.Array, present: jax.Array, radius: jax.Array | float
 ) -> jax.Array:
-    """The disc moved out of boxes that it stands in (because they were put there), the deepest first;
-    elsewhere it stays where it is.
-    """
+    """Move the disc out of boxes that were placed over it, the deepest first; return its position."""
 
     def push(_: jax.Array, p: jax.Array) -> jax.Array:
         gap, normal = gaps(p, boxes, radius)
@@ -77,15 +73,15 @@ def move(
     radius: jax.Array | float,
     sticks: bool,
 ) -> tuple[jax.Array, jax.Array]:
-    """Where a disc that wants to go by `step` (2,) gets to, and whether it touched something.
+    """Move a disc by `step` as far as the boxes allow; return its position (2,) and whether it touched one.
 
     Args:
         position: middle of the disc (2,).
-        step: where it wants to go, relative to there.
+        step: displacement without contact (2,).
         boxes: (n, 4).
-        present: which of them are there (n,).
-        radius: of the disc.
-        sticks: at a touch it stands still for the rest of the step; else it slides on along the wall.
+        present: which boxes are present (n,).
+        radius: radius of the disc.
+        sticks: whether the disc stops at a touch for the rest of the step; else it slides along the wall.
     """
     start = push_out(position, boxes, present, radius)
 
@@ -113,9 +109,7 @@ def move(
 def first_touch(
     position: jax.Array, step: jax.Array, boxes: jax.Array, radius: jax.Array | float
 ) -> jax.Array:
-    """For each box the share of a step after which a disc that is outside touches it; above 1: not in this
-    step.
-    """
+    """Return for each box the share of a step at which a disc outside touches it; above 1: no touch."""
     tall, wide = jnp.asarray([0, radius], boxes.dtype), jnp.asarray([radius, 0], boxes.dtype)
     lower, upper = boxes[:, :2], boxes[:, 2:]
     flat = jnp.minimum(
@@ -127,9 +121,7 @@ def first_touch(
 
 
 def _into_box(position: jax.Array, step: jax.Array, lower: jax.Array, upper: jax.Array) -> jax.Array:
-    """Share of the step at which a point enters boxes (..., 2), 0 where it is inside, NOT_HIT where it never
-    does.
-    """
+    """Return the share of the step at which a point enters boxes (..., 2); 0 inside, NOT_HIT for a miss."""
     tiny = jnp.asarray(1e-30, step.dtype)
     inverse = 1.0 / jnp.where(jnp.abs(step) < tiny, tiny, step)
     one, other = (lower - position) * inverse, (upper - position) * inverse
@@ -141,7 +133,7 @@ def _into_box(position: jax.Array, step: jax.Array, lower: jax.Array, upper: jax
 def _into_disc(
     position: jax.Array, step: jax.Array, middles: jax.Array, radius: jax.Array | float
 ) -> jax.Array:
-    """Share of the step at which a point enters discs round `middles` (..., 2)."""
+    """Return the share of the step at which a point enters discs round `middles` (..., 2)."""
     away = position - middles
     square = jnp.sum(step * step)
     approach = -jnp.sum(away * step, axis=-1)
@@ -157,8 +149,9 @@ def _into_disc(
 def rays(
     origins: jax.Array, directions: jax.Array, boxes: jax.Array, present: jax.Array, longest: float
 ) -> jax.Array:
-    """Distance (m,) from each origin (m, 2) along its unit vector (m, 2) to the nearest box; at most
-    `longest`.
+    """Return the distance (m,) from each origin (m, 2) along its unit vector (m, 2) to the nearest box.
+
+    Distances are at most `longest`.
     """
 
     def one(origin: jax.Array, direction: jax.Array) -> jax.Array:

@@ -1,12 +1,12 @@
-"""The e-puck, as numbers.
+"""The dimensions and sensors of the e-puck robot.
 
 Sources:
     Mondada et al. (2009), The e-puck, a robot designed for education in engineering, 9th Conf. on Autonomous
     Robot Systems and Competitions: a round robot of 7 cm with two stepper motors and eight infrared sensors;
-    20 steps a turn through a gear of 1:50. Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), and its
-    published simulator: wheels of 41 mm, an axle of 52 mm, 1000 steps a turn, the angles of the sensors. The
-    model of the robot in the simulator Webots 7, as public projects quote it: radius of the body, table of
-    the sensors.
+    20 steps per turn and a gear of 1:50. Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), and its
+    published simulator: wheels of 41 mm, an axle of 52 mm, 1000 steps per turn, the angles of the sensors.
+    The model of the robot in the simulator Webots 7, as public projects quote it: radius of the body, table
+    of the sensors.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from math import pi
 
 from deodar.worlds.arena.vehicle import Infrared, Vehicle
 
-# From sensor 0, at the right of the front, clockwise round the robot. The angles are those of the published
-# controller; where the sensors stand is general knowledge of the robot, good to a millimetre or two.
+# Sensor 0 is at the right of the front; the others follow clockwise round the robot. The angles are those of
+# the published controller; the positions are general knowledge of the robot, accurate to a millimetre or two.
 FORWARD = (0.030, 0.022, 0.0, -0.030, -0.030, 0.0, 0.022, 0.030)
 LEFT = (-0.010, -0.025, -0.031, -0.015, 0.015, 0.031, 0.025, 0.010)
 ANGLES = tuple(a - pi / 2 for a in (1.27, 0.77, 0.0, 5.21, 4.21, 3.14159, 2.37, 1.87))

@@ -1,6 +1,4 @@
-"""What stands in an arena while it runs: things that come, move and go without anything being compiled
-anew.
-"""
+"""The things of a running arena, which are added, moved and removed without recompilation."""
 
 from __future__ import annotations
 
@@ -16,21 +14,21 @@ from deodar.worlds.arena.places import of, rows_of
 from deodar.worlds.arena.view import OUTSIDE
 
 SPARE = 16
-"""Things that may be placed besides those of the file: the arrays have room for so many."""
+"""Number of things that may be placed besides those of the layout; it fixes the size of the arrays."""
 
 ALWAYS = (0, 2**31 - 1)
-"""Periods between which a thing stands that was given no windows."""
+"""First period, and end, of a thing without windows."""
 
 BORDER = 4
 
 
 class Furniture:
-    """The things of a layout and those that were placed, as arrays of fixed size.
+    """The things of a layout and those placed later, as arrays of fixed size.
 
     Attributes:
-        things: what stands there; None: a place that is free.
-        windows: for each the first period in which it stands and the first in which it no longer does; one
-            row, or one for each trial.
+        things: thing in each slot; None: the slot is free.
+        windows: for each thing the first period in which it is present, and the first after that in which it
+            is not; one row, or one for each trial.
     """
 
     def __init__(self, layout: ArenaLayout, period: float) -> None:
@@ -41,7 +39,7 @@ class Furniture:
         self.windows: list[np.ndarray] = [np.asarray([ALWAYS], np.int32) for _ in range(self.room)]
 
     def place(self, thing: Thing, windows: Any) -> None:
-        """Put a thing there, or another one in the place of one of that name; windows in ms, or None."""
+        """Add a thing, or replace the one of the same name; windows are in ms, or None."""
         times = np.asarray([ALWAYS], np.int32)
         if windows is not None:
             what = f"windows of {thing.name}"
@@ -60,24 +58,24 @@ class Furniture:
         self.things[k], self.windows[k] = thing, times
 
     def move(self, name: str, center: Sequence[float], scale: float) -> None:
-        """Put a thing elsewhere."""
+        """Move a thing; `center` is in units of `scale` metres."""
         k = self._index(name)
         old = self.things[k]
         assert old is not None
         self.things[k] = dc.replace(old, center=make(name, center, (1, 1), old.color, scale).center)
 
     def remove(self, name: str) -> None:
-        """Take a thing away."""
+        """Remove a thing."""
         self.things[self._index(name)] = None
 
     def standing(self) -> list[Thing]:
-        """What stands there all the time."""
+        """Return the things that are always present."""
         return [
             t for t, w in zip(self.things, self.windows, strict=True) if t is not None and (w == ALWAYS).all()
         ]
 
     def there(self, period: int, trial: int) -> list[Thing]:
-        """What stands there in a period of a trial."""
+        """Return the things that are present in a period of a trial."""
         rows = (
             (t, w[min(trial, len(w) - 1)])
             for t, w in zip(self.things, self.windows, strict=True)
@@ -88,8 +86,9 @@ class Furniture:
     # ------------------------------------------------------------------------------------------------- arrays
 
     def boxes(self) -> np.ndarray:
-        """Things (n, 4) in metres, then the four sides of the border; a place that is free holds a box far
-        away.
+        """Return the boxes (n, 4) of the slots in metres, then the four sides of the border.
+
+        A free slot has a box far outside the arena.
         """
         left, low, right, high = self.border
         far = 10 * max(right - left, high - low)
@@ -99,11 +98,11 @@ class Furniture:
         return np.asarray([*(free if t is None else t.box for t in self.things), *sides])
 
     def colours(self) -> np.ndarray:
-        """Colours (n, 3) of the same."""
+        """Return the colours (n, 3) of the rows of `boxes`."""
         return np.asarray([*(OUTSIDE if t is None else t.color for t in self.things), *([OUTSIDE] * BORDER)])
 
     def times(self, trials: Sequence[int]) -> np.ndarray:
-        """For each trial and each of the same the periods between which it stands (trials, n, 2)."""
+        """Return the windows (trials, n, 2) of the rows of `boxes`, in periods."""
         out = np.zeros((len(trials), self.room + BORDER, 2), np.int32)
         out[:, self.room :] = ALWAYS
         for k, (thing, rows) in enumerate(zip(self.things, self.windows, strict=True)):
@@ -112,7 +111,7 @@ class Furniture:
         return out
 
     def to_data(self) -> list[Any]:
-        """What stands there, and when, as plain data."""
+        """Return the things and their windows as plain data."""
         return [
             [t.name, *t.center, *t.size, *t.color, w.tolist()]
             for t, w in zip(self.things, self.windows, strict=True)
@@ -120,7 +119,7 @@ class Furniture:
         ]
 
     def take(self, data: Sequence[Any]) -> None:
-        """What `to_data` gave."""
+        """Replace all things by those that `to_data` returned."""
         self.things = [Thing(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7])) for d in data]
         self.windows = [np.asarray(d[8], np.int32) for d in data]
         self.things += [None] * (self.room - len(data))

@@ -1,4 +1,4 @@
-"""What infrared sensors read among boxes: pure functions of one copy."""
+"""Readings of infrared sensors among boxes, as pure functions of one copy."""
 
 from __future__ import annotations
 
@@ -14,10 +14,9 @@ from deodar.worlds.arena.vehicle import Infrared, ahead
 def distances(
     sensors: Infrared, position: Any, heading: Any, boxes: Any, present: Any, reflection: Any
 ) -> Any:
-    """Distance (sensors,) that the light finds, m: that of the nearest box along one ray, divided by how well
-    it reflects.
+    """Return the distance (sensors,) to the nearest box along one ray, divided by `reflection`, m.
 
-    Beyond the range of the table everything reads the same, so rays end there.
+    Rays end at ten times the largest distance of the table; readings are constant beyond the table.
     """
     dtype = boxes.dtype
     forward, left = jnp.asarray(sensors.forward, dtype), jnp.asarray(sensors.left, dtype)
@@ -25,15 +24,15 @@ def distances(
     side = jnp.stack([-front[1], front[0]])
     origins = position + forward[:, None] * front + left[:, None] * side
     looks = ahead(heading + jnp.asarray(sensors.angles, dtype)).T
-    # something that reflects twice as well as the table's surface is seen as far as twice the range
+    # a thing that reflects twice as well as the table's surface is detected up to twice the range
     longest = 10 * sensors.distances[-1]
     return jnp.minimum(rays(origins, looks, boxes, present, longest), longest) / reflection
 
 
 def readings(sensors: Infrared, distance: Any, deviates: Any) -> Any:
-    """The reading (sensors,) at distances, with noise from standard normal deviates; not below 0.
+    """Return the reading (sensors,) at distances, with noise from standard normal deviates; at least 0.
 
-    Between the entries of the table both reading and noise are interpolated.
+    Reading and noise are interpolated linearly between the entries of the table.
     """
     at = jnp.asarray(np.asarray(sensors.distances), distance.dtype)
     value = jnp.interp(distance, at, jnp.asarray(np.asarray(sensors.readings), distance.dtype))

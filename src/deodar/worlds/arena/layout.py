@@ -1,4 +1,4 @@
-"""What stands in an arena, as a small JSON file says it, and what cannot be.
+"""The layout of an arena: its JSON format, the reader, and the checks.
 
     {"unit": "m", "arena": {"x": [0, 1], "y": [0, 1]},
      "walls": [{"name": "north", "center": [0.5, 0.9], "size": [0.6, 0.05]}],
@@ -6,8 +6,8 @@
      "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "color": [1, 0, 0]}],
      "start": [0.2, 0.2], "heading": 0.0, "goal": [0.8, 0.8]}
 
-A file may hold several arenas by name. Everything stands parallel to the two axes and is seen and touched
-whatever its height.
+A file may contain several arenas by name. All things are parallel to the two axes; sensors and contact ignore
+their height.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 """Units of length, in metres."""
 
 COLOURS = {"walls": (0.45, 0.45, 0.45), "boxes": (0.72, 0.53, 0.3), "blocks": (0.8, 0.2, 0.2)}
-"""Lists of things, and the colour of what names none."""
+"""Lists of things, and the colour of a thing that states none."""
 
 KNOWN = ("unit", "plane", "arena", *COLOURS, "start", "heading", "goal", "goal_area")
 LARGEST_FILE = 2**24
@@ -36,9 +36,7 @@ LARGEST_FILE = 2**24
 
 @dataclass(frozen=True)
 class Thing:
-    """A box that stands in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to
-    1.
-    """
+    """A box in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to 1."""
 
     name: str
     center: tuple[float, float]
@@ -54,11 +52,11 @@ class Thing:
 
 @dataclass(frozen=True)
 class ArenaLayout:
-    """An arena: its inner faces, what stands in it, where a vehicle starts and where it is to go.
+    """An arena: its border, its things, the start of the vehicle and the goal.
 
     Attributes:
         border: lower x, lower y, upper x, upper y, m.
-        things: what stands in it; things may overlap, and may stand outside (parked).
+        things: boxes in it; they may overlap, and may lie outside the border (parked).
         start: x, y in m and heading in rad, or None.
         goal: x, y in m, or None.
     """
@@ -69,7 +67,7 @@ class ArenaLayout:
     goal: tuple[float, float] | None = None
 
     def to_data(self) -> dict[str, Any]:
-        """The same as a file says it."""
+        """Return the layout in the format of a file."""
         left, low, right, high = self.border
         data: dict[str, Any] = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
         data["blocks"] = [
@@ -82,7 +80,7 @@ class ArenaLayout:
 
 
 def builtin() -> dict[str, Any]:
-    """The arenas that come with deodar, as data, by name."""
+    """Return the data of the arenas that come with deodar, by name."""
     found: dict[str, Any] = {}
     for file in sorted((resources.files("deodar.worlds.arena") / "layouts").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".json"):
@@ -91,10 +89,10 @@ def builtin() -> dict[str, Any]:
 
 
 def load(source: str | Path | Mapping[str, Any]) -> ArenaLayout:
-    """A layout from data, from the name of an arena that comes with deodar, or from `FILE` or `FILE#NAME`.
+    """Load a layout from data, the name of an arena that comes with deodar, `FILE` or `FILE#NAME`.
 
     Raises:
-        WorldError: there is no such arena, or what it says cannot be; all that is wrong is listed.
+        WorldError: the arena does not exist or is invalid; the error lists all problems.
     """
     if isinstance(source, Mapping):
         return _layout(source, "arena")
@@ -138,7 +136,7 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 class _Faults(list[Problem]):
-    """Problems found on the way through one arena."""
+    """Problems found while reading one arena."""
 
     def __init__(self, where: str) -> None:
         super().__init__()
@@ -163,7 +161,7 @@ def _layout(data: Any, where: str) -> ArenaLayout:
         raise WorldError(f"is {show(data)}; an arena is an object with walls", where=where)
     for key in data:
         near = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
-        if near:  # other words are notes of whoever wrote the file
+        if near:  # keys that are not similar to a known one are notes of the author
             faults.say("", f"says {key!r}, which is not known", f"Did you mean {near[0]!r}?")
     scale = UNITS.get(data.get("unit", "m"), 0.0) if isinstance(data.get("unit", "m"), str) else 0.0
     if not scale:
@@ -175,7 +173,7 @@ def _layout(data: Any, where: str) -> ArenaLayout:
         names = "x,y"
     turned = (
         names == "x,z"
-    )  # as in Webots: y is up, a robot that is not turned looks along -z; so x here is -z, y here -x
+    )  # as in Webots: y is up, and heading 0 points along -z; so x is the file's -z, and y its -x
     border = _border(data, names.split(","), turned, scale, faults)
     things = tuple(_things(data, turned, scale, faults))
     start = _place(data, "start", turned, scale, faults)
@@ -256,10 +254,10 @@ def _things(data: Mapping[str, Any], turned: bool, scale: float, faults: _Faults
 
 
 def make(name: str, center: Any, size: Any, color: Any, scale: float = 1.0) -> Thing:
-    """A thing from numbers as somebody wrote them, lengths in units of `scale` metres.
+    """Make a thing from unchecked values; lengths are in units of `scale` metres.
 
     Raises:
-        WorldError: a number is missing or not finite, it has no area, or its colour is none.
+        WorldError: a number is missing or not finite, the thing has no area, or its colour is invalid.
     """
     faults = _Faults("")
     thing = _thing(name, center, size, color, faults)

@@ -1,4 +1,4 @@
-"""Starts and goals: a row for all trials or one for each, and those that cannot be."""
+"""Starts and goals: one row for all trials or one for each trial, and the checks of their positions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from deodar.worlds.arena.layout import Thing
 
 
 def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:
-    """Rows of finite numbers, as many in a row as there are scales, times these."""
+    """Convert a value to rows with one finite number per scale, multiplied by the scales."""
     try:
         rows = np.atleast_2d(np.asarray(given, float))
     except (TypeError, ValueError):
@@ -28,7 +28,7 @@ def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:
 
 
 def of(trials: Sequence[int], rows: np.ndarray, what: str) -> np.ndarray:
-    """The row of each trial; one row serves all."""
+    """Return the row of each trial; a single row is used for all trials."""
     if len(rows) == 1:
         return np.repeat(rows, len(trials), axis=0)
     if max(trials) >= len(rows):
@@ -38,12 +38,12 @@ def of(trials: Sequence[int], rows: np.ndarray, what: str) -> np.ndarray:
 
 
 class Places:
-    """What is asked of places in an arena, and how they are named in a message.
+    """Checks of positions in an arena, and their form in messages.
 
     Attributes:
         border: lower x, lower y, upper x, upper y, m.
-        unit, scale: of lengths in messages, and metres in one.
-        source: where the arena is from.
+        unit, scale: unit of lengths in messages, and its size in metres.
+        source: name or file of the arena.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class Places:
         self.border, self.unit, self.scale, self.source = border, unit, scale, source
 
     def misplaced(self, rows: np.ndarray, what: str, radius: float, things: Sequence[Thing]) -> list[Problem]:
-        """Problems of places that lie outside the arena, or where a disc would stand in a thing."""
+        """Return problems of positions that are outside the arena or too near to a thing for the radius."""
         problems: list[Problem] = []
         left, low, right, high = self.border
         needs = f"; the vehicle needs {radius / self.scale:g} {self.unit} around it" if radius else ""
@@ -72,14 +72,14 @@ class Places:
         return problems
 
     def fault(self, what: str, rows: np.ndarray, k: int, text: str) -> Problem:
-        """The problem of a row."""
+        """Return a problem of row `k`."""
         place = what if len(rows) == 1 else f"{what} of trial {k}"
         return Problem(
             f"{self.source}: {place}" if self.source else place, f"{self.shown(rows[k % len(rows)])} {text}"
         )
 
     def shown(self, row: np.ndarray) -> str:
-        """A place in a message."""
+        """Format a position for a message."""
         return f"({row[0] / self.scale:.4g}, {row[1] / self.scale:.4g})"
 
 

@@ -1,4 +1,4 @@
-"""Where a disc has room in a layout, and from where it gets where."""
+"""The free space of a disc in a layout, and which places it can reach."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ MOST_CELLS = 4_000_000
 
 
 class Room:
-    """The places of a layout where the middle of a disc may be, on a grid.
+    """Grid of the positions of a layout where the middle of a disc may be.
 
-    The grid errs towards room: a gap that is a cell too narrow passes for one, so that what is called out of
-    reach certainly is.
+    The grid overestimates the free space: a gap that is one cell too narrow counts as free, so a goal
+    reported as out of reach certainly is.
     """
 
     def __init__(self, layout: ArenaLayout, radius: float, boxes: np.ndarray) -> None:
@@ -32,8 +32,9 @@ class Room:
         self._labels: np.ndarray | None = None
 
     def gaps(self, x: Any, y: Any) -> np.ndarray:
-        """For places the gap between a disc there and the nearest thing or the border; negative where it does
-        not fit.
+        """Return the gap between a disc at each position and the nearest thing or the border.
+
+        The gap is negative where the disc does not fit.
         """
         left, low, right, high = self.border
         gap = np.minimum(np.minimum(x - left, right - x), np.minimum(y - low, high - y))
@@ -43,8 +44,9 @@ class Room:
         return np.asarray(gap - self.radius)
 
     def near_middle(self) -> tuple[float, float] | None:
-        """The place nearest the middle of the arena where the disc stands free by half its radius (else: free
-        at all); None: nowhere.
+        """Return the position nearest the middle of the arena where the disc has a gap of half its radius.
+
+        If no position has such a gap, return the nearest one with any gap; None if the disc fits nowhere.
         """
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         left, low, right, high = self.border
@@ -56,7 +58,7 @@ class Room:
         return None
 
     def joined(self, start: Sequence[float], goal: Sequence[float]) -> bool:
-        """Whether the middle of the disc gets from one place to within its radius of another."""
+        """Return whether the middle of the disc can move from `start` to within its radius of `goal`."""
         if self._labels is None:
             # start-up time
             from scipy.ndimage import label

@@ -1,6 +1,4 @@
-"""A round vehicle with two wheels: what it is made of, and how its wheels move it, as pure functions of one
-copy.
-"""
+"""A round vehicle with two wheels: its dimensions, and its kinematics as pure functions of one copy."""
 
 from __future__ import annotations
 
@@ -13,16 +11,16 @@ import jax.numpy as jnp
 
 @dataclass(frozen=True)
 class Infrared:
-    """Infrared distance sensors, and what they read at a distance.
+    """Infrared distance sensors, with a table of readings over distance.
 
     Attributes:
-        forward: how far each sensor stands in front of the axle, m.
-        left: how far it stands to the left of the middle, m.
-        angles: where it looks, rad, counter-clockwise from straight ahead.
-        distances: distances at which the reading is known, m, rising; beyond the last one it stays what it is
-            there.
+        forward: position of each sensor in front of the axle, m.
+        left: position of each sensor to the left of the middle, m.
+        angles: direction of each sensor, rad, counter-clockwise from straight ahead.
+        distances: distances at which the reading is known, m, rising; beyond the last one the reading is
+            constant.
         readings: reading at those distances, without unit.
-        noise: standard deviation there, as a share of the reading.
+        noise: standard deviation at those distances, as a share of the reading.
     """
 
     forward: tuple[float, ...]
@@ -43,13 +41,13 @@ class Vehicle:
     """A round body on two driven wheels.
 
     Attributes:
-        name: what it is called.
-        radius: of the body, m.
-        wheel_radius: m.
+        name: name of the vehicle.
+        radius: radius of the body, m.
+        wheel_radius: radius of the wheels, m.
         axle: distance between the wheels, m.
         steps_per_turn: motor steps in one turn of a wheel; wheel speeds are given in steps per second.
         fastest: largest speed of a wheel, steps per second.
-        infrared: its distance sensors.
+        infrared: distance sensors.
     """
 
     name: str
@@ -62,15 +60,15 @@ class Vehicle:
 
     @property
     def step_length(self) -> float:
-        """How far a wheel rolls in one motor step, m."""
+        """Distance that a wheel rolls in one motor step, m."""
         return 2 * math.pi * self.wheel_radius / self.steps_per_turn
 
 
 def drive(vehicle: Vehicle, heading: Any, steps: Any) -> tuple[Any, Any]:
-    """Where the wheels take the axle: displacement (2,) in m and turn in rad, for motor steps (left, right)
-    at constant speed.
+    """Compute the displacement (2,) of the axle in m and its turn in rad.
 
-    The axle runs on a circle; the displacement is its chord, exact for a turn of any size::
+    The motor steps (left, right) are made at constant speed, so the axle moves on a circle; the displacement
+    is the chord, exact for a turn of any size::
 
         turn = (right - left) / axle,
         chord = (left + right) / 2 * sin(turn / 2) / (turn / 2), at heading + turn / 2
@@ -85,15 +83,15 @@ def drive(vehicle: Vehicle, heading: Any, steps: Any) -> tuple[Any, Any]:
 
 
 def ahead(heading: Any) -> Any:
-    """The unit vector (2,) straight ahead; heading 0 looks along x, and it grows counter-clockwise."""
+    """Return the unit vector (2,) of a heading; heading 0 points along x, and it grows counter-clockwise."""
     return jnp.stack([jnp.cos(heading), jnp.sin(heading)])
 
 
 def wrapped(angle: Any) -> Any:
-    """An angle in [-pi, pi], so that single precision loses nothing however often the vehicle turns."""
+    """Wrap an angle to [-pi, pi], so that float32 keeps its precision after many turns of the vehicle."""
     return angle - 2 * math.pi * jnp.round(angle / (2 * math.pi))
 
 
 def limited(vehicle: Vehicle, left: Any, right: Any) -> Any:
-    """Wheel speeds (2,), each within what the motors can."""
+    """Clip the wheel speeds (2,) to the range of the motors."""
     return jnp.clip(jnp.stack([left, right]), -vehicle.fastest, vehicle.fastest)

@@ -1,4 +1,4 @@
-"""What is seen of boxes from above, over axes: pure functions of one copy."""
+"""The view of boxes from above, sampled over axes, as pure functions of one copy."""
 
 from __future__ import annotations
 
@@ -15,15 +15,14 @@ OUTSIDE = (0.25, 0.25, 0.25)
 
 
 def sides(axes: Axes, boxes: Any, scale: float) -> tuple[Any, Any]:
-    """For each box and each of two axes, the share (boxes, samples) of the sample's cell that the box covers
-    along it.
+    """Return the share (boxes, samples) of each sample's cell that each box covers, for each of two axes.
 
     The share of a cell of the plane that a box covers is the product of both.
 
     Args:
-        axes: two of them; x is the one called x, else the first.
+        axes: two axes; x is the one named x, else the first.
         boxes: (n, 4), m.
-        scale: metres in a unit of axes that name no unit of length of their own.
+        scale: metres per unit of an axis that states no unit of length.
     """
     across = 0 if axes[1].name != "x" else 1
     one, other = (
@@ -41,15 +40,15 @@ def _along(axis: Axis, lower: Any, upper: Any, scale: float) -> Any:
 
 
 def coloured(cover: Any, colours: Any) -> Any:
-    """The colour (samples, samples, 3) of things that cover a floor, later ones over earlier ones."""
+    """Return the colour (samples, samples, 3) of things that cover a floor, later ones over earlier ones."""
     free = 1.0 - cover
-    above = jnp.cumprod(free[::-1], axis=0)[::-1]  # what this thing and all later ones leave free
+    above = jnp.cumprod(free[::-1], axis=0)[::-1]  # share that this thing and all later ones leave free
     seen = cover * jnp.concatenate([above[1:], jnp.ones_like(above[:1])])
     return jnp.einsum("nij,nc->ijc", seen, colours) + above[0][..., None] * jnp.asarray(FLOOR, cover.dtype)
 
 
 def require_plane(sensor: str, axes: Axes, channels: bool) -> None:
-    """Refuse axes that are no view from above."""
+    """Raise WorldError unless the axes are two dimensions, with three channels if `channels`."""
     wanted = 3 if channels else 2
     if len(axes) != wanted or (channels and axes[2].samples != 3):
         more = " and three channels" if channels else ""
