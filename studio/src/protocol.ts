@@ -1,6 +1,6 @@
 // Generated from src/deodar/server/to_server.py and to_page.py; change those, not this one:
 // python -m deodar.server.protocol
-// A new document parameter, at the value of the first parameter that it drives.
+// Add a document parameter with the value of the first parameter that it sets.
 export type AddKnob = {
   type: "add_knob";
   request?: number;
@@ -10,17 +10,17 @@ export type AddKnob = {
   parameter: string;
 };
 
-// So many Euler steps, then stand still.
+// Advance by `n` Euler steps, then pause.
 export type Advance = {
   type: "step";
   request?: number;
   n?: number;
 };
 
-// What a stream holds from now on: its shape, and the axes as they are thinned.
+// Format of the following frames of a stream: the shape after thinning, and the axes.
 //
-// `folded` names axes over which the maximum is taken, because an array has more than two dimensions;
-// `channels`: a picture. A time course has the shape [2]: pairs of time and value.
+// `folded` lists the axes over which the maximum is taken if the array has more than two dimensions;
+// `channels`: the array is a picture. A time course has the shape [2]: pairs of time and value.
 export type Announced = {
   type: "announced";
   stream: number;
@@ -30,13 +30,13 @@ export type Announced = {
   channels: boolean;
 };
 
-// The end of a request; with problems, nothing was done.
+// The result of a request; if it has problems, the request had no effect.
 //
-// `ask` names the question that has to be settled first: `unsaved` (send it again with discard) or `replace`
-// (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it
-// changed and `unmatched` lists what it could not change. `imported` says in a sentence what became of a file
-// of another tool that was opened. `version` is the first version of the document that holds the change,
-// where the request was one.
+// `ask` is a question for the user before the request can be repeated: `unsaved` (repeat it with discard) or
+// `replace` (repeat it with replace). `cost` is the cost of a change. For a preset, `carried` is the number
+// of values that changed and `unmatched` lists the values that could not be applied. `imported` is a sentence
+// on the import of a file of another tool. `version` is the first version of the document with the change, if
+// the request made one.
 export type Answer = {
   type: "answer";
   request: number;
@@ -50,8 +50,9 @@ export type Answer = {
   version?: number;
 };
 
-// Take over the values of another file below the root, by names and kinds, as one step of undo; connections
-// stay. The answer lists what did not match.
+// Apply the values of another file below the root, by names and kinds, as one step of undo.
+//
+// Connections stay. The answer lists the values that did not match.
 export type ApplyPreset = {
   type: "apply_preset";
   request?: number;
@@ -59,7 +60,7 @@ export type ApplyPreset = {
   path: string;
 };
 
-// The same with the content of a file of the person's own.
+// Apply the values of a file as `apply_preset` does, given its text.
 export type ApplyPresetText = {
   type: "apply_preset_text";
   request?: number;
@@ -68,7 +69,7 @@ export type ApplyPresetText = {
   text: string;
 };
 
-// Change parts of the layout: each key given replaces that key of the document's layout, None takes it away.
+// Change parts of the layout: each key replaces that key of the document's layout, None removes it.
 export type Arrange = {
   type: "arrange";
   request?: number;
@@ -77,7 +78,7 @@ export type Arrange = {
   undoable?: boolean;
 };
 
-// A metric dimension, under its key in the document.
+// An axis of the document, with its key there.
 export type AxisView = {
   key: string;
   name: string;
@@ -88,8 +89,9 @@ export type AxisView = {
   unit: string;
 };
 
-// Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was
-// known of it before is over.
+// The bodies now, and the new part of their path.
+//
+// Each row of `way` has x and y of each body; `fresh`: the path starts again, and the page drops the old one.
 export type Bodies = {
   type: "bodies";
   bodies: BodyView[];
@@ -97,7 +99,7 @@ export type Bodies = {
   way: number[][];
 };
 
-// Something round that moves by itself, and where it looks (rad; 0 along x, counter-clockwise).
+// A round body that moves by itself; `heading` is in rad, 0 along x, counter-clockwise.
 export type BodyView = {
   name: string;
   x: number;
@@ -106,8 +108,9 @@ export type BodyView = {
   radius: number;
 };
 
-// Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1);
-// `fixed`: it cannot be moved.
+// A solid box of the world: its middle, size and colour (red, green, blue, 0 to 1).
+//
+// `fixed`: the box cannot be moved.
 export type BoxView = {
   name: string;
   x: number;
@@ -118,7 +121,7 @@ export type BoxView = {
   fixed: boolean;
 };
 
-// One parameter has another value; nothing else differs from the document of the version before.
+// The new value of one parameter, the only difference to the previous version of the document.
 export type Changed = {
   type: "changed";
   version: number;
@@ -131,15 +134,16 @@ export type Changed = {
   redo: number;
 };
 
-// The problems and warnings of that version of the document, where single changes led to it; of a whole
-// document it holds them itself.
+// Problems and warnings of a version of the document that pages know from `changed` messages.
+//
+// A whole document (`opened`) contains its own problems.
 export type Checked = {
   type: "checked";
   version: number;
   problems: ListedProblem[];
 };
 
-// Close the document and go to the gallery.
+// Close the document and show the gallery.
 export type Close = {
   type: "close";
   request?: number;
@@ -147,7 +151,7 @@ export type Close = {
   discard?: boolean;
 };
 
-// From an output port to an input port.
+// A connection from an output port to an input port.
 export type ConnectionView = {
   source: string;
   source_port: string;
@@ -156,10 +160,11 @@ export type ConnectionView = {
   reads: string;
 };
 
-// What an element costs: microseconds of a step.
+// Cost of an element: microseconds per step.
 //
-// `alike` elements are computed together and share the time; `once`: it stands still and is computed once a
-// chunk. What a connection resamples or delays has a path but is no element of the document.
+// `alike` is the number of elements that are computed together and share the time; `once`: the element is
+// constant and is computed once per chunk. The resampling or delay of a connection has a path, but is not an
+// element of the document.
 export type CostView = {
   element: string;
   path: string;
@@ -169,8 +174,9 @@ export type CostView = {
   once: boolean;
 };
 
-// What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in
-// microseconds, 0 before it was measured.
+// Cost of a step as last measured, the most expensive element first.
+//
+// `step` is the time of the whole step in microseconds, 0 before the first measurement.
 export type Costs = {
   type: "costs";
   measuring: boolean;
@@ -179,7 +185,7 @@ export type Costs = {
   problems: ListedProblem[];
 };
 
-// Change general properties of the document; what is None stays.
+// Change general properties of the document; None leaves a property unchanged.
 export type Describe = {
   type: "describe";
   request?: number;
@@ -189,9 +195,10 @@ export type Describe = {
   dt?: number | null;
 };
 
-// The document as it is edited.
+// The open document.
 //
-// `file` is relative to the root, empty without one; `unsaved`: edited since it was written.
+// `file` is relative to the root, and empty if the document has no file; `unsaved`: it was edited since it
+// was written. `undo` and `redo` are the numbers of steps available.
 export type DocumentView = {
   file: string;
   title: string;
@@ -210,7 +217,7 @@ export type DocumentView = {
   redo: number;
 };
 
-// The page has taken in the frames up to the clock of this number; only then the next ones are sent.
+// Confirm that the page has drawn the frames up to the clock of this number; the next ones follow.
 export type Drawn = {
   type: "drawn";
   request?: number;
@@ -219,7 +226,7 @@ export type Drawn = {
 
 // An element of the document.
 //
-// `axes` gives for each port the keys of its axes, as far as they are known.
+// `axes` lists for each port the keys of its axes, if they are known.
 export type ElementView = {
   id: string;
   path: string;
@@ -234,7 +241,7 @@ export type ElementView = {
   pushable: boolean;
 };
 
-// An entry of the gallery; `picture` is an address on the server, empty without one.
+// An entry of the gallery; `picture` is an address on the server, or empty.
 export type ExampleView = {
   name: string;
   title: string;
@@ -242,7 +249,7 @@ export type ExampleView = {
   picture: string;
 };
 
-// What lies in a folder below the root.
+// Content of a folder below the root.
 export type Folder = {
   type: "folder";
   request: number;
@@ -252,14 +259,14 @@ export type Folder = {
   pictures: string[];
 };
 
-// Throw unsaved edits away that were kept.
+// Delete stored unsaved edits.
 export type Forget = {
   type: "forget";
   request?: number;
   name: string;
 };
 
-// What can be gone on with: documents opened before (below the root), unsaved edits.
+// Documents to open again: files below the root that were open before, and stored unsaved edits.
 export type Gallery = {
   type: "gallery";
   recent: string[];
@@ -268,9 +275,9 @@ export type Gallery = {
 
 // A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 //
-// `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` names for a port the
-// parameters that are levels on its scale (threshold, resting level). `example` is a value to start from,
-// where it stands inside a part.
+// `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
+// parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
+// parameter whose value is a part of this kind.
 export type Kind = {
   name: string;
   room: string;
@@ -283,22 +290,23 @@ export type Kind = {
   example: unknown;
 };
 
-// A document parameter and what it drives.
+// A document parameter and the parameters that it sets.
 export type KnobView = {
   name: string;
   value: number;
   links: LinkView[];
 };
 
-// Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run falls
-// behind.
+// Let the step grow up to `longest` (document time) if the machine is too slow.
+//
+// None: the step is constant, and the run falls behind.
 export type Lengthen = {
   type: "lengthen";
   request?: number;
   longest: number | null;
 };
 
-// Let a document parameter drive a parameter of an element.
+// Link a parameter of an element to a document parameter.
 export type Link = {
   type: "link";
   request?: number;
@@ -308,22 +316,22 @@ export type Link = {
   parameter: string;
 };
 
-// A parameter that a document parameter drives.
+// A parameter of an element that a document parameter sets.
 export type LinkView = {
   element: string;
   parameter: string;
 };
 
-// Ask for the documents and folders in a folder below the root; a `folder` follows.
+// List the documents and folders in a folder below the root; a `folder` message follows.
 export type ListFolder = {
   type: "list_folder";
   request?: number;
   path?: string;
 };
 
-// One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+// A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
 //
-// A warning stops no run.
+// A warning does not prevent a run.
 export type ListedProblem = {
   what: string;
   where?: string;
@@ -332,14 +340,14 @@ export type ListedProblem = {
   severity?: "problem" | "warning";
 };
 
-// A stream that gives nothing, and why: the element is gone, or the port cannot be read.
+// A stream without data, and the reason: the element was removed, or the port cannot be read.
 export type Lost = {
   type: "lost";
   stream: number;
   problem: ListedProblem;
 };
 
-// A place in the world that has a name, such as a goal; `fixed`: it cannot be moved.
+// A named position in the world, such as a goal; `fixed`: the mark cannot be moved.
 export type MarkView = {
   name: string;
   x: number;
@@ -347,13 +355,13 @@ export type MarkView = {
   fixed: boolean;
 };
 
-// Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is done.
+// Measure the cost of each element during the run; a `costs` message follows at start and end.
 export type MeasureCosts = {
   type: "measure_costs";
   request?: number;
 };
 
-// Put a thing or a mark of the world elsewhere: x and y of its middle.
+// Move a thing or a mark of the world; `x` and `y` are its new middle.
 export type MoveThing = {
   type: "move_thing";
   request?: number;
@@ -362,7 +370,7 @@ export type MoveThing = {
   y: number;
 };
 
-// Open one of the examples, as a document without a file.
+// Open an example, as a document without a file.
 export type OpenExample = {
   type: "open_example";
   request?: number;
@@ -371,7 +379,7 @@ export type OpenExample = {
   discard?: boolean;
 };
 
-// Open a document below the root. `discard` allows to throw unsaved edits away.
+// Open a document below the root. `discard` allows unsaved edits to be lost.
 export type OpenFile = {
   type: "open_file";
   request?: number;
@@ -380,8 +388,9 @@ export type OpenFile = {
   discard?: boolean;
 };
 
-// Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document without
-// a file.
+// Open a package (`NAME.deodar`) that was dropped on the page, as a document without a file.
+//
+// `content` is base64.
 export type OpenPackage = {
   type: "open_package";
   request?: number;
@@ -391,7 +400,7 @@ export type OpenPackage = {
   discard?: boolean;
 };
 
-// Open the content of a file that was dropped on the page, as a document without a file.
+// Open the text of a file that was dropped on the page, as a document without a file.
 export type OpenText = {
   type: "open_text";
   request?: number;
@@ -401,7 +410,7 @@ export type OpenText = {
   discard?: boolean;
 };
 
-// The whole document; None: none is open. `session` changes with each document that is opened.
+// The whole document; None: no document is open. `session` is the number of documents opened so far.
 export type Opened = {
   type: "opened";
   session: number;
@@ -409,10 +418,9 @@ export type Opened = {
   document: DocumentView | null;
 };
 
-// How a parameter is shown and changed.
+// Description of a parameter for its input form.
 //
-// `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is
-// TeX.
+// `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX.
 export type ParameterForm = {
   name: string;
   form:
@@ -442,13 +450,13 @@ export type ParameterForm = {
   of: string[];
 };
 
-// Stand still.
+// Pause the run.
 export type Pause = {
   type: "pause";
   request?: number;
 };
 
-// Put a new thing into the world: its middle and its size.
+// Add a thing to the world, with its middle and its size.
 export type PlaceThing = {
   type: "place_thing";
   request?: number;
@@ -459,14 +467,15 @@ export type PlaceThing = {
   height: number;
 };
 
-// Run on.
+// Start or continue the run.
 export type Play = {
   type: "play";
   request?: number;
 };
 
-// Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the same
-// where it is None.
+// Add an input to an element until `release`.
+//
+// The input is a Gaussian around `center` (axis units), or constant over the axes if that is None.
 export type PushInput = {
   type: "push";
   request?: number;
@@ -476,7 +485,7 @@ export type PushInput = {
   sigma?: number[] | null;
 };
 
-// Open unsaved edits that were kept.
+// Open stored unsaved edits.
 export type Recover = {
   type: "recover";
   request?: number;
@@ -485,7 +494,7 @@ export type Recover = {
   discard?: boolean;
 };
 
-// Unsaved edits that were kept: name, title, the file they belong to, and when (ISO).
+// Stored unsaved edits: name, title, the file they belong to, and the time of storing (ISO 8601).
 export type Recovery = {
   name: string;
   title: string;
@@ -493,20 +502,20 @@ export type Recovery = {
   when: string;
 };
 
-// Make the change again that was taken back.
+// Redo the change that was undone last.
 export type Redo = {
   type: "redo";
   request?: number;
   session?: number;
 };
 
-// End of `push`.
+// End the input of `push`.
 export type Release = {
   type: "release";
   request?: number;
 };
 
-// Take a document parameter away; what it drove keeps its value.
+// Remove a document parameter; the parameters that it set keep their values.
 export type RemoveKnob = {
   type: "remove_knob";
   request?: number;
@@ -514,28 +523,29 @@ export type RemoveKnob = {
   name: string;
 };
 
-// Take a thing out of the world.
+// Remove a thing from the world.
 export type RemoveThing = {
   type: "remove_thing";
   request?: number;
   name: string;
 };
 
-// State, time and noise back to the start; with a seed, another one from then on. Parameters stay.
+// Reset state, time and noise to the start, with another seed if one is given. Parameters stay.
 export type ResetRun = {
   type: "reset";
   request?: number;
   seed?: number | null;
 };
 
-// Where the run is. Sent after the frames of the same number, and whenever something changes.
+// Time and status of the run. Sent after the frames of the same number, and whenever something changes.
 //
-// `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
-// possible); `abstract` time counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind and
-// will catch up, `worst` the largest lag since it was played, `lost` what was given up; `overruns` counts how
-// often it fell behind. `longest` is the step up to which it may grow to keep up (None: it stays), and
-// `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why the run
-// stopped; `world` what the sensors read.
+// `factor` is the measured ratio of document time to wall time; `speed` is the requested ratio (None: as fast
+// as possible); one unit of `abstract` time counts as 1 ms. In ms of wall time: `lag` is how far the run is
+// behind and will catch up, `worst` the largest lag since the run was started, `lost` the time that it will
+// not catch up; `overruns` is the number of times it fell behind. `longest` is the limit up to which the step
+// may grow to keep up (None: the step is constant), and `lengthened` is the number of longer steps taken.
+// `busy` is a phrase for the compilation in progress; `failure` lists why the run stopped; `world` is a
+// phrase for the world that the sensors read.
 export type RunClock = {
   type: "clock";
   frame: number;
@@ -560,9 +570,9 @@ export type RunClock = {
   pushing: string;
 };
 
-// Write the document, to its own file where `path` is empty.
+// Write the document to `path`, or to its own file if `path` is empty.
 //
-// `replace` allows to write over a file that is not the one it came from, or that changed on disk since.
+// `replace` allows another file, or a file that changed on disk since it was read, to be overwritten.
 export type Save = {
   type: "save";
   request?: number;
@@ -571,7 +581,7 @@ export type Save = {
   replace?: boolean;
 };
 
-// What stands in the world, in its unit of length; `border` is lower x, lower y, upper x, upper y.
+// Boxes and marks of the world, in its unit of length; `border` is lower x, lower y, upper x, upper y.
 export type SceneView = {
   unit: string;
   border: number[];
@@ -579,11 +589,10 @@ export type SceneView = {
   marks: MarkView[];
 };
 
-// Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter of
-// that name.
+// Change a parameter of an element (`kernel.0.sigma`), or the document parameter if `element` is empty.
 //
-// `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that
-// share a `gesture` (not 0) are one step of undo: a slider that is dragged.
+// `value` has the format of documents: numbers, text, parts with their kind, axes by their key. Changes with
+// the same `gesture` (not 0) are one step of undo, such as the drag of a slider.
 export type SetParameter = {
   type: "set";
   request?: number;
@@ -594,7 +603,7 @@ export type SetParameter = {
   gesture?: number;
 };
 
-// Document time in relation to the clock on the wall: 1 is real time, None as fast as possible.
+// Set the ratio of document time to wall time: 1 is real time, None as fast as possible.
 export type Speed = {
   type: "speed";
   request?: number;
@@ -658,21 +667,21 @@ export type ToServer =
   | Unwatch
   | Drawn;
 
-// The file that could not be opened, with every problem in it; an empty list: no trouble any more.
+// A file that could not be opened, with all its problems; an empty list clears an earlier message.
 export type Trouble = {
   type: "trouble";
   file: string;
   problems: ListedProblem[];
 };
 
-// Take the last change back.
+// Undo the last change.
 export type Undo = {
   type: "undo";
   request?: number;
   session?: number;
 };
 
-// Let a parameter stand for itself again.
+// Unlink a parameter of an element from its document parameter.
 export type Unlink = {
   type: "unlink";
   request?: number;
@@ -688,7 +697,7 @@ export type Unwatch = {
   stream: number;
 };
 
-// Let the sensors read a world of that kind, opened with a file below the root.
+// Use a world of a kind, opened with a file below the root.
 export type UseWorld = {
   type: "use_world";
   request?: number;
@@ -697,7 +706,7 @@ export type UseWorld = {
   path: string;
 };
 
-// Let the sensors read a world made of the content (base64) of a file that was dropped on the page.
+// Use a world of a kind, made from the content (base64) of a file that was dropped on the page.
 export type UseWorldContent = {
   type: "use_world_content";
   request?: number;
@@ -707,8 +716,9 @@ export type UseWorldContent = {
   content: string;
 };
 
-// Send a port of an element as frames under a number of the page's choice, thinned to at most `most` samples
-// along each axis (0: all).
+// Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
+//
+// The page chooses the number `stream`.
 export type Watch = {
   type: "watch";
   request?: number;
@@ -718,7 +728,9 @@ export type Watch = {
   most?: number;
 };
 
-// Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its mean.
+// Send a time course of a port: a node's value, or an array's value at a position, maximum or mean.
+//
+// `at` is in axis units.
 export type WatchTrace = {
   type: "trace";
   request?: number;
@@ -729,14 +741,14 @@ export type WatchTrace = {
   at?: number[];
 };
 
-// Send `bodies` from now on, or no longer.
+// Start or stop sending `bodies`.
 export type WatchWorld = {
   type: "watch_world";
   request?: number;
   on: boolean;
 };
 
-// First message on a connection: what there is, whatever is open.
+// First message on a connection: the data that do not depend on the open document.
 export type Welcome = {
   type: "welcome";
   version: string;
@@ -745,7 +757,7 @@ export type Welcome = {
   examples: ExampleView[];
 };
 
-// The world from above, whenever something in it was moved; None: there is nothing to see from above.
+// The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 export type WorldScene = {
   type: "scene";
   scene: SceneView | null;

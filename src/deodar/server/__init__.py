@@ -1,1 +1,1 @@
-"""The studio behind its page: a small server that translates messages and holds no science."""
+"""The server of the studio: it translates messages between the page and a running model."""

@@ -1,4 +1,4 @@
-"""The application: the built page, the pictures of the gallery, and one socket."""
+"""The web application: the built page, the pictures of the gallery, and one socket."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ FOR_EVER = {"cache-control": "public, max-age=31536000, immutable"}
 
 
 class Studio:
-    """What is served, and for whom.
+    """ASGI application of the studio, behind a `Guard`.
 
     Args:
-        service: what is served.
-        port: the port that it listens at.
-        secret: the token that requests need; empty: none (see `Guard`).
-        ready: called once everything is up.
-        ended: called once everything is closed.
+        service: settings of the studio.
+        port: port that the server listens at.
+        secret: token that requests need; empty: none (see `Guard`).
+        ready: called when the application has started.
+        ended: called when the application has closed.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class Studio:
             Route("/{name}", self._file_of_page),
         ]
         star = Starlette(routes=routes, lifespan=self._life)
-        star.router.redirect_slashes = False  # a path such as //host would become an address of another host
+        star.router.redirect_slashes = False  # a path such as //host would be redirected to another host
         self.app: ASGIApp = Guard(star, service.host, port, secret)
 
     @contextlib.asynccontextmanager
@@ -88,11 +88,11 @@ class Studio:
         return FileResponse(index, headers={"cache-control": "no-cache"})
 
     async def _file_of_page(self, request: Request) -> Response:
-        """What lies beside the page: its sign."""
+        """Serve a file from the folder of the page, such as its icon."""
         path = STATIC / request.path_params["name"]
         try:
             there = path.parent == STATIC and path.is_file()
-        except (OSError, ValueError):  # a name that is too long, or that holds a null
+        except (OSError, ValueError):  # a name that is too long, or that contains a null
             there = False
         return FileResponse(path) if there else PlainTextResponse("not found", 404)
 
@@ -109,7 +109,7 @@ class Studio:
 
 
 class _Assets(StaticFiles):
-    """Files whose names change with their content."""
+    """Files with a hash of the content in their names, which browsers may cache without limit."""
 
     def file_response(self, *args: object, **values: object) -> Response:
         response = super().file_response(*args, **values)  # type: ignore[arg-type]

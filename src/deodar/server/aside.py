@@ -1,4 +1,4 @@
-"""Work that may wait for a disk, beside the event loop."""
+"""Run functions that may wait for a disk outside the event loop."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from deodar.errors import DeodarError, DocumentError
 
 T = TypeVar("T")
 SECONDS = 60.0
-"""Longest wall time that a request waits for a file system (a guess: a network folder that does not answer
-takes longer).
+"""Longest wall time, in seconds, that a request waits for a file system.
+
+A guess: a network folder that does not answer takes longer.
 """
 
 
 async def aside(function: Callable[[], T], where: str) -> T:
-    """Run a function in a thread of its own, which ends with the process.
+    """Run a function in a new daemon thread and return its result.
 
-    A pool of threads would be used up by a few calls that never return, and would keep the process from
-    ending.
+    A thread pool would be blocked by a few calls that never return, and would keep the process alive.
 
     Raises:
-        DocumentError: if it takes longer than `SECONDS`; the thread goes on, and its result is dropped.
+        DocumentError: the call takes longer than `SECONDS`; the thread continues, and its result is dropped.
     """
     future: Future[T] = Future()
 
@@ -51,8 +51,6 @@ async def aside(function: Callable[[], T], where: str) -> T:
 
 
 async def attempt(function: Callable[[], None]) -> None:
-    """Run a function as `aside` does, and go on without its result where it fails or takes too long: nothing
-    depends on it.
-    """
+    """Run a function as `aside` does, and ignore a `DeodarError`, also that of the time limit."""
     with contextlib.suppress(DeodarError):
         await aside(function, "")

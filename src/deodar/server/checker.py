@@ -1,6 +1,4 @@
-"""Problems and warnings of a document after single changes, for which pages are not sent the whole
-document.
-"""
+"""Check the document after changes of single parameters, which are sent to pages one by one."""
 
 from __future__ import annotations
 
@@ -14,22 +12,24 @@ from deodar.server.to_page import Checked
 from deodar.server.turns import Turns
 
 SECONDS = 0.2
-"""Wall time between single changes and the check of what they led to (a guess: warnings that appear so soon
-seem to belong to the change).
+"""Wall time, in seconds, between a change and the check.
+
+A guess: users still relate a warning to their change after this delay.
 """
 
 
 class Checker:
-    """Checks in a thread and a few times a second: a large document takes 30 ms, and a drag edits more often.
+    """Checks the open document in a thread, a few times per second.
+
+    The check of a large document takes 30 ms, and the drag of a slider makes more edits than that.
 
     Attributes:
-        found: what the last check found; None: the whole document, which pages were sent last, holds it
-            itself.
+        found: result of the last check; None: pages have the problems already, as part of the whole document.
 
     Args:
-        present: the version and the document that are open.
-        turns: holds the task.
-        changed: called once something was found.
+        present: returns the version and the document that are open.
+        turns: keeps a reference to the task.
+        changed: called after each result.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class Checker:
         self._busy = False
 
     def start(self) -> None:
-        """Check what is open, until it stays as it is."""
+        """Check the open document, and repeat until its version no longer changes."""
         if not self._busy:
             self._busy = True
             self._turns.beside(self._check())

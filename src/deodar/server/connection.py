@@ -1,9 +1,8 @@
-"""One page: what it asks for is done one after the other, what it has to know is sent when it is ready for
-it.
+"""The connection of one page: it handles the requests one after the other, and sends the state of the studio.
 
-Nothing is queued for a page but answers. After each exchange the page says that it took everything in
-(`drawn`); only then the next one is put together, from what is true at that moment. A page that is slow sees
-fewer frames, and the server holds nothing back for it.
+Only answers are queued. After each exchange the page confirms that it has drawn everything (`drawn`); only
+then the connection sends the next exchange, from the state at that moment. A slow page receives fewer frames,
+and the server buffers none for it.
 """
 
 from __future__ import annotations
@@ -38,11 +37,11 @@ from deodar.server.to_page import (
 from deodar.server.to_server import MESSAGES, Drawn
 
 MOST_ANSWERS = 64
-"""Answers that may wait for a page; one that asks for more without reading is not listened to meanwhile."""
+"""Largest number of queued answers; the connection reads no requests from a page that has more."""
 
 MOST_MALFORMED = 20
 IDLE = 0.25
-"""Longest wall time between two clocks while it runs, in seconds."""
+"""Longest wall time between two checks for news, in seconds."""
 
 
 class PageConnection:
@@ -63,14 +62,14 @@ class PageConnection:
         self._decoder = msgspec.json.Decoder(union(MESSAGES))
 
     async def run(self) -> None:
-        """Until the page goes."""
+        """Serve the page until it disconnects."""
         await self._socket.accept()
         self._hub.pages.add(self.page)
         both = [asyncio.create_task(self._receive()), asyncio.create_task(self._send())]
         try:
             done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
             for task in done:
-                # an error of ours is told on the terminal; the page comes back and starts afresh
+                # an error of deodar appears on the terminal; the page connects again with a new state
                 task.result()
         finally:
             self._hub.leave(self.page)
@@ -142,14 +141,14 @@ class PageConnection:
                     await self._say()
                 with contextlib.suppress(
                     TimeoutError
-                ):  # `wait_for` of Python 3.11 loses a cancellation that comes together with news
+                ):  # `wait_for` of Python 3.11 loses a cancellation at the moment of an event
                     async with asyncio.timeout(IDLE):
                         await self.page.news.wait()
         except (WebSocketDisconnect, RuntimeError, OSError):
-            pass  # it is gone; the receiving side ends the connection
+            pass  # the page has disconnected; `_receive` ends the connection
 
     async def _say(self) -> None:
-        """Everything that is new, ended by a clock."""
+        """Send everything that is new, followed by a clock."""
         hub, engine = self._hub, self._hub.engine
         spoke = False
         while True:
@@ -159,7 +158,7 @@ class PageConnection:
             if (self._session, self._version) == (
                 hub.project.session,
                 hub.project.version,
-            ):  # no answer goes before the change that it is of
+            ):  # an answer is never sent before its change
                 break
         shot = engine.shot
         sent = shot.number != self._shot
@@ -184,7 +183,7 @@ class PageConnection:
             self._ready = False
             await self._text(msgspec.structs.replace(clock, frame=self._exchange))
         else:
-            # the last shot held nothing for this page, and it is still waiting for one that does
+            # the last shot contained nothing for this page, which still waits for one that does
             engine.want()
 
     async def _news_of_state(self) -> list[Message]:
@@ -224,7 +223,7 @@ class PageConnection:
 
 
 def _request(text: str) -> int:
-    """The number of a request that is not understood, as far as it can be told."""
+    """Return the number of a malformed request, or 0 if it cannot be read."""
     try:
         number: Any = codec.parse(text)["request"]
     except (ValueError, TypeError, KeyError, RecursionError):

@@ -1,8 +1,7 @@
-"""What is opened: files below the root, and the content of a file that has no place there because it was
-dropped on the page.
+"""Read documents: from files below the root, and from the content of files that were dropped on the page.
 
-Files are read from a folder that is held open, so that a path which becomes a link after its check leads
-nowhere (`OpenFolder`).
+Files are read through an open folder (`OpenFolder`), so that a path that becomes a link after its check is
+not followed.
 """
 
 from __future__ import annotations
@@ -22,14 +21,16 @@ from deodar.server.workspace import DOCUMENTS, Workspace
 
 
 def read(text: str, title: str) -> Document:
-    """A document of our own, or a file of another tool, given as text; arrays in a file beside it are
-    refused.
+    """Read a document of deodar or a file of another tool, given as text.
+
+    Raises:
+        DocumentError: the text is invalid, or its arrays are in a second file.
     """
     return _document(text.encode(), title, _nothing)
 
 
 def read_package(content: str, title: str) -> Document:
-    """A package (`NAME.deodar`), given as base64."""
+    """Read a package (`NAME.deodar`), given as base64."""
     try:
         data = base64.b64decode(content, validate=True)
     except (binascii.Error, ValueError):
@@ -44,7 +45,7 @@ def read_package(content: str, title: str) -> Document:
 
 
 def load(space: Workspace, place: Path) -> Document:
-    """A document of our own, or a file of another tool, at a place that the workspace gave."""
+    """Read a document of deodar or a file of another tool, at a path that the workspace returned."""
     if _is_example(space, place):
         return opening.load(place).document
     try:
@@ -61,20 +62,18 @@ def load(space: Workspace, place: Path) -> Document:
 
 
 def is_foreign(space: Workspace, place: Path) -> bool:
-    """Whether a file is of another tool; what cannot be read is not."""
+    """Return whether a file is of another tool; False if it cannot be read."""
     if _is_example(space, place):
         return opening.tool_of(place) is not None
     try:
         with space.folder(place) as folder, folder.open(place.name) as (file, _):
             return opening.tool_for(file.read(opening.HEAD)) is not None
     except (OSError, DeodarError):
-        return False  # what is wrong with it, reading it says
+        return False  # `load` raises the error
 
 
 def _is_example(space: Workspace, place: Path) -> bool:
-    """Whether a place is an example outside of the workspace, which may have been named on the command
-    line.
-    """
+    """Return whether a path is an example outside the workspace, as the command line may name one."""
     return not space.holds(place) and examples.holds(place)
 
 
@@ -84,7 +83,7 @@ def _document(content: bytes, title: str, beside: Callable[[str], bytes | None])
 
 
 def _content(folder: OpenFolder, name: str) -> bytes:
-    """The content of a document or package."""
+    """Return the content of a document or package."""
     with folder.open(name) as (file, size):
         head = file.read(4)
         if package.is_content(head):
@@ -95,7 +94,7 @@ def _content(folder: OpenFolder, name: str) -> bytes:
 
 
 def _beside(folder: OpenFolder, name: str) -> bytes | None:
-    """The content of an array file beside a document; None where there is none."""
+    """Return the content of the array file of a document; None if the file does not exist."""
     try:
         with folder.open(name) as (file, size):
             files.require_room(size, name)
@@ -119,7 +118,7 @@ def _nothing(name: str) -> bytes | None:
 
 
 def _near(place: Path) -> str:
-    """A file of the same folder with a similar name."""
+    """Return a hint at a file of the same folder with a similar name."""
     try:
         return did_you_mean(
             place.name, [path.name for path in place.parent.iterdir() if path.suffix.lower() in DOCUMENTS]

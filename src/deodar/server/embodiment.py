@@ -1,4 +1,4 @@
-"""Which world the sensors of the open document read, and its motors move."""
+"""The world that the sensors of the open document read and its motors move."""
 
 from __future__ import annotations
 
@@ -19,11 +19,13 @@ MOST_BYTES = 32 * 2**20
 
 
 class Embodiment:
-    """The world that was chosen; where none was, or it lacks a sensor or motor, an example of a kind that has
-    them all.
+    """The world that the user chose, or an example.
+
+    An example is used if no world was chosen, or the chosen one lacks a sensor or motor of the document; it
+    is of a kind that has all of them.
 
     Attributes:
-        label: the world that is read, in a few words.
+        label: a phrase for the world in use.
     """
 
     def __init__(self, chosen: World | None = None) -> None:
@@ -34,7 +36,11 @@ class Embodiment:
         )
 
     def world(self, doc: Document) -> World | None:
-        """The world for a document; None where it senses nothing, or nothing fits (then running says so)."""
+        """Return the world for a document.
+
+        Return None if the document has no sensors and motors, or if no world was chosen and no example fits;
+        a run then raises the error.
+        """
         wanted = signals(doc)
         self.label = ""
         if not wanted:
@@ -52,7 +58,7 @@ class Embodiment:
         return self.chosen
 
     def open(self, kind: str, path: Path, name: str) -> World:
-        """Choose a world of a kind, made from a file that the person calls `name`."""
+        """Choose a world of a kind, made from a file; `name` is the name that messages show."""
         kinds = registry.kinds("worlds")
         if kind not in kinds:
             raise WorldError(f"there is no world {kind!r}", fix=did_you_mean(kind, kinds))
@@ -64,7 +70,7 @@ class Embodiment:
         return self.chosen
 
     def open_content(self, kind: str, name: str, content: str) -> World:
-        """Choose a world of a kind, made from the content (base64) of a file called `name`."""
+        """Choose a world of a kind, made from the content (base64) of the file `name`."""
         try:
             data = base64.b64decode(content, validate=True)
         except (binascii.Error, ValueError):
@@ -78,7 +84,7 @@ class Embodiment:
 
 
 def signals(doc: Document) -> set[str]:
-    """Names of the sensors that a document reads and of the motors that it drives."""
+    """Return the names of the sensors that a document reads and of the motors that it drives."""
     sensors = {e.element.sensor for e in doc.entries if isinstance(e.element, Sensor)}
     return sensors | {e.element.motor for e in doc.entries if isinstance(e.element, Motor)}
 

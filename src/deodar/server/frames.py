@@ -1,11 +1,12 @@
-"""Arrays on the wire: a fixed header and raw numbers, both little-endian.
+"""Binary frames that carry arrays: a fixed header and raw numbers, both little-endian.
 
     bytes 0 to 3    number of the stream, uint32
     bytes 4 to 7    number of the frame, uint32: frames of one number show one moment
     bytes 8 to 15   document time of that moment, float64
     from byte 16    float32 values in C order
 
-A time course holds pairs (time since the moment in the header, value); its moment is the oldest sample's.
+A time course is sent as pairs (time since the time in the header, value); the time in the header is that of
+the oldest sample.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ HEADER = struct.Struct("<IId")
 
 
 def pack(stream: int, frame: int, time: float, values: np.ndarray) -> bytes:
-    """One frame."""
+    """Encode a frame."""
     return HEADER.pack(stream, frame % 2**32, time) + np.ascontiguousarray(values, "<f4").tobytes()
 
 
 def unpack(data: bytes) -> tuple[int, int, float, np.ndarray]:
-    """Stream, number, time and values (flat) of a frame."""
+    """Decode a frame to its stream, number, time and values (flat)."""
     stream, frame, time = HEADER.unpack_from(data)
     return stream, frame, time, np.frombuffer(data, "<f4", offset=HEADER.size)

@@ -1,5 +1,6 @@
-"""The gallery: the documents that come with deodar, each with a sentence and a picture, `NAME.png` beside the
-document.
+"""The gallery: the documents that come with deodar, each with a sentence and a picture.
+
+The picture is the file `NAME.png` in the folder of the document.
 """
 
 from __future__ import annotations
@@ -12,12 +13,16 @@ from deodar.server.to_page import ExampleView
 
 
 def examples() -> list[ExampleView]:
-    """Every example, in the order in which they are best looked at."""
+    """Return all examples, in the order of the gallery."""
     return [_view(name) for name in found.names()]
 
 
 def example_file(name: str) -> Path:
-    """The document of an example."""
+    """Return the path of an example's document.
+
+    Raises:
+        UnknownName: no example has that name.
+    """
     known = found.names()
     if name not in known:
         raise UnknownName(f"there is no example {name!r}", fix=did_you_mean(name, known))
@@ -25,7 +30,7 @@ def example_file(name: str) -> Path:
 
 
 def picture_file(name: str) -> Path | None:
-    """The picture of an example, if it has one."""
+    """Return the path of an example's picture, or None if it has none."""
     path = found.folder() / f"{name}.png"
     return path if name in found.names() and path.is_file() else None
 

@@ -1,4 +1,4 @@
-"""Who may talk to the studio: hosts, origins, and a token on every request and socket."""
+"""Access control of the studio: hosts, origins, and a token on every request and socket."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ ON = """<!doctype html>
 
 
 def is_local(host: str) -> bool:
-    """Whether a host names this machine alone."""
+    """Return whether a host name or address is reachable from this machine only."""
     if host == "localhost":
         return True
     try:
@@ -58,17 +58,17 @@ def is_local(host: str) -> bool:
 
 
 class Guard:
-    """Refuses what does not come from a page of this server, opened by the person who started it.
+    """ASGI middleware that refuses requests from other sites and from users without the token.
 
-    The host of a request must be the one it listens on (or this machine's name or address), so that no
-    foreign name can be made to point here; its origin, where a browser states one, must be the same; and
-    every request needs the token, in the address or as a cookie. Other users of this machine reach it too, so
-    the token is needed on localhost as well. The cookie's name has the port in it: browsers keep cookies by
-    host alone, and two studios would overwrite each other's.
+    The host of a request must be the one that the server listens on (or this machine's name or address),
+    which prevents DNS rebinding; its origin, if the browser states one, must be the same; and every request
+    needs the token, in the address or as a cookie. Other users of this machine can reach the server too, so
+    the token is needed on localhost as well. The name of the cookie contains the port: browsers store cookies
+    by host alone, and two studios would overwrite each other's.
 
     Args:
-        app: what is served to those who may.
-        host, port: where it listens.
+        app: application that receives the accepted requests.
+        host, port: address that the server listens at.
         token: the token; empty: none is needed.
     """
 
@@ -77,7 +77,7 @@ class Guard:
         self.cookie = f"deodar_token_{port}"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a request pass, or refuse it."""
+        """Pass a request to the application, or refuse it."""
         if scope["type"] == "lifespan":
             return await self._app(scope, receive, send)
         headers = {key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]}
@@ -116,15 +116,15 @@ class Guard:
             return False
         try:
             ipaddress.ip_address(host)
-            return True  # an address cannot be made to point elsewhere
+            return True  # a numeric address needs no DNS, so DNS rebinding is not possible
         except ValueError:
             return host in (socket.gethostname(), socket.getfqdn())
 
     async def _enter(self, scope: Scope, receive: Receive, send: Send, headers: dict[str, str]) -> None:
-        """Move the token from the address to a cookie, and go on to the page.
+        """Move the token from the address to a cookie, and redirect to the page.
 
-        A browser that comes from another site does not send a strict cookie along a redirect, but it does
-        from a page of this server.
+        After a link from another site the browser does not send a strict cookie with the redirect, but it
+        does after a page of this server.
         """
         if headers.get("sec-fetch-site") == "cross-site":
             answer: Response = HTMLResponse(ON, headers=HEADERS)
@@ -135,7 +135,7 @@ class Guard:
         await answer(scope, receive, send)
 
     async def _ask(self, scope: Scope, receive: Receive, send: Send, headers: dict[str, str]) -> None:
-        """Refuse a request without the token; a person is asked for it."""
+        """Refuse a request without the token; a browser that asks for the page gets a form for the token."""
         if scope["type"] != "http" or scope["path"] != "/" or "text/html" not in headers.get("accept", ""):
             why = "this studio needs the token that was printed when it was started: open that address"
             return await self._refuse(scope, receive, send, 401, why)
@@ -165,7 +165,7 @@ def _raw(pairs: Iterable[tuple[str, str]]) -> list[tuple[bytes, bytes]]:
 
 
 def _split(host: str) -> tuple[str, int | None]:
-    """Name and port of a host header."""
+    """Split a host header into name and port."""
     try:
         found = urlsplit(f"//{host}")
         return found.hostname or "", found.port

@@ -1,4 +1,4 @@
-"""What all pages share: the project, the engine, and who is to be told when something happened."""
+"""The state that all pages share: the project, the engine, and the notification of pages."""
 
 from __future__ import annotations
 
@@ -21,11 +21,14 @@ from deodar.session.meter import Meter
 from deodar.worlds._base import World
 
 KEEP_SECONDS = 3.0
-"""Wall time between two looks for unsaved edits to keep."""
+"""Wall time between two checks for unsaved edits to store, in seconds."""
 
 
 class Hub:
-    """Made in the event loop's thread, where everything but the engine lives."""
+    """The project, the engine and the connected pages.
+
+    Everything but the engine runs in the thread of the event loop.
+    """
 
     def __init__(self, root: Path, trust: bool, world: World | None) -> None:
         self._loop = asyncio.get_running_loop()
@@ -52,22 +55,20 @@ class Hub:
     # ------------------------------------------------------------------------------------------------ telling
 
     def tell(self) -> None:
-        """Something changed: every page looks whether it concerns it."""
+        """Wake all pages, which check for news."""
         self._told = False
         for page in self.pages:
             page.wake()
 
     def _from_engine(self) -> None:
-        """The same from the engine's thread, once for many calls."""
+        """Call `tell` from the engine's thread; further calls before it has run are merged."""
         if not self._told:
             self._told = True
-            with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is left to be told
+            with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
                 self._loop.call_soon_threadsafe(self.tell)
 
     async def gallery(self) -> Gallery:
-        """Recent files and unsaved edits, as the state folder holds them; where it does not answer, as it
-        held them last.
-        """
+        """Return recent files and unsaved edits; the last result if the state folder does not answer."""
 
         def read() -> None:
             recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
@@ -77,7 +78,7 @@ class Hub:
         return self._gallery
 
     def clock(self, frame: int) -> RunClock:
-        """Where the run is."""
+        """Return the time and status of the run."""
         engine, shot, session = self.engine, self.engine.shot, self.engine.session
         hand, meter = engine.hand, Meter() if session is None else engine.pace.meter(session)
         return RunClock(
@@ -104,7 +105,7 @@ class Hub:
         )
 
     def costs(self) -> Costs:
-        """What elements cost, as far as it was measured."""
+        """Return the cost of the elements as last measured."""
         bill = self.engine.bill
         if self._told_costs is None or self._told_costs[0] is not bill:
             found = bill.costs
@@ -124,19 +125,19 @@ class Hub:
     # ----------------------------------------------------------------------------------------------- watching
 
     def new_page(self) -> Page:
-        """A page with a number of its own; once its socket is open it belongs to `pages`."""
+        """Make a page with a new number; its connection adds it to `pages` when the socket is open."""
         self._connected += 1
         return Page(self._connected)
 
     def watch(self) -> None:
-        """Tell the engine what all pages together look at."""
+        """Make the engine publish the ports and time courses that all pages watch."""
         streams = [s for p in self.pages for s in p.streams.values()]
         places = {s.place for s in streams if s.wish is None}
         wishes = list(dict.fromkeys(s.wish for s in streams if s.wish is not None))
         self.engine.call(lambda: self.engine.show(places, wishes))
 
     def leave(self, page: Page) -> None:
-        """A page is gone; the run goes on."""
+        """Remove a page that disconnected; the run continues, and an input that the page injected ends."""
         self.pages.discard(page)
         if self.engine.hand is not None and page.pushes:
             self.engine.call(lambda: self.engine.inject(None))
@@ -147,10 +148,10 @@ class Hub:
     async def _keep(self) -> None:
         while True:
             await asyncio.sleep(KEEP_SECONDS)
-            await self.project.turns.take(self.project.keep)  # no edit is forgotten while it is written
+            await self.project.turns.take(self.project.keep)  # `forget` cannot run while edits are written
 
     async def close(self) -> None:
-        """End the engine; unsaved edits stay kept."""
+        """Store unsaved edits and stop the engine."""
         self._keeping.cancel()
         await self.project.keep()
         await asyncio.to_thread(self.engine.close)

@@ -1,6 +1,4 @@
-"""What the studio keeps between its runs, in the user's state folder: unsaved edits, and which files were
-open.
-"""
+"""Storage of unsaved edits and of recent files between runs of the studio, in the user's state folder."""
 
 from __future__ import annotations
 
@@ -26,7 +24,7 @@ NAME = re.compile(r"^[0-9a-f]{16}$")
 
 
 def state_folder() -> Path:
-    """The folder: DEODAR_STATE, else where the system keeps such things."""
+    """Return the state folder: DEODAR_STATE, else the folder of the system for state files."""
     given = os.environ.get("DEODAR_STATE")
     if given:
         return Path(given)
@@ -35,7 +33,7 @@ def state_folder() -> Path:
 
 
 class Keeper:
-    """Unsaved edits and recent files. What cannot be written is not kept; nothing fails for it."""
+    """Stores unsaved edits and recent files. Errors of writing are ignored."""
 
     def __init__(self, folder: Path) -> None:
         self._unsaved = folder / "unsaved"
@@ -44,11 +42,11 @@ class Keeper:
     # ------------------------------------------------------------------------------------------ unsaved edits
 
     def new_name(self) -> str:
-        """A name under which the edits of one document are kept."""
+        """Return a new name for the edits of one document."""
         return secrets.token_hex(8)
 
     def keep(self, name: str, document: Document, file: str) -> None:
-        """Write the document as it is edited."""
+        """Store the edited document."""
         with contextlib.suppress(OSError, DeodarError):
             self._unsaved.mkdir(parents=True, exist_ok=True)
             files.save(document, self._document(name), force=True)
@@ -62,14 +60,14 @@ class Keeper:
             output.write(self._note(name), codec.line(note, ascii=True).encode())
 
     def forget(self, name: str) -> None:
-        """Throw kept edits away."""
+        """Delete stored edits."""
         self._require(name)
         with contextlib.suppress(OSError):
             for path in self._unsaved.glob(f"{name}.*"):
                 path.unlink(missing_ok=True)
 
     def kept(self) -> list[Recovery]:
-        """Edits that were kept and that no studio still holds, newest first."""
+        """Return stored edits that no running studio has open, newest first."""
         out: list[Recovery] = []
         for path in self._unsaved.glob("*.note"):
             note = _read(path)
@@ -83,7 +81,7 @@ class Keeper:
         return sorted(out, key=lambda r: r.when, reverse=True)
 
     def read(self, name: str) -> tuple[Document, str]:
-        """A document that was kept, and the file it belongs to."""
+        """Return a stored document, and the file it belongs to."""
         self._require(name)
         note: Any = _read(self._note(name))
         return files.load(self._document(name)), str(note.get("file", "")) if isinstance(note, dict) else ""
@@ -101,14 +99,14 @@ class Keeper:
     # ------------------------------------------------------------------------------------------- recent files
 
     def opened(self, path: Path) -> None:
-        """Remember a file that was opened or written."""
+        """Add a file to the recent files."""
         names = [str(path), *(n for n in self._names() if n != str(path))][:MOST_RECENT]
         with contextlib.suppress(OSError, OutputError):
             self._recent.parent.mkdir(parents=True, exist_ok=True)
             output.write(self._recent, codec.line(names, ascii=True).encode())
 
     def recent(self) -> list[Path]:
-        """Files that were open, the last one first, as far as they are still there."""
+        """Return the recent files that still exist, the last one first."""
         return [p for p in map(Path, self._names()) if p.is_file()]
 
     def _names(self) -> list[str]:
@@ -124,7 +122,7 @@ def _read(path: Path) -> Any:
 
 
 def _lives(process: Any) -> bool:
-    """Whether the process (number and moment of its start) still runs and holds the edits."""
+    """Return whether a process (number and time of its start) still runs, and so has the edits open."""
     try:
         number, started = process
         return psutil.Process(number).create_time() == started

@@ -1,7 +1,7 @@
-"""What every message between the studio's server and its page has in common.
+"""Base classes of the messages between the studio's server and its page.
 
 The two families are `to_server.MESSAGES` and `to_page.MESSAGES`. JSON Schema and TypeScript are generated
-from them (`python -m deodar.server.protocol`). Arrays do not travel as messages but as binary frames: see
+from them (`python -m deodar.server.protocol`). Arrays are not sent as messages but as binary frames: see
 `deodar.server.frames`.
 """
 
@@ -16,14 +16,14 @@ Id = Annotated[str, msgspec.Meta(max_length=64, description="id of an element; e
 
 
 class Message(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):
-    """What travels; the tag `type` says which."""
+    """Base class of messages; the field `type` has the tag of the class."""
 
 
 M = TypeVar("M", bound=Message)
 
 
 def union(messages: Mapping[str, type[M]]) -> type[M]:
-    """Return the union of message classes, as a decoder and the schema take it; it decodes one of them."""
+    """Return the union of message classes, for a decoder and for the schema."""
     return cast("type[M]", Union[tuple(messages.values())])  # noqa: UP007
 
 

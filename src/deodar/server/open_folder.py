@@ -1,4 +1,4 @@
-"""A folder held open: its files are read and written by name, whatever becomes of its path meanwhile."""
+"""A folder that is kept open: its files are read and written by name, even if its path changes meanwhile."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from deodar.errors import DocumentError
 from deodar.model import output
 
 BY_DESCRIPTOR = hasattr(os, "O_NOFOLLOW") and {os.open, os.unlink, os.rename} <= os.supports_dir_fd
-"""Whether this system opens files relative to an open folder.
+"""Whether this system can open files relative to an open folder.
 
-Where it does not (Windows), the folder's path is used each time.
+If not (Windows), the path of the folder is used each time.
 """
 
 READ = (
@@ -33,15 +33,15 @@ FOLDER = os.O_RDONLY | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 
 
 
 class OpenFolder:
-    """A folder, and the files in it by name.
+    """A folder, with methods for the files in it by name.
 
     Args:
         path: the folder.
-        below: names of folders inside one another, to go down from `path`. None of them may be a link: where
-            one became a link since its path was resolved, opening fails.
+        below: names of nested folders below `path`. None of them may be a link: opening fails if one became a
+            link since its path was resolved.
 
     Raises:
-        OSError: if it cannot be opened.
+        OSError: the folder cannot be opened.
     """
 
     def __init__(self, path: Path, below: Iterable[str] = ()) -> None:
@@ -73,18 +73,18 @@ class OpenFolder:
 
     @contextlib.contextmanager
     def open(self, name: str, links: bool = False) -> Generator[tuple[BufferedReader, int]]:
-        """Open a regular file for reading, without waiting: gives the file and its size in bytes.
+        """Open a regular file for reading, without blocking; yield the file and its size in bytes.
 
-        A named pipe or a device is refused after it is opened, so that it cannot take the place of a file
-        between a check and the opening.
+        The type of the file is checked after opening, so that a named pipe or a device cannot replace it
+        between the check and the opening.
 
         Args:
-            name: its name.
+            name: name of the file.
             links: whether the name may be a link.
 
         Raises:
-            DocumentError: if it is not a regular file.
-            OSError: if it cannot be opened.
+            DocumentError: it is not a regular file.
+            OSError: it cannot be opened.
         """
         descriptor = self._open(name, READ if links else READ | NO_LINK)
         try:
@@ -97,7 +97,7 @@ class OpenFolder:
             os.close(descriptor)
 
     def read(self, name: str, most: int, links: bool = False) -> bytes:
-        """The content of a regular file of at most `most` bytes."""
+        """Return the content of a regular file of at most `most` bytes."""
         with self.open(name, links) as (file, size):
             content = b"" if size > most else file.read(most + 1)
             if size > most or len(content) > most:
@@ -107,10 +107,10 @@ class OpenFolder:
             return content
 
     def write(self, name: str, content: bytes) -> None:
-        """Write a file beside its final name, wait until it is on the disk, and rename it, as `output.write`
-        does: it is there whole, or not at all.
+        """Write a file atomically, as `output.write` does.
 
-        A link of that name is replaced, never followed.
+        The content is written to a temporary file in the folder, synchronised to the disk, and renamed. A
+        link of that name is replaced, never followed.
         """
         beside = f".{name[:40]}.{secrets.token_hex(6)}"
         try:
@@ -129,7 +129,7 @@ class OpenFolder:
             raise output.failed(Path(name), error) from None
 
     def remove(self, name: str) -> None:
-        """Remove a file, if it is there."""
+        """Remove a file if it exists."""
         with contextlib.suppress(FileNotFoundError):
             if self._descriptor is None:
                 os.unlink(self.path / name)

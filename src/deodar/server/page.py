@@ -1,4 +1,4 @@
-"""State of one page that is connected to the studio."""
+"""State of one connected page."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from deodar.server.stream import Stream
 
 
 class Page:
-    """What requests and the hub know of one page.
+    """State of one connected page, for requests and for the hub.
 
     Attributes:
-        number: unique among all pages of this studio, also those that ended.
-        streams: the streams that the page watches, by its numbers.
-        pushes: whether the present injection of input is this page's.
-        follower: the bodies of the world as the page knows them; None: it does not show them.
+        number: unique among all pages of this studio, also those that have left.
+        streams: the streams that the page watches, by the numbers that the page chose.
+        pushes: whether this page made the present injection of input.
+        follower: the bodies of the world that the page has received; None: the page does not show them.
         news: set when there may be something to send.
     """
 
@@ -27,5 +27,5 @@ class Page:
         self.news = asyncio.Event()
 
     def wake(self) -> None:
-        """Check whether there is something to send."""
+        """Make the connection check whether there is something to send."""
         self.news.set()

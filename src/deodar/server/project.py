@@ -1,6 +1,7 @@
-"""The document that is open: its history, its file, and the engine that runs it.
+"""The open document: its history, its file, and the engine that runs it.
 
-Lives in the thread of the event loop. What a change would break is refused before it enters the history.
+Everything here runs in the thread of the event loop. An invalid change is refused before it enters the
+history.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ Ask = Literal["unsaved", "replace"]
 
 
 class Asks(Exception):
-    """A question that the person has to settle first."""
+    """A question that the user must answer before the request can be repeated."""
 
     def __init__(self, question: Ask) -> None:
         self.question: Ask = question
@@ -43,19 +44,19 @@ class Asks(Exception):
 
 
 class OpenProject:
-    """What is open, if anything.
+    """The open document, if any.
 
-    Whatever changes it is called through `turns`.
+    Methods that change it must be called through `turns`.
 
     Attributes:
-        turns: one change after the other.
-        version: counts what a page has to be told.
+        turns: runs one change after the other.
+        version: number of changes that pages must receive.
         model: the document being edited, with its history.
-        file: where it is saved.
-        trouble: the file that could not be opened, and what is wrong with it.
+        file: the file that the document is saved to.
+        trouble: the file that could not be opened, and its problems.
         failure: why the document does not run.
-        busy: what is being made, in words.
-        checker: finds the warnings after single changes.
+        busy: a phrase for the compilation in progress; empty: none.
+        checker: finds the warnings after changes of single parameters.
     """
 
     def __init__(
@@ -91,11 +92,11 @@ class OpenProject:
 
     @property
     def session(self) -> int:
-        """Counts the documents that were opened."""
+        """Number of documents opened so far."""
         return self.turns.session
 
     def view(self) -> DocumentView | None:
-        """The document for the page."""
+        """Return the document for the page; None if none is open."""
         if self.model is None:
             return None
         history = self.model.history
@@ -103,14 +104,12 @@ class OpenProject:
         return view.document(self.model.document, file, self.unsaved, history.depth, history.ahead)
 
     def changes_since(self, session: int, version: int) -> list[Changed] | None:
-        """Single changes that bring a page from that version to this one; None if it needs the whole
-        document.
-        """
+        """Return the changes from a version to the present one; None if a page needs the whole document."""
         return self._recent.between(version, self.version) if session == self.session else None
 
     @property
     def unsaved(self) -> bool:
-        """Whether there are edits that no file holds."""
+        """Whether the document has edits that are not saved to a file."""
         return (
             self.model is not None
             and self._saved is not self.model.document
@@ -118,7 +117,7 @@ class OpenProject:
         )
 
     def failures(self) -> list[ListedProblem]:
-        """Why nothing runs, if so."""
+        """Return why the document does not run; an empty list if it does."""
         doc = None if self.model is None else self.model.document
         found, paths = self.engine.failure
         return [*view.problems(self.failure, doc), *view.problems(found, doc, paths)]
@@ -126,10 +125,10 @@ class OpenProject:
     # ------------------------------------------------------------------------------------ opening and closing
 
     async def open_file(self, path: Path, discard: bool) -> str:
-        """Open a document; an example, or a file of another tool, as one without a file.
+        """Open a document; an example or a file of another tool becomes a document without a file.
 
-        What is wrong with it becomes the trouble that the page shows.
-        Of a file of another tool it answers in a sentence what became of it, otherwise nothing.
+        Problems of the file are stored in `trouble`, which the page shows. Return a sentence on the import of
+        a file of another tool, otherwise an empty string.
         """
         self._ask_unsaved(discard)
         foreign = await aside(lambda: content.is_foreign(self.workspace, path), str(path))
@@ -138,16 +137,16 @@ class OpenProject:
         return self._reported() if foreign else ""
 
     async def open_copy(self, read: Callable[[], Document], title: str, discard: bool) -> None:
-        """Open a document as one without a file: an example, or a package that was dropped on the page."""
+        """Open a document without a file: an example, or a package that was dropped on the page."""
         await self._open(read, None, title, discard)
 
     async def open_text(self, text: str, title: str, discard: bool) -> str:
-        """Open a document, or a file of another tool, given as text; answers as `open_file` does."""
+        """Open a document, or a file of another tool, given as text; return as `open_file` does."""
         await self._open(lambda: content.read(text, title), None, title, discard)
         return "" if opening.tool_for(text.encode()) is None else self._reported()
 
     async def recover(self, name: str, discard: bool) -> None:
-        """Go on with unsaved edits that were kept."""
+        """Open stored unsaved edits."""
         self._ask_unsaved(discard)
         doc, file = await aside(lambda: self.keeper.read(name), name)
         path = Path(file) if file else None
@@ -160,7 +159,7 @@ class OpenProject:
             self._moved()
 
     async def close(self, discard: bool) -> None:
-        """No document any more."""
+        """Close the document."""
         self._ask_unsaved(discard)
         await self._leave()
         self._moved()
@@ -182,7 +181,7 @@ class OpenProject:
         self._name, self._kept = self.keeper.new_name(), doc
         if file is not None:
             await attempt(lambda: self.keeper.opened(file))
-        self.busy = "compiling"  # before a page is told of the document, so that none takes it for ready
+        self.busy = "compiling"  # set before pages receive the document, so that no page considers it ready
         self._moved()
         self.turns.beside(self._start())
 
@@ -196,7 +195,7 @@ class OpenProject:
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
     async def _start(self) -> None:
-        """Compile the document and give it to the engine, unless a later attempt began meanwhile."""
+        """Compile the document and load it into the engine, unless a later attempt has started meanwhile."""
         model = self._require()
         self._attempt += 1
         attempt = self._attempt
@@ -213,13 +212,13 @@ class OpenProject:
             session = await asyncio.to_thread(make)
         except DeodarError as error:
             self._fail(attempt, error.problems)
-        except Exception as error:  # code from outside that runs while it is compiled
+        except Exception as error:  # functions that the document names run during compilation
             self._fail(attempt, [Wrong("", f"{type(error).__name__}: {error}")])
         else:
             await self.turns.take(lambda: self._take(attempt, session, doc))
 
     async def _take(self, attempt: int, session: Session, doc: Document) -> None:
-        """Let the engine run what was compiled, with the edits that were made since."""
+        """Load the compiled session into the engine, with the edits that were made since."""
         if attempt != self._attempt:
             return
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(session)))
@@ -230,7 +229,7 @@ class OpenProject:
             await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
             self._fail(attempt, error.problems)
             return
-        self.busy = ""  # only now: who sees it may ask for what needs a session
+        self.busy = ""  # last, because a page that sees it may send requests that need a session
         self._changed()
 
     def _fail(self, attempt: int, problems: Sequence[Wrong]) -> None:
@@ -245,8 +244,11 @@ class OpenProject:
     # ------------------------------------------------------------------------------------------------- saving
 
     async def save(self, path: str, replace: bool) -> Path:
-        """Write the document; asks before it writes over what is not its own, or what changed since it was
-        read.
+        """Write the document to a path, or to its own file if the path is empty; return the file.
+
+        Raises:
+            Asks: without `replace`, if the file is not the document's own, or changed since it was read.
+            DocumentError: the path is empty and the document has no file, or the file cannot be written.
         """
         model = self._require()
         place = self.workspace.target(path) if path else self.file
@@ -273,7 +275,7 @@ class OpenProject:
         return "" if place is None else await aside(lambda: self.workspace.digest(place), str(place))
 
     async def keep(self) -> None:
-        """Keep unsaved edits, if there are new ones."""
+        """Store unsaved edits, if they are new."""
         if self.model is not None and self.unsaved and self._kept is not self.model.document:
             doc, name, file = self.model.document, self._name, "" if self.file is None else str(self.file)
             await attempt(lambda: self.keeper.keep(name, doc, file))
@@ -282,7 +284,7 @@ class OpenProject:
     # ------------------------------------------------------------------------------------------------ editing
 
     async def set(self, element: str, parameter: str, value: Any, gesture: object) -> Cost:
-        """Change a parameter of an element, or (empty element) of the document."""
+        """Change a parameter of an element, or, with an empty element, a document parameter."""
         model = self._require()
         doc = model.document
         if not element:
@@ -296,22 +298,20 @@ class OpenProject:
         return await self._commit(new, gesture, (element, parameter, shown))
 
     async def change(self, how: Callable[[Document], Document]) -> Cost:
-        """Any other change, as one step of undo."""
+        """Apply a function to the document, as one step of undo."""
         return await self._commit(how(self._require().document), None)
 
     async def describe(self, values: dict[str, Any]) -> None:
-        """Change general properties."""
+        """Change general properties of the document."""
         await self.change(lambda doc: edit.describe(doc, **values))
 
     def require_run(self) -> None:
-        """Refuse to run what does not run and is not being made."""
+        """Raise DocumentError if no session runs and none is being compiled."""
         if self.engine.session is None and not self.busy:
             raise DocumentError(self.failure or [Wrong("", "no document is open")])
 
     async def embody(self, world: World) -> None:
-        """Let the sensors read another world; where there is none to read, it waits for a document that
-        senses.
-        """
+        """Use another world, at once or, if the document has no sensors, as soon as a document has some."""
         model, session = self._require(), self.engine.session
         self.embodiment.world(model.document)
         if session is None:
@@ -321,7 +321,7 @@ class OpenProject:
         self._changed()
 
     def touch(self) -> None:
-        """Something beside the document changed that pages show."""
+        """Send everything to all pages again, after a change outside the document."""
         self._moved()
 
     async def arrange(self, layout: dict[str, Any], undoable: bool) -> None:
@@ -337,11 +337,11 @@ class OpenProject:
         self._moved()
 
     async def undo(self) -> None:
-        """Take the last change back."""
+        """Undo the last change."""
         await self._travel(lambda h: h.undo(), lambda h: h.redo())
 
     async def redo(self) -> None:
-        """Make the change again that was taken back."""
+        """Redo the change that was undone last."""
         await self._travel(lambda h: h.redo(), lambda h: h.undo())
 
     async def _travel(
@@ -351,7 +351,7 @@ class OpenProject:
         if not there(history):
             return
         doc = history.document
-        back(history)  # nobody sees the other document before the engine takes it
+        back(history)  # the history moves only after the engine has accepted the document
         await self._adopt(doc)
         there(history)
         self._gesture = None
@@ -388,9 +388,9 @@ class OpenProject:
         return cost
 
     async def _adopt(self, doc: Document) -> Cost:
-        """Let the engine go on with a document.
+        """Make the engine continue with a document, and return the cost.
 
-        One with problems is edited on, while what runs stays as it was.
+        If the document has problems, the engine continues with the old one, while editing continues.
         """
         model = self._require()
         session = self.engine.session
@@ -405,9 +405,9 @@ class OpenProject:
         return cost
 
     async def _restart(self) -> None:
-        """Try again to compile what did not, now that it was edited."""
+        """Compile a document again that failed before, after an edit."""
         session = self.session
-        async with self.turns.lock:  # the edit enters the history first
+        async with self.turns.lock:  # waits until the edit is in the history
             if session != self.session or self.model is None:
                 return
             if problems(self.model.document):
@@ -417,9 +417,7 @@ class OpenProject:
         await self._start()
 
     def _reported(self) -> str:
-        """What became of the file that was just imported: the first line of the notes, where its report
-        begins.
-        """
+        """Return the first line of the import report, which the importer writes at the start of the notes."""
         return "" if self.model is None else self.model.document.notes.partition("\n")[0]
 
     def _require(self) -> Model:
@@ -428,7 +426,7 @@ class OpenProject:
         return self.model
 
     def _moved(self) -> None:
-        """Every page needs the whole document again."""
+        """Start a new version, for which every page needs the whole document."""
         self.version += 1
         self.checker.found = None
         self._recent.clear()

@@ -27,7 +27,7 @@ HEAD = (
 
 
 def schema() -> dict[str, Any]:
-    """Both unions and everything in them."""
+    """Return the JSON Schema of both unions and all types in them."""
     unions = [union(to_server.MESSAGES), union(to_page.MESSAGES)]
     (server, page), defs = msgspec.json.schema_components(unions, ref_template="#/$defs/{name}")
     return {
@@ -38,12 +38,12 @@ def schema() -> dict[str, Any]:
 
 
 def schema_text() -> str:
-    """The schema as it is shipped."""
+    """Return the schema as the text of the generated file."""
     return codec.text(schema(), indent=1) + "\n"
 
 
 def _comment(text: str) -> str:
-    """A text as `//` comments of at most 110 columns, a comment for each paragraph."""
+    """Format a text as `//` comments of at most 110 columns, one for each paragraph."""
     paragraphs = [" ".join(part.split()) for part in text.split("\n\n") if part.strip()]
     return "//\n".join(
         "".join(f"// {line}\n" for line in textwrap.wrap(paragraph, 107, break_on_hyphens=False))
@@ -52,7 +52,7 @@ def _comment(text: str) -> str:
 
 
 def typescript() -> str:
-    """The same as TypeScript types."""
+    """Return the schema as TypeScript types."""
     out = [HEAD]
     for name, form in sorted(schema()["$defs"].items()):
         description = form.get("description", "")
@@ -75,7 +75,7 @@ def _record(form: dict[str, Any]) -> str:
 
 
 def _folded(line: str) -> str:
-    """A member of a record; a union too wide for a line gets a line for each alternative."""
+    """Fold a member of a record; a union too wide for a line has one line for each alternative."""
     name, _, kinds = line.partition(": ")
     return line if len(line) <= 110 else f"{name}:\n    | " + kinds.replace(" | ", "\n    | ")
 
@@ -109,7 +109,7 @@ def _type(form: dict[str, Any]) -> str:
 
 
 def write() -> None:
-    """Write both files anew."""
+    """Write both files."""
     output.write(SCHEMA, schema_text().encode())
     if TYPESCRIPT.parent.is_dir():
         output.write(TYPESCRIPT, typescript().encode())

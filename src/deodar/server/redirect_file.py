@@ -1,7 +1,7 @@
-"""A file that sends a browser to the address of the studio.
+"""A file that redirects a browser to the address of the studio.
 
-The command line of a browser can be read by every user of the machine, and a token in it too. The browser is
-therefore started with the name of a file that only this user can read, and the file holds the address.
+Every user of the machine can read the command line of a browser, and a token in it. The browser is therefore
+started with the name of a file that only this user can read and that contains the address.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ PAGE = """<!doctype html>
 
 
 class RedirectFile:
-    """A page with mode 0600 in a new folder with mode 0700.
+    """An HTML file with mode 0600 in a new folder with mode 0700.
 
     Attributes:
         path: the file.
 
     Args:
-        address: where it leads.
+        address: target of the redirect.
 
     Raises:
-        OSError: if it cannot be written.
+        OSError: the file cannot be written.
     """
 
     def __init__(self, address: str) -> None:
@@ -50,7 +50,7 @@ class RedirectFile:
 
     @property
     def address(self) -> str:
-        """The address of the file."""
+        """URI of the file."""
         return self.path.as_uri()
 
     def remove(self) -> None:

@@ -29,17 +29,17 @@ from deodar.session.session import Session
 from deodar.worlds._base import World
 
 MOST_STREAMS = 2000
-"""Streams that one page may watch."""
+"""Largest number of streams of one page."""
 
 Answers = list[Answer | Folder]
 R = TypeVar("R", bound=to_server.Request)
 Handler = Callable[[Hub, Page, R], Awaitable[Answer | Folder | None]]
 HANDLERS: dict[type[to_server.Request], Handler[Any]] = {}
-"""The handler of each message, registered where it is declared."""
+"""The handler of each message class; `handles` registers them."""
 
 
 def handles(kind: type[R]) -> Callable[[Handler[R]], Handler[R]]:
-    """Decorator of the function that does what a message asks for.
+    """Decorator that registers the handler of a message class.
 
     Raises:
         ModelError: the message has a handler already.
@@ -55,9 +55,9 @@ def handles(kind: type[R]) -> Callable[[Handler[R]], Handler[R]]:
 
 
 async def do(hub: Hub, page: Page, message: to_server.Request) -> Answers:
-    """Do what is asked; the last of the answers ends the request.
+    """Handle a request, and return its answers; the last one ends the request.
 
-    Requests that change the document are done one after the other.
+    Requests that change the document are handled one after the other.
     """
     if isinstance(message, to_server.DocumentRequest):
         return await hub.project.turns.take(lambda: _change(hub, page, message), message.session)
@@ -191,7 +191,7 @@ async def _apply_preset_text(hub: Hub, page: Page, m: to_server.ApplyPresetText)
 
 
 async def _take_over(hub: Hub, page: Page, request: int, preset: edit.Document) -> Answer:
-    """Change the values of what is open to those of another document."""
+    """Apply the values of another document to the open one."""
     lines: list[Line] = []
 
     def change(doc: edit.Document) -> edit.Document:
@@ -282,7 +282,7 @@ async def _release(hub: Hub, page: Page, m: to_server.Release) -> None:
 
 
 def _blob(axes: Axes, m: to_server.PushInput) -> np.ndarray:
-    """A Gaussian over axes, or the same everywhere."""
+    """Sample the input of a push over axes: a Gaussian, or a constant."""
     if not math.isfinite(m.amplitude):
         raise ParameterError("needs a finite number", where="amplitude")
     out = np.asarray(m.amplitude, float)

@@ -1,6 +1,4 @@
-"""The world from above, for a page: the scene when it changed, and the bodies with what is new of their
-way.
-"""
+"""The world from above, as messages: the scene, and the bodies with the new part of their path."""
 
 from __future__ import annotations
 
@@ -9,11 +7,11 @@ from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, SceneView
 from deodar.worlds import _scene
 
 DIGITS = 6
-"""Digits of a place that are sent: more than a screen shows."""
+"""Decimal digits of positions in messages: more than a screen shows."""
 
 
 def scene(seen: _scene.Scene | None) -> WorldScene:
-    """What stands still, unless a hand moves it."""
+    """Return the message with the boxes and marks of a scene, which change only when the user moves them."""
     if seen is None:
         return WorldScene(scene=None)
     boxes = [
@@ -33,7 +31,7 @@ def scene(seen: _scene.Scene | None) -> WorldScene:
 
 
 class Follower:
-    """What one page knows of the bodies and of their way."""
+    """The bodies and the part of their path that one page has received."""
 
     def __init__(self) -> None:
         self._way: Trail | None = None
@@ -41,9 +39,7 @@ class Follower:
         self._bodies: list[BodyView] = []
 
     def news(self, track: Track) -> Bodies | None:
-        """Where the bodies are, and the places of their way that the page does not have; None where nothing
-        moved.
-        """
+        """Return the bodies and the part of their path that the page does not have; None if nothing moved."""
         seen, way = track.scene, track.way
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
         fresh = way is not self._way

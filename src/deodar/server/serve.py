@@ -1,4 +1,4 @@
-"""Start the studio: a socket, an address, a browser."""
+"""Start the studio: bind a socket, run the server, open a browser."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from deodar.server.redirect_file import RedirectFile
 from deodar.server.service import Service
 
 PORT = 8430
-"""First port that is tried; where it is taken, the next free one."""
+"""First port that is tried; if it is in use, the next free one is taken."""
 
 TRIED = 20
 MOST_MESSAGE = 64 * 2**20
@@ -29,10 +29,10 @@ MOST_MESSAGE = 64 * 2**20
 
 
 def serve(service: Service, browser: bool, say: Callable[[str], None]) -> None:
-    """Serve until Ctrl-C, and open the page in the browser where `browser` is true.
+    """Serve until Ctrl-C, and open the page in a browser if `browser` is true.
 
-    `say` gets the address once it answers. An address with a token reaches the browser through a file of this
-    user, which is removed when the studio ends.
+    `say` is called with the address when the server is ready. An address with a token is passed to the
+    browser in a file of this user, which is removed when the studio ends.
     """
     redirects: list[RedirectFile] = []
 
@@ -57,7 +57,7 @@ def serve(service: Service, browser: bool, say: Callable[[str], None]) -> None:
             redirect.remove()
 
     server, bound = prepare(service, ready, ended)
-    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends, once everything is put away
+    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is the normal end, after the server has closed
         server.run(sockets=[bound])
 
 
@@ -66,10 +66,10 @@ def prepare(
     ready: Callable[[str], None],
     ended: Callable[[], None] = lambda: None,
 ) -> tuple[uvicorn.Server, socket.socket]:
-    """A server that is not started yet, and the socket it is to listen at.
+    """Return a server that is not started yet, and the socket for it.
 
-    `ready` gets the address once everything is up. `ended` is called when the server stops, before a signal
-    such as SIGTERM ends the process.
+    `ready` is called with the address when the server is ready. `ended` is called when the server stops,
+    before a signal such as SIGTERM ends the process.
     """
     host, bound = service.host, bind(service.host, service.port)
     number = bound.getsockname()[1]
@@ -96,18 +96,18 @@ def prepare(
 
 
 def bind(host: str, port: int | None) -> socket.socket:
-    """A socket on the port, or without one on the first free port from `PORT` on."""
+    """Bind a socket to a port, or with None to the first free port from `PORT` on."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     wanted = [port] if port is not None else [*range(PORT, PORT + TRIED), 0]
     for number in wanted:
-        # named as TCP, so that the event loop turns off the waiting of small packets for each other: it would
-        # cost 40 ms a frame
+        # TCP is stated, so that the event loop sets TCP_NODELAY; without it Nagle's algorithm delays each
+        # frame by 40 ms
         bound = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-        if os.name == "posix":  # a port that was just left; elsewhere this would also take one that is in use
+        if os.name == "posix":  # allows a port that was just released; on other systems also one in use
             bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             bound.bind((host, number))
-            bound.listen(100)  # whoever is told the address may come at once
+            bound.listen(100)  # a page may connect as soon as the address is known
             return bound
         except (OSError, OverflowError) as error:
             bound.close()

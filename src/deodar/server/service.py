@@ -1,4 +1,4 @@
-"""What a studio serves, and the address that it listens at."""
+"""Settings of a studio: what it serves, and the address that it listens at."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from deodar.worlds._base import World
 
 @dc.dataclass(frozen=True)
 class Service:
-    """What a studio serves, and the address that it listens at.
+    """Settings of a studio: what it serves, and the address that it listens at.
 
     Attributes:
         root: the folder below which the studio reads and writes files.
-        file: the document to open first; none: the gallery of examples.
+        file: the document to open first; None: show the gallery of examples.
         trust: whether functions that documents name may be run.
-        world: what sensors read; none: only what the document holds.
+        world: the world that sensors read; None: examples of worlds are used.
         host: name or number of the address; the default is reachable from this machine only.
-        port: none: the first free one from `deodar.server.serve.PORT` on; 0: any free one.
+        port: None: the first free port from `deodar.server.serve.PORT` on; 0: any free port.
         token: whether pages need a token; without it everybody who can connect may use the studio.
     """
 

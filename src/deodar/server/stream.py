@@ -1,4 +1,4 @@
-"""What one page watches: ports as thinned frames, and time courses."""
+"""Streams that a page watches: ports as thinned frames, and time courses."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from deodar.session.look import PortKey
 from deodar.session.session import Session
 
 CHANNELS = ("channel", 3)
-"""Name and samples of a last axis that makes an array a picture."""
+"""Name and number of samples of the last axis of a picture."""
 
 
 class Stream:
-    """A port of an element under a number of the page's choice. With a `wish` its time course."""
+    """A port of an element, or with a `wish` its time course, under a number that the page chose."""
 
     def __init__(self, number: int, place: PortKey, most: int = 0, wish: Wish | None = None) -> None:
         self.number, self.place, self.most, self.wish = number, place, most, wish
@@ -31,7 +31,7 @@ class Stream:
         self._taken = 0
 
     def news(self, session: Session | None) -> Announced | Lost | None:
-        """What the page has to be told about the stream, if it is something new."""
+        """Return the message on the format of the stream if it changed, else None."""
         told = None if session is None else self._form(session)
         if told is None or told == self._said:
             return None
@@ -39,7 +39,7 @@ class Stream:
         return told
 
     def frame(self, engine: Engine) -> bytes | None:
-        """What there is to send, if anything."""
+        """Return the frame to send, or None if there is nothing new."""
         if not isinstance(self._said, Announced):
             return None
         shot = engine.shot
@@ -50,7 +50,7 @@ class Stream:
             return None
         values = thin(fold(array, self._axes), self.most, self._said.channels)
         if list(values.shape) != self._said.shape:
-            return None  # of the program before
+            return None  # a shot of the previous program
         return frames.pack(self.number, shot.number, shot.time, values)
 
     def _samples(self, trace: Trace | None, number: int) -> bytes | None:
@@ -92,20 +92,21 @@ class Stream:
 
 
 def is_picture(axes: Sequence[Axis]) -> bool:
-    """Whether an array over these axes is a picture in three channels."""
+    """Return whether an array over these axes is a picture with three channels."""
     return len(axes) == 3 and (axes[2].name, axes[2].samples) == CHANNELS
 
 
 def fold(array: np.ndarray, axes: Sequence[Axis]) -> np.ndarray:
-    """The maximum over all axes beyond the second; a picture stays as it is."""
+    """Return the maximum over all axes beyond the second; a picture is returned unchanged."""
     if array.ndim <= 2 or is_picture(axes):
         return array
     return array.max(axis=tuple(range(2, array.ndim)))
 
 
 def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
-    """At most so many samples along each axis (0: all), evenly spread, the ends among them; channels all
-    stay.
+    """Thin an array to at most `most` samples along each axis (0: all), evenly spaced, including both ends.
+
+    With `channels` the last axis keeps all samples.
     """
     for d in range(array.ndim - channels):
         n = array.shape[d]

@@ -1,4 +1,4 @@
-"""The messages of the server to the page, each declared once."""
+"""The messages from the server to the page."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from deodar.family import Family
 from deodar.server.message import Data, Id, Message
 
 MESSAGES = Family(Message)
-"""Every message to the page, registered where it is declared."""
+"""All messages to the page; each class below is registered by a decorator."""
 
 
 class ListedProblem(Data, frozen=True):
-    """One thing that is wrong: where, what, what to type; and the element it belongs to, if it is one.
+    """A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
 
-    A warning stops no run.
+    A warning does not prevent a run.
     """
 
     what: str
@@ -25,10 +25,9 @@ class ListedProblem(Data, frozen=True):
 
 
 class ParameterForm(Data, frozen=True):
-    """How a parameter is shown and changed.
+    """Description of a parameter for its input form.
 
-    `form` is the shape of the value; `of` names the kinds that may stand in a `part` or `parts`; `symbol` is
-    TeX.
+    `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX.
     """
 
     name: str
@@ -63,9 +62,9 @@ class ParameterForm(Data, frozen=True):
 class Kind(Data, frozen=True):
     """A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 
-    `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` names for a port the
-    parameters that are levels on its scale (threshold, resting level). `example` is a value to start from,
-    where it stands inside a part.
+    `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
+    parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
+    parameter whose value is a part of this kind.
     """
 
     name: str
@@ -80,7 +79,7 @@ class Kind(Data, frozen=True):
 
 
 class AxisView(Data, frozen=True):
-    """A metric dimension, under its key in the document."""
+    """An axis of the document, with its key there."""
 
     key: str
     name: str
@@ -94,7 +93,7 @@ class AxisView(Data, frozen=True):
 class ElementView(Data, frozen=True):
     """An element of the document.
 
-    `axes` gives for each port the keys of its axes, as far as they are known.
+    `axes` lists for each port the keys of its axes, if they are known.
     """
 
     id: Id
@@ -111,7 +110,7 @@ class ElementView(Data, frozen=True):
 
 
 class ConnectionView(Data, frozen=True):
-    """From an output port to an input port."""
+    """A connection from an output port to an input port."""
 
     source: Id
     source_port: str
@@ -121,14 +120,14 @@ class ConnectionView(Data, frozen=True):
 
 
 class LinkView(Data, frozen=True):
-    """A parameter that a document parameter drives."""
+    """A parameter of an element that a document parameter sets."""
 
     element: Id
     parameter: str
 
 
 class KnobView(Data, frozen=True):
-    """A document parameter and what it drives."""
+    """A document parameter and the parameters that it sets."""
 
     name: str
     value: float
@@ -136,9 +135,10 @@ class KnobView(Data, frozen=True):
 
 
 class DocumentView(Data, frozen=True):
-    """The document as it is edited.
+    """The open document.
 
-    `file` is relative to the root, empty without one; `unsaved`: edited since it was written.
+    `file` is relative to the root, and empty if the document has no file; `unsaved`: it was edited since it
+    was written. `undo` and `redo` are the numbers of steps available.
     """
 
     file: str
@@ -159,7 +159,7 @@ class DocumentView(Data, frozen=True):
 
 
 class ExampleView(Data, frozen=True):
-    """An entry of the gallery; `picture` is an address on the server, empty without one."""
+    """An entry of the gallery; `picture` is an address on the server, or empty."""
 
     name: str
     title: str
@@ -168,7 +168,7 @@ class ExampleView(Data, frozen=True):
 
 
 class Recovery(Data, frozen=True):
-    """Unsaved edits that were kept: name, title, the file they belong to, and when (ISO)."""
+    """Stored unsaved edits: name, title, the file they belong to, and the time of storing (ISO 8601)."""
 
     name: str
     title: str
@@ -178,7 +178,7 @@ class Recovery(Data, frozen=True):
 
 @MESSAGES.register
 class Welcome(Message, frozen=True, tag="welcome"):
-    """First message on a connection: what there is, whatever is open."""
+    """First message on a connection: the data that do not depend on the open document."""
 
     version: str
     root: str
@@ -188,7 +188,7 @@ class Welcome(Message, frozen=True, tag="welcome"):
 
 @MESSAGES.register
 class Gallery(Message, frozen=True, tag="gallery"):
-    """What can be gone on with: documents opened before (below the root), unsaved edits."""
+    """Documents to open again: files below the root that were open before, and stored unsaved edits."""
 
     recent: list[str]
     recoveries: list[Recovery]
@@ -196,7 +196,7 @@ class Gallery(Message, frozen=True, tag="gallery"):
 
 @MESSAGES.register
 class Opened(Message, frozen=True, tag="opened"):
-    """The whole document; None: none is open. `session` changes with each document that is opened."""
+    """The whole document; None: no document is open. `session` is the number of documents opened so far."""
 
     session: int
     version: int
@@ -205,7 +205,7 @@ class Opened(Message, frozen=True, tag="opened"):
 
 @MESSAGES.register
 class Trouble(Message, frozen=True, tag="trouble"):
-    """The file that could not be opened, with every problem in it; an empty list: no trouble any more."""
+    """A file that could not be opened, with all its problems; an empty list clears an earlier message."""
 
     file: str
     problems: list[ListedProblem]
@@ -213,7 +213,7 @@ class Trouble(Message, frozen=True, tag="trouble"):
 
 @MESSAGES.register
 class Changed(Message, frozen=True, tag="changed"):
-    """One parameter has another value; nothing else differs from the document of the version before."""
+    """The new value of one parameter, the only difference to the previous version of the document."""
 
     version: int
     element: Id
@@ -227,8 +227,9 @@ class Changed(Message, frozen=True, tag="changed"):
 
 @MESSAGES.register
 class Checked(Message, frozen=True, tag="checked"):
-    """The problems and warnings of that version of the document, where single changes led to it; of a whole
-    document it holds them itself.
+    """Problems and warnings of a version of the document that pages know from `changed` messages.
+
+    A whole document (`opened`) contains its own problems.
     """
 
     version: int
@@ -237,14 +238,15 @@ class Checked(Message, frozen=True, tag="checked"):
 
 @MESSAGES.register
 class RunClock(Message, frozen=True, tag="clock"):
-    """Where the run is. Sent after the frames of the same number, and whenever something changes.
+    """Time and status of the run. Sent after the frames of the same number, and whenever something changes.
 
-    `factor` is document time over time on the wall, measured; `speed` is what was asked for (None: as fast as
-    possible); `abstract` time counts 1 unit as 1 ms. In ms on the wall: `lag` is how far the run is behind
-    and will catch up, `worst` the largest lag since it was played, `lost` what was given up; `overruns`
-    counts how often it fell behind. `longest` is the step up to which it may grow to keep up (None: it
-    stays), and `lengthened` counts the steps that did. `busy` says in words what is being made; `failure` why
-    the run stopped; `world` what the sensors read.
+    `factor` is the measured ratio of document time to wall time; `speed` is the requested ratio (None: as
+    fast as possible); one unit of `abstract` time counts as 1 ms. In ms of wall time: `lag` is how far the
+    run is behind and will catch up, `worst` the largest lag since the run was started, `lost` the time that
+    it will not catch up; `overruns` is the number of times it fell behind. `longest` is the limit up to which
+    the step may grow to keep up (None: the step is constant), and `lengthened` is the number of longer steps
+    taken. `busy` is a phrase for the compilation in progress; `failure` lists why the run stopped; `world` is
+    a phrase for the world that the sensors read.
     """
 
     frame: int
@@ -270,10 +272,11 @@ class RunClock(Message, frozen=True, tag="clock"):
 
 
 class CostView(Data, frozen=True):
-    """What an element costs: microseconds of a step.
+    """Cost of an element: microseconds per step.
 
-    `alike` elements are computed together and share the time; `once`: it stands still and is computed once a
-    chunk. What a connection resamples or delays has a path but is no element of the document.
+    `alike` is the number of elements that are computed together and share the time; `once`: the element is
+    constant and is computed once per chunk. The resampling or delay of a connection has a path, but is not an
+    element of the document.
     """
 
     element: Id
@@ -286,8 +289,9 @@ class CostView(Data, frozen=True):
 
 @MESSAGES.register
 class Costs(Message, frozen=True, tag="costs"):
-    """What a step costs, as it was measured last, the dearest first; `step` is that of the whole step in
-    microseconds, 0 before it was measured.
+    """Cost of a step as last measured, the most expensive element first.
+
+    `step` is the time of the whole step in microseconds, 0 before the first measurement.
     """
 
     measuring: bool
@@ -297,8 +301,9 @@ class Costs(Message, frozen=True, tag="costs"):
 
 
 class BoxView(Data, frozen=True):
-    """Something solid in the world, from above: its middle, its size, its colour (red, green, blue, 0 to 1);
-    `fixed`: it cannot be moved.
+    """A solid box of the world: its middle, size and colour (red, green, blue, 0 to 1).
+
+    `fixed`: the box cannot be moved.
     """
 
     name: str
@@ -311,7 +316,7 @@ class BoxView(Data, frozen=True):
 
 
 class MarkView(Data, frozen=True):
-    """A place in the world that has a name, such as a goal; `fixed`: it cannot be moved."""
+    """A named position in the world, such as a goal; `fixed`: the mark cannot be moved."""
 
     name: str
     x: float
@@ -320,7 +325,7 @@ class MarkView(Data, frozen=True):
 
 
 class BodyView(Data, frozen=True):
-    """Something round that moves by itself, and where it looks (rad; 0 along x, counter-clockwise)."""
+    """A round body that moves by itself; `heading` is in rad, 0 along x, counter-clockwise."""
 
     name: str
     x: float
@@ -330,7 +335,7 @@ class BodyView(Data, frozen=True):
 
 
 class SceneView(Data, frozen=True):
-    """What stands in the world, in its unit of length; `border` is lower x, lower y, upper x, upper y."""
+    """Boxes and marks of the world, in its unit of length; `border` is lower x, lower y, upper x, upper y."""
 
     unit: str
     border: list[float]
@@ -340,15 +345,17 @@ class SceneView(Data, frozen=True):
 
 @MESSAGES.register
 class WorldScene(Message, frozen=True, tag="scene"):
-    """The world from above, whenever something in it was moved; None: there is nothing to see from above."""
+    """The world from above, sent whenever a box or mark changed; None: the world has no view from above."""
 
     scene: SceneView | None
 
 
 @MESSAGES.register
 class Bodies(Message, frozen=True, tag="bodies"):
-    """Where the bodies are now, and what is new of their way: rows of x and y of each body; `fresh`: what was
-    known of it before is over.
+    """The bodies now, and the new part of their path.
+
+    Each row of `way` has x and y of each body; `fresh`: the path starts again, and the page drops the old
+    one.
     """
 
     bodies: list[BodyView]
@@ -358,10 +365,10 @@ class Bodies(Message, frozen=True, tag="bodies"):
 
 @MESSAGES.register
 class Announced(Message, frozen=True, tag="announced"):
-    """What a stream holds from now on: its shape, and the axes as they are thinned.
+    """Format of the following frames of a stream: the shape after thinning, and the axes.
 
-    `folded` names axes over which the maximum is taken, because an array has more than two dimensions;
-    `channels`: a picture. A time course has the shape [2]: pairs of time and value.
+    `folded` lists the axes over which the maximum is taken if the array has more than two dimensions;
+    `channels`: the array is a picture. A time course has the shape [2]: pairs of time and value.
     """
 
     stream: int
@@ -373,7 +380,7 @@ class Announced(Message, frozen=True, tag="announced"):
 
 @MESSAGES.register
 class Lost(Message, frozen=True, tag="lost"):
-    """A stream that gives nothing, and why: the element is gone, or the port cannot be read."""
+    """A stream without data, and the reason: the element was removed, or the port cannot be read."""
 
     stream: int
     problem: ListedProblem
@@ -381,7 +388,7 @@ class Lost(Message, frozen=True, tag="lost"):
 
 @MESSAGES.register
 class Folder(Message, frozen=True, tag="folder"):
-    """What lies in a folder below the root."""
+    """Content of a folder below the root."""
 
     request: int
     path: str
@@ -392,13 +399,13 @@ class Folder(Message, frozen=True, tag="folder"):
 
 @MESSAGES.register
 class Answer(Message, frozen=True, tag="answer"):
-    """The end of a request; with problems, nothing was done.
+    """The result of a request; if it has problems, the request had no effect.
 
-    `ask` names the question that has to be settled first: `unsaved` (send it again with discard) or `replace`
-    (send it again with replace). `cost` is what a change cost. Of a preset, `carried` counts the values it
-    changed and `unmatched` lists what it could not change. `imported` says in a sentence what became of a
-    file of another tool that was opened. `version` is the first version of the document that holds the
-    change, where the request was one.
+    `ask` is a question for the user before the request can be repeated: `unsaved` (repeat it with discard) or
+    `replace` (repeat it with replace). `cost` is the cost of a change. For a preset, `carried` is the number
+    of values that changed and `unmatched` lists the values that could not be applied. `imported` is a
+    sentence on the import of a file of another tool. `version` is the first version of the document with the
+    change, if the request made one.
     """
 
     request: int

@@ -1,4 +1,4 @@
-"""The messages of the page to the server, each declared once."""
+"""The messages from the page to the server."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ Seed = Annotated[int, msgspec.Meta(ge=0, le=2**32 - 1)]
 
 
 class Request(Message, frozen=True):
-    """What the page asks for. Where `request` is not 0, an `answer` with the same number follows."""
+    """Base class of requests. If `request` is not 0, an `answer` with the same number follows."""
 
     request: Count = 0
 
 
 MESSAGES = Family(Request)
-"""Every message to the server, registered where it is declared."""
+"""All messages to the server; each class below is registered by a decorator."""
 
 
 class DocumentRequest(Request, frozen=True):
-    """A request that changes which document is open or what it holds.
+    """A request that opens, closes or changes a document.
 
-    The server does one after the other, whichever page they come from. `session` is the document that the
-    request is meant for, as counted by `opened`; where another one was opened since, the request is refused.
-    0: whichever is open.
+    The server handles the requests of all pages one after the other. `session` is the number of the document
+    that the request is meant for, as in `opened`; the request is refused if another document was opened
+    since. 0: any open document.
     """
 
     session: Count = 0
@@ -37,7 +37,7 @@ class DocumentRequest(Request, frozen=True):
 
 @MESSAGES.register
 class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
-    """Open a document below the root. `discard` allows to throw unsaved edits away."""
+    """Open a document below the root. `discard` allows unsaved edits to be lost."""
 
     path: Text
     discard: bool = False
@@ -45,7 +45,7 @@ class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
 
 @MESSAGES.register
 class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"):
-    """Open one of the examples, as a document without a file."""
+    """Open an example, as a document without a file."""
 
     name: Text
     discard: bool = False
@@ -53,7 +53,7 @@ class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"
 
 @MESSAGES.register
 class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
-    """Open the content of a file that was dropped on the page, as a document without a file."""
+    """Open the text of a file that was dropped on the page, as a document without a file."""
 
     name: Text
     text: str
@@ -62,8 +62,9 @@ class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
 
 @MESSAGES.register
 class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"):
-    """Open the content (base64) of a package (`NAME.deodar`) that was dropped on the page, as a document
-    without a file.
+    """Open a package (`NAME.deodar`) that was dropped on the page, as a document without a file.
+
+    `content` is base64.
     """
 
     name: Text
@@ -73,7 +74,7 @@ class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"
 
 @MESSAGES.register
 class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
-    """Open unsaved edits that were kept."""
+    """Open stored unsaved edits."""
 
     name: Text
     discard: bool = False
@@ -81,23 +82,23 @@ class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
 
 @MESSAGES.register
 class Forget(Request, frozen=True, kw_only=True, tag="forget"):
-    """Throw unsaved edits away that were kept."""
+    """Delete stored unsaved edits."""
 
     name: Text
 
 
 @MESSAGES.register
 class Close(DocumentRequest, frozen=True, kw_only=True, tag="close"):
-    """Close the document and go to the gallery."""
+    """Close the document and show the gallery."""
 
     discard: bool = False
 
 
 @MESSAGES.register
 class Save(DocumentRequest, frozen=True, kw_only=True, tag="save"):
-    """Write the document, to its own file where `path` is empty.
+    """Write the document to `path`, or to its own file if `path` is empty.
 
-    `replace` allows to write over a file that is not the one it came from, or that changed on disk since.
+    `replace` allows another file, or a file that changed on disk since it was read, to be overwritten.
     """
 
     path: Text = ""
@@ -106,18 +107,17 @@ class Save(DocumentRequest, frozen=True, kw_only=True, tag="save"):
 
 @MESSAGES.register
 class ListFolder(Request, frozen=True, kw_only=True, tag="list_folder"):
-    """Ask for the documents and folders in a folder below the root; a `folder` follows."""
+    """List the documents and folders in a folder below the root; a `folder` message follows."""
 
     path: Text = ""
 
 
 @MESSAGES.register
 class SetParameter(DocumentRequest, frozen=True, kw_only=True, tag="set"):
-    """Change a parameter of an element (`kernel.0.sigma`), or, with an empty element, the document parameter
-    of that name.
+    """Change a parameter of an element (`kernel.0.sigma`), or the document parameter if `element` is empty.
 
-    `value` is as documents write it: numbers, text, parts with their kind, axes by their key. Changes that
-    share a `gesture` (not 0) are one step of undo: a slider that is dragged.
+    `value` has the format of documents: numbers, text, parts with their kind, axes by their key. Changes with
+    the same `gesture` (not 0) are one step of undo, such as the drag of a slider.
     """
 
     element: Id
@@ -128,7 +128,7 @@ class SetParameter(DocumentRequest, frozen=True, kw_only=True, tag="set"):
 
 @MESSAGES.register
 class Describe(DocumentRequest, frozen=True, kw_only=True, tag="describe"):
-    """Change general properties of the document; what is None stays."""
+    """Change general properties of the document; None leaves a property unchanged."""
 
     name: Text | None = None
     notes: str | None = None
@@ -137,7 +137,7 @@ class Describe(DocumentRequest, frozen=True, kw_only=True, tag="describe"):
 
 @MESSAGES.register
 class AddKnob(DocumentRequest, frozen=True, kw_only=True, tag="add_knob"):
-    """A new document parameter, at the value of the first parameter that it drives."""
+    """Add a document parameter with the value of the first parameter that it sets."""
 
     name: Text
     element: Id
@@ -146,7 +146,7 @@ class AddKnob(DocumentRequest, frozen=True, kw_only=True, tag="add_knob"):
 
 @MESSAGES.register
 class Link(DocumentRequest, frozen=True, kw_only=True, tag="link"):
-    """Let a document parameter drive a parameter of an element."""
+    """Link a parameter of an element to a document parameter."""
 
     name: Text
     element: Id
@@ -155,7 +155,7 @@ class Link(DocumentRequest, frozen=True, kw_only=True, tag="link"):
 
 @MESSAGES.register
 class Unlink(DocumentRequest, frozen=True, kw_only=True, tag="unlink"):
-    """Let a parameter stand for itself again."""
+    """Unlink a parameter of an element from its document parameter."""
 
     element: Id
     parameter: Text
@@ -163,16 +163,14 @@ class Unlink(DocumentRequest, frozen=True, kw_only=True, tag="unlink"):
 
 @MESSAGES.register
 class RemoveKnob(DocumentRequest, frozen=True, kw_only=True, tag="remove_knob"):
-    """Take a document parameter away; what it drove keeps its value."""
+    """Remove a document parameter; the parameters that it set keep their values."""
 
     name: Text
 
 
 @MESSAGES.register
 class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
-    """Change parts of the layout: each key given replaces that key of the document's layout, None takes it
-    away.
-    """
+    """Change parts of the layout: each key replaces that key of the document's layout, None removes it."""
 
     layout: dict[str, Any]
     undoable: bool = True
@@ -180,8 +178,9 @@ class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
 
 @MESSAGES.register
 class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"):
-    """Take over the values of another file below the root, by names and kinds, as one step of undo;
-    connections stay. The answer lists what did not match.
+    """Apply the values of another file below the root, by names and kinds, as one step of undo.
+
+    Connections stay. The answer lists the values that did not match.
     """
 
     path: Text
@@ -189,7 +188,7 @@ class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"
 
 @MESSAGES.register
 class ApplyPresetText(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset_text"):
-    """The same with the content of a file of the person's own."""
+    """Apply the values of a file as `apply_preset` does, given its text."""
 
     name: Text
     text: str
@@ -197,49 +196,50 @@ class ApplyPresetText(DocumentRequest, frozen=True, kw_only=True, tag="apply_pre
 
 @MESSAGES.register
 class Undo(DocumentRequest, frozen=True, kw_only=True, tag="undo"):
-    """Take the last change back."""
+    """Undo the last change."""
 
 
 @MESSAGES.register
 class Redo(DocumentRequest, frozen=True, kw_only=True, tag="redo"):
-    """Make the change again that was taken back."""
+    """Redo the change that was undone last."""
 
 
 @MESSAGES.register
 class Play(Request, frozen=True, kw_only=True, tag="play"):
-    """Run on."""
+    """Start or continue the run."""
 
 
 @MESSAGES.register
 class Pause(Request, frozen=True, kw_only=True, tag="pause"):
-    """Stand still."""
+    """Pause the run."""
 
 
 @MESSAGES.register
 class Advance(Request, frozen=True, kw_only=True, tag="step"):
-    """So many Euler steps, then stand still."""
+    """Advance by `n` Euler steps, then pause."""
 
     n: Annotated[int, msgspec.Meta(ge=1, le=1_000_000)] = 1
 
 
 @MESSAGES.register
 class ResetRun(Request, frozen=True, kw_only=True, tag="reset"):
-    """State, time and noise back to the start; with a seed, another one from then on. Parameters stay."""
+    """Reset state, time and noise to the start, with another seed if one is given. Parameters stay."""
 
     seed: Seed | None = None
 
 
 @MESSAGES.register
 class Speed(Request, frozen=True, kw_only=True, tag="speed"):
-    """Document time in relation to the clock on the wall: 1 is real time, None as fast as possible."""
+    """Set the ratio of document time to wall time: 1 is real time, None as fast as possible."""
 
     factor: Annotated[float, msgspec.Meta(gt=0, le=1e6)] | None
 
 
 @MESSAGES.register
 class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
-    """Let the step grow up to `longest` (document time) where time is short; None: it stays, and the run
-    falls behind.
+    """Let the step grow up to `longest` (document time) if the machine is too slow.
+
+    None: the step is constant, and the run falls behind.
     """
 
     longest: Annotated[float, msgspec.Meta(gt=0)] | None
@@ -247,15 +247,14 @@ class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
 
 @MESSAGES.register
 class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
-    """Measure what each element costs, while the run goes on; `costs` tells when it begins and when it is
-    done.
-    """
+    """Measure the cost of each element during the run; a `costs` message follows at start and end."""
 
 
 @MESSAGES.register
 class PushInput(Request, frozen=True, kw_only=True, tag="push"):
-    """Add an input to an element until `release`: a Gaussian around `center` (axis units), or everywhere the
-    same where it is None.
+    """Add an input to an element until `release`.
+
+    The input is a Gaussian around `center` (axis units), or constant over the axes if that is None.
     """
 
     element: Id
@@ -266,12 +265,12 @@ class PushInput(Request, frozen=True, kw_only=True, tag="push"):
 
 @MESSAGES.register
 class Release(Request, frozen=True, kw_only=True, tag="release"):
-    """End of `push`."""
+    """End the input of `push`."""
 
 
 @MESSAGES.register
 class UseWorld(DocumentRequest, frozen=True, kw_only=True, tag="use_world"):
-    """Let the sensors read a world of that kind, opened with a file below the root."""
+    """Use a world of a kind, opened with a file below the root."""
 
     kind: Text
     path: Text
@@ -279,7 +278,7 @@ class UseWorld(DocumentRequest, frozen=True, kw_only=True, tag="use_world"):
 
 @MESSAGES.register
 class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world_content"):
-    """Let the sensors read a world made of the content (base64) of a file that was dropped on the page."""
+    """Use a world of a kind, made from the content (base64) of a file that was dropped on the page."""
 
     kind: Text
     name: Text
@@ -288,14 +287,14 @@ class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world
 
 @MESSAGES.register
 class WatchWorld(Request, frozen=True, kw_only=True, tag="watch_world"):
-    """Send `bodies` from now on, or no longer."""
+    """Start or stop sending `bodies`."""
 
     on: bool
 
 
 @MESSAGES.register
 class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
-    """Put a thing or a mark of the world elsewhere: x and y of its middle."""
+    """Move a thing or a mark of the world; `x` and `y` are its new middle."""
 
     name: Text
     x: float
@@ -304,7 +303,7 @@ class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
 
 @MESSAGES.register
 class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
-    """Put a new thing into the world: its middle and its size."""
+    """Add a thing to the world, with its middle and its size."""
 
     name: Text
     x: float
@@ -315,15 +314,16 @@ class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
 
 @MESSAGES.register
 class RemoveThing(Request, frozen=True, kw_only=True, tag="remove_thing"):
-    """Take a thing out of the world."""
+    """Remove a thing from the world."""
 
     name: Text
 
 
 @MESSAGES.register
 class Watch(Request, frozen=True, kw_only=True, tag="watch"):
-    """Send a port of an element as frames under a number of the page's choice, thinned to at most `most`
-    samples along each axis (0: all).
+    """Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
+
+    The page chooses the number `stream`.
     """
 
     stream: Count
@@ -334,8 +334,9 @@ class Watch(Request, frozen=True, kw_only=True, tag="watch"):
 
 @MESSAGES.register
 class WatchTrace(Request, frozen=True, kw_only=True, tag="trace"):
-    """Send a time course: of a node, or of an array its value at a place (axis units), its maximum or its
-    mean.
+    """Send a time course of a port: a node's value, or an array's value at a position, maximum or mean.
+
+    `at` is in axis units.
     """
 
     stream: Count
@@ -354,6 +355,6 @@ class Unwatch(Request, frozen=True, kw_only=True, tag="unwatch"):
 
 @MESSAGES.register
 class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
-    """The page has taken in the frames up to the clock of this number; only then the next ones are sent."""
+    """Confirm that the page has drawn the frames up to the clock of this number; the next ones follow."""
 
     frame: Count

@@ -1,9 +1,9 @@
-"""The token that opens a studio.
+"""The access token of a studio.
 
-A studio that listens on this machine alone keeps its token for its port, in a file that only this user can
-read: after a restart at the same port open pages connect again. Whoever can read that file can act as the
-user anyway. A studio that listens beyond this machine takes a new token at each start, because its connection
-is not encrypted.
+A studio that listens on this machine alone stores the token of its port in a file that only this user can
+read, so that open pages connect again after a restart at the same port. A process that can read that file can
+act as the user anyway. A studio that other machines can reach uses a new token at each start, because its
+connection is not encrypted.
 """
 
 from __future__ import annotations
@@ -18,17 +18,18 @@ from pathlib import Path
 
 FORM = re.compile(r"^[A-Za-z0-9_-]{32}$")
 DAYS = 30
-"""Tokens of ports that were not used for this long are removed (a guess)."""
+"""Days after which the token of an unused port is removed (a guess)."""
 
 
 def new() -> str:
-    """A token of 192 random bits."""
+    """Return a token of 192 random bits."""
     return secrets.token_urlsafe(24)
 
 
 def kept(folder: Path, port: int) -> str:
-    """The token of a port: the one that `folder` keeps, else a new one, which is kept from then on if the
-    folder can be written.
+    """Return the token of a port that is stored in `folder`, else a new one.
+
+    A new token is stored if the folder can be written.
     """
     place = folder / "tokens" / str(port)
     found = _read(place)
@@ -50,7 +51,7 @@ def kept(folder: Path, port: int) -> str:
 
 
 def _read(place: Path) -> str:
-    """A token that was kept; empty if the file is not a regular one of this user alone."""
+    """Return a stored token; empty unless it is a regular file that only this user can access."""
     try:
         descriptor = os.open(place, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
         with os.fdopen(descriptor, "rb") as file:

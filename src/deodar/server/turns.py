@@ -1,4 +1,4 @@
-"""Changes of the document, one after the other, whichever pages they come from."""
+"""Serialise changes of the document that come from several pages."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Turns:
     document would overwrite the first.
 
     Attributes:
-        session: counts the documents that were opened.
+        session: number of documents opened so far.
     """
 
     def __init__(self) -> None:
@@ -27,17 +27,17 @@ class Turns:
         self._tasks: set[asyncio.Task[Any]] = set()
 
     async def take(self, change: Callable[[], Awaitable[T]], session: int = 0) -> T:
-        """Run a change once all changes before it are done.
+        """Run a change after all earlier changes.
 
         A change whose page disconnects runs to its end, so that engine and history never hold different
         documents.
 
         Args:
-            change: what to do.
-            session: the document that the change is meant for; 0: whichever is open.
+            change: function that makes the change.
+            session: number of the document that the change is meant for; 0: any open document.
 
         Raises:
-            DocumentError: if another document was opened since.
+            DocumentError: another document was opened since.
         """
 
         async def turn() -> T:
@@ -51,7 +51,7 @@ class Turns:
         return await asyncio.shield(task)
 
     def beside(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
-        """Run work in a task that is referenced until its end."""
+        """Run a coroutine in a task, and keep a reference to the task until its end."""
         task = asyncio.create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -59,6 +59,6 @@ class Turns:
 
 
 def _read_error(task: asyncio.Task[Any]) -> None:
-    """Read the error of a change whose page is gone, so that asyncio does not report it as lost."""
+    """Read the error of a change whose page disconnected, so that asyncio does not log it."""
     if not task.cancelled():
         task.exception()

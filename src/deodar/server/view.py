@@ -1,4 +1,4 @@
-"""The document as the page sees it."""
+"""Conversion of documents, parameters and problems to messages for the page."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ from deodar.server.to_page import (
 )
 
 BESIDE = ("kind", "id", "every")
-"""What a document writes of an element besides its parameters."""
+"""Keys of an element in a document that are not parameters."""
 
 
 LOOKS = ("panels", "folded")
-"""What of the layout is no edit worth asking about: how panels stand, which groups are folded."""
+"""Keys of the layout whose changes do not count as unsaved edits: positions of panels, folded groups."""
 
 
 def kinds() -> list[Kind]:
-    """The description of every registered kind as a message."""
+    """Return the description of every registered kind as a message."""
     return [msgspec.convert(kind, Kind, from_attributes=True) for kind in descriptions()]
 
 
 def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:
-    """Everything about the document."""
+    """Convert a whole document."""
     data, arrays = files.to_data(doc)
     nodes = {n.id: n for n in resolve(doc)[0] if n.declared}
     named = {_axis(data["axes"][key]): key for key in data["axes"]}
@@ -81,7 +81,7 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
 
 
 def axis(a: Axis, key: str = "") -> AxisView:
-    """An axis, under its key in the document where it has one."""
+    """Convert an axis; `key` is its key in the document, empty if it has none."""
     return AxisView(
         key=key,
         name=a.name,
@@ -96,9 +96,7 @@ def axis(a: Axis, key: str = "") -> AxisView:
 def problems(
     found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()
 ) -> list[ListedProblem]:
-    """Problems as the page shows them, each with the element that it belongs to: named in `where`, or in
-    `paths`.
-    """
+    """Convert problems, each once for every element concerned: those named in its `where`, or in `paths`."""
     entries = doc.entries if doc is not None else ()
     out: list[ListedProblem] = []
     for p in found:
@@ -111,7 +109,7 @@ def problems(
 
 
 def _names(where: str, path: str) -> bool:
-    """Whether a place begins with a path: `u`, `u.tau`, `u (script.py:3)`, `u -> v`."""
+    """Return whether the `where` of a problem names an element: `u`, `u.tau` or `u (script.py:3)`."""
     return where == path or where.startswith((f"{path}.", f"{path} ("))
 
 
@@ -133,7 +131,7 @@ def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mappin
 
 
 def _told(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
-    """A value with the shape and the range of every array that it names."""
+    """Return a value with the shape and the range of every array that it refers to."""
     if isinstance(value, list):
         return [_told(v, arrays) for v in value]
     if not isinstance(value, dict):
@@ -153,14 +151,14 @@ def _axis(data: Mapping[str, Any]) -> Axis:
 
 
 def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
-    """What the page says about a parameter, as the document holds it."""
+    """Convert a parameter's value from the page to the form of the document."""
     data, arrays = files.to_data(doc)
     axes = {key: _axis(found) for key, found in data["axes"].items()}
     return value_from_json(entry.element, parameter, value, f"{entry.path}.{parameter}", axes, arrays)
 
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:
-    """A parameter as the page sees it."""
+    """Convert the value of a parameter for the page."""
     data, arrays = files.to_data(doc)
     value = _told(data["elements"][doc.by_id()[element].path], arrays)
     for step in parameter.split("."):
@@ -169,5 +167,5 @@ def shown_value(doc: Document, element: str, parameter: str) -> Any:
 
 
 def plain(doc: Document) -> Document:
-    """The document without what of its layout is no edit."""
+    """Return the document without the keys of its layout that do not count as edits."""
     return dc.replace(doc, layout={k: v for k, v in doc.layout.items() if k not in LOOKS})

@@ -1,9 +1,9 @@
-"""The folder that the studio may read and write, and nothing beside it.
+"""The root folder: the only folder that the studio may read and write.
 
-Paths are resolved first and used later. What becomes a link in between is not followed when a document is
-read or written: folders are opened one inside the other, without links (`OpenFolder`); a file is read there,
-or written beside its name and renamed. Windows has no such calls; there the check alone holds, and so it does
-everywhere for the files of worlds, which are read by their paths.
+Paths are resolved first and used later. A path that becomes a link in between is not followed when a document
+is read or written: nested folders are opened one by one, without links (`OpenFolder`); a file is read through
+the open folder, or written to a temporary file there and renamed. Windows has no such calls, so there only
+the check protects; the same holds on all systems for the files of worlds, which are read by their paths.
 """
 
 from __future__ import annotations
@@ -26,28 +26,29 @@ from deodar.server.to_page import Folder
 DOCUMENTS = (".json", ".deodar")
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
 MOST_NAMES = 2000
-"""Names of one folder that are listed."""
+"""Largest number of names of one folder that are listed."""
 
 MOST_SEEN = 100_000
-"""Entries of one folder that are looked at."""
+"""Largest number of entries of one folder that are read."""
 
 MOST_HASHED = 2**32
-"""Largest file, in bytes, that is compared with what was read (a guess: seconds of reading)."""
+"""Largest file, in bytes, that is hashed (a guess: seconds of reading)."""
 
 UNREADABLE = "unreadable"
-"""In place of the hash of something that is there and cannot be read."""
+"""Value used instead of the hash of a file that exists and cannot be read."""
 
 
 class Workspace:
-    """A root folder; every path is taken below it, after links are resolved."""
+    """A root folder, with methods that accept only paths below it, after links are resolved."""
 
     def __init__(self, root: Path) -> None:
         self.root = root.resolve()
 
     def inside(self, path: str) -> Path:
-        """The place that a path of the page's names: relative to the root, or absolute and below it.
+        """Resolve a path from the page: relative to the root, or absolute and below it.
 
-        Everything else is refused.
+        Raises:
+            DocumentError: the path is invalid, or lies outside the root.
         """
         if "\0" in path:
             raise DocumentError("is no path", where=repr(path))
@@ -65,18 +66,18 @@ class Workspace:
         return place
 
     def shown(self, path: Path) -> str:
-        """A path below the root as the page writes it."""
+        """Return a path below the root in the form that the page uses."""
         return path.resolve().relative_to(self.root).as_posix()
 
     def holds(self, path: Path) -> bool:
-        """Whether a path lies below the root; a link that leads to itself lies nowhere."""
+        """Return whether a path lies below the root; False for a link to itself."""
         try:
             return self.root in path.resolve().parents
         except (OSError, RuntimeError, ValueError):
             return False
 
     def folder(self, place: Path) -> OpenFolder:
-        """The folder of a place that `inside` gave, opened without following links."""
+        """Open the folder of a path that `inside` returned, without following links."""
         if not place.is_relative_to(self.root):
             raise DocumentError(
                 f"lies outside the folder {self.root} that this studio may read and write", where=str(place)
@@ -89,8 +90,9 @@ class Workspace:
             ) from None
 
     def require_file(self, place: Path) -> None:
-        """Refuse what could stop its reader: named pipes, devices, links that appeared since the path was
-        resolved. Folders pass, and nothing.
+        """Raise DocumentError for a path whose reading could block: a named pipe, a device or a new link.
+
+        A link is new if it appeared since the path was resolved. Folders and missing files are accepted.
         """
         try:
             if place.is_dir():
@@ -105,7 +107,7 @@ class Workspace:
             raise DocumentError(f"cannot be read: {error.strerror}", where=self._named(place)) from None
 
     def digest(self, place: Path) -> str:
-        """A hash of a file's content; empty where there is no file, `UNREADABLE` where it cannot be read."""
+        """Return a hash of a file's content; empty if it is missing, `UNREADABLE` if it cannot be read."""
         try:
             with self.folder(place) as folder, folder.open(place.name) as (file, size):
                 return hashlib.file_digest(file, "sha256").hexdigest() if size <= MOST_HASHED else UNREADABLE
@@ -115,7 +117,7 @@ class Workspace:
             return UNREADABLE
 
     def save(self, doc: Document, place: Path) -> None:
-        """Write a document to a place that `target` gave, in the way of `files.save`."""
+        """Write a document to a path that `target` returned, in the format of `files.save`."""
         output.claim(place, True)
         with tempfile.TemporaryDirectory(prefix="deodar-") as private, self.folder(place) as folder:
             files.save(doc, Path(private) / place.name)
@@ -123,7 +125,7 @@ class Workspace:
             old = _array_file(folder, place)
             for name in sorted(
                 made, key=lambda name: name == place.name
-            ):  # the document last: it names the others
+            ):  # the document last, because it refers to the other files
                 folder.write(name, made[name])
             if old and old not in made:
                 folder.remove(old)
@@ -132,9 +134,7 @@ class Workspace:
         return place.relative_to(self.root).as_posix() if place.is_relative_to(self.root) else str(place)
 
     def listed(self, request: int, path: str) -> Folder:
-        """Folders, documents and pictures in a folder; hidden ones are left out, and links that lead
-        outside.
-        """
+        """List folders, documents and pictures in a folder, without hidden ones and links to the outside."""
         place = self.inside(path)
         if not place.is_dir():
             raise DocumentError("there is no such folder", where=path)
@@ -154,7 +154,7 @@ class Workspace:
         )
 
     def target(self, path: str) -> Path:
-        """Where a document is to be written; the name ends in .json or .deodar."""
+        """Resolve the path for writing a document; `.json` is added unless it ends in .json or .deodar."""
         if not path.strip() or path.endswith(("/", "\\")):
             raise OutputError("needs a name", where="save as")
         place = self.inside(path if path.lower().endswith(DOCUMENTS) else f"{path}.json")
@@ -170,7 +170,7 @@ def _ending(entries: Iterable[os.DirEntry[str]], suffixes: tuple[str, ...]) -> l
 
 
 def _is(question: Callable[[], bool]) -> bool:
-    """The answer of a directory entry; no for a link that leads nowhere."""
+    """Call a test of a directory entry; False if it fails, as for a broken link."""
     try:
         return question()
     except OSError:
@@ -178,7 +178,7 @@ def _is(question: Callable[[], bool]) -> bool:
 
 
 def _array_file(folder: OpenFolder, place: Path) -> str:
-    """The array file of the document that is replaced, if it is one of ours."""
+    """Return the array file of the document to be replaced, if its name has the form that deodar writes."""
     try:
         name = codec.parse(folder.read(place.name, MOST_BYTES))["arrays"]["file"]
         return name if Path(name).name == name and name.startswith(f"{place.stem}.") else ""
