@@ -1,1 +1,1 @@
-"""A session that is driven by the wall clock in a thread of its own, and what others watch of it."""
+"""A session driven by the wall clock in its own thread, and the data that it publishes."""

@@ -1,4 +1,4 @@
-"""What is known of the costs of a running model, for others to look at."""
+"""The published costs of a running model."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from deodar.session.cost import StepCost
 
 @dc.dataclass(frozen=True)
 class Bill:
-    """What elements cost: whether it is being measured, what was found last, and why nothing was."""
+    """Cost of elements: whether a measurement runs, the last result, and why a measurement failed."""
 
     measuring: bool = False
     costs: StepCost | None = None
@@ -18,7 +18,7 @@ class Bill:
 
 
 def said(error: BaseException) -> tuple[Problem, ...]:
-    """What an error says, whoever raised it."""
+    """Return the problems of an error of any class."""
     return (
         tuple(error.problems)
         if isinstance(error, DeodarError)

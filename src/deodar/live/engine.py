@@ -1,9 +1,9 @@
-"""A session driven by the wall clock, in a thread of its own.
+"""A session driven by the wall clock, in its own thread.
 
-The thread alone touches the session. Others hand it functions (`call`), which it runs between two exchanges,
-at most `EXCHANGE` apart; they read what it published last (`shot`), which never changes afterwards. Whatever
-compiles does so in a second thread, while the session runs on; the new program is taken over between two
-exchanges, with the states of all elements that stay.
+Only this thread accesses the session. Other threads pass functions to it (`call`), which it runs between two
+exchanges, at most `EXCHANGE` apart; they read the last published `shot`, which never changes. Compilation
+runs in a second thread while the session continues; the engine switches to the new program between two
+exchanges, with the states of all elements that remain.
 """
 
 from __future__ import annotations
@@ -33,17 +33,17 @@ from deodar.worlds._base import World
 
 T = TypeVar("T")
 FRAME = 0.022
-"""Shortest wall time between two shots, in seconds: faster than screens are worth."""
+"""Shortest wall time between two shots, in seconds; screens show no more."""
 
 SAMPLES = 4
-"""Samples of a time course in one exchange; more would cost a fast run more than they show."""
+"""Number of samples of a time course in one exchange; more would slow a fast run without being visible."""
 
 MOST_LOOKS = 8
 
 
 @dc.dataclass(frozen=True)
 class Shot:
-    """One moment of the run, for others to look at."""
+    """Published state of the run at one moment."""
 
     number: int
     time: float
@@ -53,24 +53,24 @@ class Shot:
 
 @dc.dataclass
 class Hand:
-    """A hand that reaches in: an input to an element, for as long as it is held."""
+    """An external input to an element, injected until it is released."""
 
     element: str
     amount: np.ndarray
 
 
 class Engine:
-    """Runs a session and shows it.
+    """Runs a session and publishes its state.
 
     Attributes:
-        shot: what was published last.
+        shot: the state published last.
         running: whether the clock advances the session.
-        failure: why it stopped, and the paths of the elements concerned.
-        busy: what is being compiled, in words.
-        pace: how fast it is to go, and how fast it goes.
-        bill: what elements cost, as far as somebody asked.
-        traces: time courses by wish; the engine alone adds samples.
-        track: the world from above, and where its bodies went.
+        failure: why the run stopped, and the paths of the elements concerned.
+        busy: a phrase for the compilation in progress; empty: none.
+        pace: requested and achieved speed.
+        bill: cost of elements, as last measured.
+        traces: time courses by their specification; only the engine adds samples.
+        track: the world from above, and the paths of its bodies.
     """
 
     def __init__(self, changed: Callable[[], None]) -> None:
@@ -105,14 +105,14 @@ class Engine:
     # ------------------------------------------------------------------------------------- from other threads
 
     def call(self, function: Callable[[], T]) -> Future[T]:
-        """Let the engine's thread run a function between two exchanges."""
+        """Run a function in the engine's thread between two exchanges."""
         future: Future[T] = Future()
         self._calls.put((function, future))
         self._wake.set()
         return future
 
     def want(self) -> None:
-        """Somebody is ready for another shot; without this none is made."""
+        """Request another shot; without a request none is made."""
         self._wanted = True
         self._wake.set()
 
@@ -126,7 +126,7 @@ class Engine:
     # ----------------------------------------------------------------- in the engine's thread, through `call`
 
     def load(self, session: Session | None) -> None:
-        """Take another session. It is paused, unless `play` or `step` was called while there was none."""
+        """Use another session. It is paused, unless `play` or `step` was called while there was none."""
         waited = self.session is None and session is not None
         self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.hand, self._target = session, None, None
@@ -138,7 +138,7 @@ class Engine:
         self._make()
 
     def play(self, running: bool) -> None:
-        """Let time go on, or stand still."""
+        """Start or pause the run."""
         self.running = running
         self._steps, self.failure = 0, ((), ()) if running else self.failure
         self._keep_step()
@@ -152,23 +152,23 @@ class Engine:
         self.failure = ((), ())
 
     def reset(self, seed: int | None = None) -> None:
-        """State, time and noise back to the start."""
+        """Reset state, time and noise to the start."""
         if self.session is not None:
             self.session.reset(seed)
         self.failure = ((), ())
         self.restart()
 
     def restart(self) -> None:
-        """Time courses begin anew."""
+        """Clear the time courses and restart the pace."""
         for wish in self.traces:
             self.traces[wish] = Trace()
         self.pace.restart()
         self._stale = True
 
     def adopt(self, model: Model, document: Document) -> str:
-        """Go on with another document: at once where nothing compiles, else as soon as it is compiled.
+        """Continue with another document: at once if no compilation is needed, else when it is compiled.
 
-        Returns the cost.
+        Return the cost.
         """
         session = self.session
         if session is None:
@@ -189,15 +189,15 @@ class Engine:
         return cost
 
     def lengthen(self, longest: float | None) -> None:
-        """Let the step grow up to this where time is short; None: it stays."""
+        """Let the step grow up to `longest` if the machine is too slow; None: the step is constant."""
         session = self._require()
         self._keep_step()
         self.pace.longest = require_longest(session, longest)
 
     def measure(self) -> None:
-        """Measure in the second thread what elements cost at this moment; the run goes on.
+        """Measure the present cost of elements in the second thread, while the run continues.
 
-        The `bill` tells.
+        The result is in `bill`.
         """
         session = self._require()
         if self.bill.measuring:
@@ -209,7 +209,7 @@ class Engine:
         )
 
     def see(self, world: World) -> None:
-        """Let the sensors read another world."""
+        """Use another world."""
         if self.session is not None:
             self.session.world = world
         self.failure, self._stale = ((), ()), True
@@ -220,14 +220,14 @@ class Engine:
         self._stale = True
 
     def inject(self, hand: Hand | None) -> None:
-        """Reach into the running model; None lets go."""
+        """Inject an external input into the running model; None releases it."""
         if hand is not None and self.session is not None:
             self.session.require_push(hand.element)
         self.hand = hand
         self._stale = True
 
     def show(self, places: Iterable[PortKey], wishes: Iterable[Wish]) -> None:
-        """What shots are to hold from now on, and which time courses are to be kept."""
+        """Set the places that shots contain from now on, and the time courses that are sampled."""
         self._places = frozenset(places)
         self.traces = {wish: self.traces.get(wish, Trace()) for wish in wishes}
         self._make()
@@ -242,7 +242,7 @@ class Engine:
             try:
                 wait = self._exchange()
                 self._publish()
-            except Exception as error:  # what an element raises, it says; the rest stays as it is
+            except Exception as error:  # an error of an element becomes `failure`; the engine continues
                 wait = 0.02
                 self._fail(error)
             if wait > 0:
@@ -259,7 +259,7 @@ class Engine:
                 self._changed()
 
     def _exchange(self) -> float:
-        """Steps that are due; returns how long nothing will be."""
+        """Take the steps that are due; return the wall time until the next one, in seconds."""
         session = self.session
         if session is None or not (self.running or self._steps):
             return 0.02 if self._stale and self._wanted else 0.5
@@ -293,7 +293,7 @@ class Engine:
         return self.session
 
     def _keep_step(self) -> None:
-        """A step that was lengthened to keep up is no reason to refuse an edit: the planned one again."""
+        """Return to the planned step, so that an edit is not refused because of a lengthened one."""
         if self.session is not None:
             self.pace.shorten(self.session)
 
@@ -308,9 +308,7 @@ class Engine:
                 trace.add(session.time, wish.value(arrays[wish.place], axes))
 
     def _take_first(self, session: Session) -> None:
-        """A time course that has just been asked for begins with what is there now, also while time stands
-        still.
-        """
+        """Take the first sample of new time courses, also during a pause."""
         if any(trace.count == 0 for trace in self.traces.values()):
             self._take_samples(session)
             self._stale = True
@@ -318,7 +316,7 @@ class Engine:
     def _with_hand(
         self, arrays: Mapping[PortKey, np.ndarray], session: Session
     ) -> Mapping[PortKey, np.ndarray]:
-        """What a hand brings is part of the input that is shown."""
+        """Add an injected input to the published input of its element."""
         entry = session.document.by_id().get(self.hand.element) if self.hand is not None else None
         if self.hand is None or entry is None:
             return arrays
@@ -326,14 +324,14 @@ class Engine:
         return {**arrays, place: arrays[place] + self.hand.amount} if place in arrays else arrays
 
     def _publish(self) -> None:
-        """A new shot, if something happened, somebody waits for it, and the last one is long enough ago."""
+        """Publish a shot if the state changed, one was requested, and the last one is older than FRAME."""
         now = time.perf_counter()
         if not (self._stale and self._wanted) or now - self._shown < FRAME:
             return
         self._stale, self._wanted = (
             False,
             False,
-        )  # before the shot is there: who has seen it may want the next one at once
+        )  # before the shot is published, because its readers may request the next one at once
         session, seen = self.session, self._look
         arrays: Mapping[PortKey, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
@@ -358,9 +356,7 @@ class Engine:
     # ------------------------------------------------------------------------------- compiling beside the run
 
     def _make(self) -> None:
-        """Compile what is wanted and not there: the target's program, and looks at the places and at the time
-        courses.
-        """
+        """Compile the program of the target, and a `Look` for places and time courses, unless known."""
         session = self.session
         if session is None or self._making is not None:
             return
@@ -424,7 +420,5 @@ class Engine:
 
 
 def _found(known: Sequence[Look], program: Any, places: Iterable[PortKey]) -> Look | None:
-    """A look at these places of a program, and at not much else, if there is one: elements of one structure
-    are seen together anyway.
-    """
+    """Return a known `Look` of a program that reads exactly the groups of these places, or None."""
     return next((one for one in known if one.program is program and one.fits(places)), None)

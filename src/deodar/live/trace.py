@@ -1,4 +1,4 @@
-"""A time course in the making: one number of a running model, kept in a ring of fixed size."""
+"""Time courses of a running model: one number over time, in a ring buffer of fixed size."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from deodar.numerics.axes import Axis
 from deodar.session.look import PortKey
 
 CAPACITY = 16384
-"""Samples that are kept; older ones are gone (a guess: a minute at the pace at which a page draws)."""
+"""Number of samples in the buffer (a guess: a minute at the rate at which a page draws)."""
 
 
 @dc.dataclass(frozen=True)
 class Wish:
-    """Which number: a node's value, or of an array its value at a place (axis units), its maximum or its
-    mean.
+    """Specification of a time course: a node's value, or an array's maximum, mean or value at a position.
+
+    The position `at` is in axis units; axes without a value there use their middle.
     """
 
     place: PortKey
@@ -25,7 +26,7 @@ class Wish:
     at: tuple[float, ...] = ()
 
     def value(self, array: np.ndarray, axes: Sequence[Axis]) -> float:
-        """The number, now."""
+        """Return the number for the present array."""
         if array.ndim == 0:
             return float(array)
         if self.reduce == "max":
@@ -37,19 +38,19 @@ class Wish:
 
 
 class Trace:
-    """The newest samples of a wish; `count` is how many there ever were."""
+    """The newest samples of a time course; `count` is the number of all samples so far."""
 
     def __init__(self) -> None:
         self.count = 0
         self._samples = np.zeros((CAPACITY, 2))
 
     def add(self, time: float, value: float) -> None:
-        """One more sample."""
+        """Add a sample."""
         self._samples[self.count % CAPACITY] = time, value
         self.count += 1
 
     def since(self, count: int) -> np.ndarray:
-        """Samples after the first `count`, as far as they are kept: pairs of time and value, oldest first."""
+        """Return the samples after the first `count`, if in the buffer: (time, value), oldest first."""
         first = max(count, self.count - CAPACITY)
         return self._samples[np.arange(first, self.count) % CAPACITY]
 

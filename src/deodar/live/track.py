@@ -1,4 +1,4 @@
-"""Where the bodies of a world went, for somebody who looks at it from above."""
+"""The paths of the bodies of a world, seen from above."""
 
 from __future__ import annotations
 
@@ -9,19 +9,20 @@ from deodar.worlds._base import World
 from deodar.worlds._scene import Scene
 
 FINE = 1 / 500
-"""A body's way is kept in pieces of this share of the arena's longer side; a guess: about a pixel of what is
-drawn.
+"""Least distance between two stored positions, as a share of the arena's longer side.
+
+A guess: about a pixel of the drawing.
 """
 
 MOST = 4000
-"""Places that are kept; where there are more, every second one goes."""
+"""Largest number of stored positions; if it is reached, every second one is removed."""
 
 Positions = tuple[float, ...]
-"""x and y of each body, one after the other."""
+"""x and y of each body, in sequence."""
 
 
 class Trail:
-    """Places that bodies came by. It only grows; what begins anew, or is thinned, is another `Trail`."""
+    """Positions that bodies passed. A `Trail` only grows; a restarted or thinned path is a new `Trail`."""
 
     def __init__(self, places: list[Positions] | None = None, fine: float = 0.0) -> None:
         self.places: list[Positions] = places or []
@@ -29,13 +30,13 @@ class Trail:
 
 
 class Track:
-    """The scene of a session's world, and the way of its bodies since the run began.
+    """The scene of a session's world, and the path of its bodies since the start of the run.
 
-    The engine alone lets it follow.
+    Only the engine calls `follow`.
 
     Attributes:
-        scene: what was seen last; None: there is nothing to see from above.
-        way: where the bodies have been.
+        scene: the last scene; None: the world has no view from above.
+        way: path of the bodies.
     """
 
     def __init__(self) -> None:
@@ -45,7 +46,7 @@ class Track:
         self._time = 0.0
 
     def follow(self, session: Session | None) -> None:
-        """Take in where everything is now."""
+        """Store the present scene, and add the positions of the bodies to the path."""
         scene = None if session is None else session.scene()
         if session is None or scene is None:
             self.scene, self.way, self._of = None, Trail(), None

@@ -1,1 +1,1 @@
-"""One running model: its state, clock and world; the session that scripts hold, and its pace."""
+"""One running model: its state, clock and world; the session for scripts, and its pace."""

@@ -1,6 +1,4 @@
-"""What differs between two documents of one structure: leaves with other values, and what taking them over
-costs.
-"""
+"""The differences between two documents of one structure: leaves with new values, and the cost of each."""
 
 from __future__ import annotations
 
@@ -15,11 +13,11 @@ from deodar.model.document import Document
 from deodar.parameters import parameters
 
 LeafChange = tuple[tuple[str, str], Any, str, bool]
-"""A leaf with another value: (id, path), value, cost, and whether that value switches something off."""
+"""A leaf with a new value: (id, path), value, cost, and whether that value switches something off."""
 
 
 def changed_leaves(old: Document, new: Document) -> list[LeafChange] | None:
-    """Leaves with another value, and what each costs; None where more than leaves changed."""
+    """Return the leaves with a new value, and the cost of each; None if more than leaves changed."""
     if old.connections != new.connections or len(old.entries) != len(new.entries):
         return None
     out: list[LeafChange] = []
@@ -37,7 +35,7 @@ def changed_leaves(old: Document, new: Document) -> list[LeafChange] | None:
 
 
 def _of_element(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] | None:
-    """The same of one element; parameters that are the same objects are not looked into."""
+    """Return the changed leaves of one element; parameters that are the same objects are skipped."""
     if type(old) is not type(new):
         return None
     moved = {p.name: p for p in parameters(type(old)) if getattr(old, p.name) is not getattr(new, p.name)}

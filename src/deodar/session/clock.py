@@ -21,16 +21,17 @@ class Clock:
 
     @property
     def origin(self) -> dict[str, float]:
-        """A tick before this one, less than 2^31 of them, and the time at it: the same for all ticks between
-        two of these.
+        """An earlier reference tick, less than 2^31 ticks ago, and its time.
+
+        The reference is the same for 2^31 successive ticks.
         """
         passed = (self.tick - self.tick0) // 2**31 * 2**31
         return {"origin": (self.tick0 + passed) % 2**32, "start": self.t0 + passed * self.dt}
 
     def after(self, ticks: int) -> Clock:
-        """The clock some ticks later."""
+        """Return the clock a number of ticks later."""
         return dc.replace(self, tick=self.tick + ticks)
 
     def at(self, dt: float) -> Clock:
-        """The clock with another step from now on."""
+        """Return the clock with another step from this tick on."""
         return Clock(self.tick, self.time, self.tick, dt)

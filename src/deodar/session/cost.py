@@ -1,8 +1,7 @@
-"""What each element of a running model costs, in microseconds a step.
+"""Measure the cost of each element of a running model, in microseconds per step.
 
-Each group of equal elements is compiled alone, fed with what its inputs hold now, and timed; the whole step
-is timed in the same way beside it. The run is not touched: everything works on what the state was at one
-moment.
+Each group of equal elements is compiled alone, with the present values of its inputs, and timed; the whole
+step is timed in the same way. The run is not changed: all measurements use its state at one moment.
 """
 
 from __future__ import annotations
@@ -31,30 +30,26 @@ if TYPE_CHECKING:
     from deodar.session.run import Run
 
 SECONDS = 1.0
-"""Wall time for which all parts together are timed, beside compiling them."""
+"""Wall time, in seconds, of the measurements of all parts together, without their compilation."""
 
 SHORTEST = 1e-3
-"""Wall time of the steps of one call that is timed, in seconds: well above what the call itself takes and
-what the clock resolves.
-"""
+"""Least wall time of a timed call, in seconds: well above its overhead and the resolution of the clock."""
 
 REPEATS = 3
-"""Least number of times that each part is timed; the fastest counts, because whatever disturbs makes it
-slower.
-"""
+"""Least number of timings of each part; the fastest counts, because disturbances only make a call slower."""
 
 
 @dc.dataclass(frozen=True)
 class ElementCost:
-    """What one element costs.
+    """Cost of one element.
 
     Attributes:
-        id: of the element.
-        path: where it stands; a connection that resamples or delays has a path of its own.
-        kind: its kind.
-        us: microseconds of a step; for a part that runs at every k-th tick the mean over all ticks.
-        alike: how many elements of equal structure are computed together; they share the time equally.
-        once: whether it stands still and is computed once a chunk, which costs nothing in a step.
+        id: id of the element.
+        path: path of the element; a connection that resamples or delays has its own path.
+        kind: kind of the element.
+        us: microseconds per step; for an element that runs at every k-th tick the mean over all ticks.
+        alike: number of elements of equal structure that are computed together; they share the time equally.
+        once: whether the element is constant and is computed once per chunk, which costs nothing in a step.
     """
 
     id: str
@@ -67,11 +62,11 @@ class ElementCost:
 
 @dc.dataclass(frozen=True)
 class StepCost:
-    """What a step costs, element by element.
+    """Cost of a step, element by element.
 
     Attributes:
-        elements: the dearest first.
-        step: microseconds of the whole step, measured as a whole.
+        elements: cost of each element, the most expensive first.
+        step: microseconds of the step, measured as a whole.
     """
 
     elements: tuple[ElementCost, ...]
@@ -81,17 +76,17 @@ class StepCost:
     def sum(self) -> float:
         """Microseconds of all elements, each measured alone.
 
-        It differs from `step`: what is computed together may be fused or run in parallel, what is computed
-        alone begins with a warm cache.
+        It differs from `step`: elements that are computed together may be fused or run in parallel, and an
+        element that is computed alone starts with a warm cache.
         """
         return math.fsum(c.us for c in self.elements)
 
     def share(self, cost: ElementCost) -> float:
-        """Part of the sum that an element takes, 0 to 1."""
+        """Return the share of an element in the sum, 0 to 1."""
         return cost.us / self.sum if self.sum else 0.0
 
     def data(self) -> dict[str, Any]:
-        """The same as plain numbers, for JSON."""
+        """Return the cost as plain numbers, for JSON."""
         rows = [dc.asdict(c) | {"share": self.share(c)} for c in self.elements]
         return {"step_us": self.step, "sum_us": self.sum, "elements": rows}
 
@@ -121,7 +116,7 @@ class StepCost:
 
 @dc.dataclass(frozen=True)
 class StepInputs:
-    """All that a step depends on, at one moment of a run; it does not change when the run goes on."""
+    """Everything that a step depends on, at one moment; it does not change when the run continues."""
 
     program: Executable
     document: Document
@@ -148,7 +143,7 @@ class _GroupArguments(NamedTuple):
 
 
 def moment(run: Run) -> StepInputs:
-    """The present moment of a run."""
+    """Return the inputs of the next step of a run."""
     clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
     return StepInputs(
         run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock
@@ -156,15 +151,15 @@ def moment(run: Run) -> StepInputs:
 
 
 def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
-    """Measure what a step costs, as a whole and element by element.
+    """Measure the cost of a step, as a whole and element by element.
 
     Args:
-        at: the moment whose state and inputs are taken.
-        seconds: wall time for which all parts together are timed. Compiling them the first time takes about
-            as long as compiling the model.
+        at: state and inputs at one moment.
+        seconds: wall time of the measurements of all parts together. The first call also compiles the parts,
+            which takes about as long as the compilation of the model.
 
     Raises:
-        TimeError: a time that is not above 0.
+        TimeError: `seconds` is not above 0.
     """
     given = real(seconds)
     if given is None or not 0 < given < math.inf:
@@ -195,11 +190,12 @@ def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
     return StepCost(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
 
 
-# ---------------------------------------------------------------------------------------------- what is timed
+# --------------------------------------------------------------------------------------------- functions
+# timed
 
 
 def _read_ports(at: StepInputs) -> list[list[Port]]:
-    """For each group the output ports that something reads: others are not computed in a step."""
+    """Return for each group the output ports that are read: others are not computed in a step."""
     plan = at.program.plan
     read = {r.source[:2] for reads in plan.reads.values() for r in reads}
     return [
@@ -209,7 +205,7 @@ def _read_ports(at: StepInputs) -> list[list[Port]]:
 
 
 def _buffers(at: StepInputs, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Any]:
-    """What those ports hold at this moment."""
+    """Return the values of those ports at this moment."""
     ports = [p for some in used for p in some]
     if not ports:
         return {}
@@ -227,7 +223,7 @@ def _buffers(at: StepInputs, used: Sequence[Sequence[Port]]) -> dict[tuple[int, 
 
 
 def _together(at: StepInputs) -> Callable[[int], object]:
-    """The step of the whole model."""
+    """Return a function that takes `n` steps of the whole model."""
     chunk, _ = at.program.chunk(())
 
     def call(n: int) -> object:
@@ -240,7 +236,7 @@ def _together(at: StepInputs) -> Callable[[int], object]:
 def _alone(
     at: StepInputs, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]
 ) -> Callable[[int], object]:
-    """The step of one group: its inputs stay what they are, its state goes on."""
+    """Return a function that takes `n` steps of one group, with constant inputs and an advancing state."""
     plan, precision = at.program.plan, at.program.precision
     group, count = plan.groups[g], len(plan.groups)
     program = Program(dc.replace(plan, calls=[c for c in plan.calls if c.group == g]), precision)
@@ -258,7 +254,7 @@ def _alone(
         settled = only(alone.hoist(values | {"arrays": given.arrays}, [given.constants])[0])
 
         def step(tick: Any, state: PyTree, drawn: PyTree) -> tuple[PyTree, Any]:
-            # without the barrier what depends on the inputs alone would be computed once, before the loop
+            # without the barrier XLA would compute all that depends on the inputs alone once, before the loop
             now, tick = lax.optimization_barrier((given.inputs, tick))
             buffers = {
                 (*source, instant): rows
@@ -303,9 +299,9 @@ def _alone(
 
 
 def _timed(call: Callable[[int], object], multiple: int, seconds: float) -> float:
-    """Microseconds of a step, beyond what a call without steps takes.
+    """Measure the microseconds per step, without the time of a call that takes no steps.
 
-    `multiple`: ticks after which all repeats itself.
+    `multiple` is the number of ticks after which the computation repeats.
     """
 
     def taken(n: int) -> float:

@@ -1,6 +1,4 @@
-"""Between a model and its world: at each multiple of the world's period sensors are read and motors told,
-whatever the chunks are.
-"""
+"""The exchange between a model and its world, at each multiple of the world's period."""
 
 from __future__ import annotations
 
@@ -28,12 +26,12 @@ NEVER = 2**62
 """A tick that no run reaches."""
 
 MotorReader = Callable[[Sequence[str]], Sequence[np.ndarray]]
-"""What gives the commands of motors (by id) in the present state of the model."""
+"""Function that returns the commands of motors (by id) in the present state of the model."""
 
 
 @dc.dataclass(frozen=True)
 class ExchangeInstant:
-    """When it is: tick, document time, and how many ms a unit of document time lasts."""
+    """Time of an exchange: tick, document time, and milliseconds per unit of document time."""
 
     tick: int
     time: float
@@ -42,8 +40,15 @@ class ExchangeInstant:
 
 @dc.dataclass(frozen=True)
 class WorldState:
-    """Where a world stands: what it keeps itself, the ticks of this exchange and the next, the tick from
-    which periods count, and what its motors were told at this exchange.
+    """State of a world and of its exchange.
+
+    Attributes:
+        kind: class of the world.
+        world: the state that `World.keep` returned.
+        last: tick of the last exchange.
+        due: tick of the next exchange.
+        origin: tick from which periods are counted.
+        told: commands of the motors at the last exchange; None: not read yet.
     """
 
     kind: type[World]
@@ -55,14 +60,14 @@ class WorldState:
 
 
 class Exchange:
-    """A world, what a model uses of it, and when.
+    """The exchange of a model with its world.
 
-    The motors are read at t, and what they do to the sensors shows at t + period: the rule of every part with
-    a step of its own, so that the same run results wherever the world is computed.
+    The motors are read at t, and their effect on the sensors appears at t + period. This is the rule for
+    every element with a step of its own, so that a run is the same wherever the world is computed.
 
     Attributes:
         world: the world, or None.
-        sensors, motors: what the model uses, by id.
+        sensors, motors: elements of the model that use it, by id.
     """
 
     def __init__(self, doc: Document, world: World | None) -> None:
@@ -75,21 +80,21 @@ class Exchange:
         self._told: Mapping[str, np.ndarray] | None = None
 
     def require(self, doc: Document) -> None:
-        """Refuse a document with a sensor or motor that the world does not have."""
+        """Raise WorldError for a document with a sensor or motor that the world does not have."""
         used(doc, self.world)
 
     @property
     def inside(self) -> bool:
-        """Whether the world is computed inside the step, so that nothing is exchanged here."""
+        """Whether the world is computed inside the compiled step, so that nothing is exchanged here."""
         return self.body is not None
 
     def take(self, doc: Document) -> None:
-        """Go on with another document. What is refused changes nothing."""
+        """Continue with another document. After an error nothing changed."""
         self.sensors, self.motors = used(doc, self.world)
         self.unread = True
 
     def reset(self, seed: int, trials: Sequence[int], batch: Batch, precision: str) -> None:
-        """The world back to its start, for a batch of copies."""
+        """Reset the world to its start, for a batch of copies."""
         if self.world is not None:
             copies = [t for _ in range(batch.points or 1) for t in trials]
             if (
@@ -108,11 +113,11 @@ class Exchange:
 
     @property
     def live(self) -> bool:
-        """Whether there is anything to exchange."""
+        """Whether there is a world on the host with sensors or motors that the model uses."""
         return self.world is not None and not self.inside and bool(self.sensors or self.motors)
 
     def steps(self, tick: int, period: int) -> int:
-        """Steps until the next exchange; `period` in ticks, 0 where the world never changes."""
+        """Return the steps until the next exchange; `period` is in ticks, 0 if the world never changes."""
         if not self.live or not period:
             return NEVER
         if self.unread or tick < self._last or tick >= self._due:
@@ -122,10 +127,10 @@ class Exchange:
     def read(
         self, now: ExchangeInstant, period: int, dt: float, dtype: DTypeLike, sensed: dict[str, np.ndarray]
     ) -> None:
-        """Bring the world to the present, and what is sensed with it."""
+        """Advance the world to the present, and write the sensors' values to `sensed` if they are due."""
         if self.world is None or not self.live:
             return
-        back = now.tick < self._last  # to a snapshot
+        back = now.tick < self._last  # after the restore of a snapshot
         if not self.unread and not back and (not period or now.tick < self._due):
             return
         if period and (back or now.tick >= self._due):
@@ -140,7 +145,7 @@ class Exchange:
         self.unread = False
 
     def tell(self, tick: int, period: int, told: MotorReader) -> None:
-        """Before steps are taken from the tick of an exchange: take down what the motors are told there."""
+        """Read and store the commands of the motors; called before steps from the tick of an exchange."""
         if self.world is None or not self.live or not period or tick != self._last or self._told is not None:
             return
         found = told(list(self.motors))
@@ -156,14 +161,15 @@ class Exchange:
         self._told = commands
 
     def restep(self, tick: int, factor: float) -> None:
-        """The step is another one from this tick on, `factor` the old over the new: what is due stays where
-        it is in time, to a step.
+        """Adapt to a new step from this tick on; `factor` is the old step over the new one.
+
+        The next exchange stays at its time, rounded up to a step.
         """
         self._last = tick - (tick - self._last) * factor
         self._due = self._origin = tick + math.ceil(max(0, self._due - tick) * factor - 1e-6)
 
     def keep(self) -> WorldState | None:
-        """What `put` needs to go back to this moment."""
+        """Return the present state, as an argument for `put`."""
         return (
             None
             if self.world is None
@@ -173,21 +179,19 @@ class Exchange:
         )
 
     def put_now(self, now: Any) -> None:
-        """Where a world that was computed inside the step has come to: every copy, one layer (of rows)
-        deep.
-        """
+        """Set the state of a world that was computed inside the step: all copies, with an axis of one row."""
         if self.world is not None:
             self.world.put(jax.tree.map(lambda a: a[:, 0], now))
 
     def put(self, kept: WorldState | None) -> None:
-        """Back to a moment; the sensors are read anew."""
+        """Restore a state that `keep` returned; the sensors are read again."""
         self.unread = True
         if kept is not None and self.world is not None and isinstance(self.world, kept.kind):
             self.world.put(kept.world)
             self._last, self._due, self._origin, self._told = kept.last, kept.due, kept.origin, kept.told
 
     def _each(self, sensor: Sensor) -> bool:
-        known = {} if self.world is None else self.world.sensors  # a world of one's own may take any name
+        known = {} if self.world is None else self.world.sensors  # a user's world may accept any name
         return sensor.sensor in known and known[sensor.sensor].each
 
     def _reading(self, sensor: Sensor, moment: float, dtype: DTypeLike) -> np.ndarray:
@@ -196,7 +200,7 @@ class Exchange:
         given = self.world.sense(sensor.sensor, axes, moment)
         try:
             reading = np.asarray(given, dtype)
-        except (TypeError, ValueError):  # no numbers
+        except (TypeError, ValueError):  # not numbers
             reading = np.asarray(np.nan)
         if self._each(sensor) and reading.ndim:
             reading = reading[0]
@@ -210,8 +214,10 @@ class Exchange:
 
 
 def embodied(doc: Document, world: World | None) -> Body | None:
-    """What computes a world inside the step: worlds of pure functions that a model uses; None: it is
-    exchanged with beside it.
+    """Return the `Body` that computes a world inside the step.
+
+    Return None if the world does not consist of pure functions, or the model does not use it; it is then
+    computed on the host.
     """
     if not isinstance(world, PureWorld) or not world.inside:
         return None
@@ -220,13 +226,13 @@ def embodied(doc: Document, world: World | None) -> Body | None:
 
 
 def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[str, Motor]]:
-    """The sensors and motors of a document by id, each of which the world must have.
+    """Return the sensors and motors of a document by id, each of which the world must have.
 
-    A motor without a world moves nothing.
+    Motors without a world have no effect.
 
     Raises:
-        WorldError: there is no world, or it lacks one of them, or has it over other axes; or two elements
-            drive one motor.
+        WorldError: the document has a sensor and there is no world; the world lacks a sensor or motor, or has
+            it over other axes; or two elements drive one motor.
     """
     if world is not None and not isinstance(world, World):
         raise WorldError(f"{show(world)} is no world", fix="For a picture: world=dd.Picture('photo.jpg')")
@@ -265,7 +271,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
 
 def _fit(path: str, name: str, known: Mapping[str, Signal], axes: Any) -> None:
     try:
-        if name in known:  # a world of one's own may take any name
+        if name in known:  # a user's world may accept any name
             fitting(name, known[name], axes)
     except WorldError as error:
         raise WorldError(error.problems[0].what, where=path) from None

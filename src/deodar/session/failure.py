@@ -1,4 +1,4 @@
-"""Values that are not finite: the step at which they came, copy by copy, and the error that says so."""
+"""Values that are not finite: the step at which they first occur in each copy, and the error message."""
 
 from __future__ import annotations
 
@@ -11,21 +11,22 @@ from deodar.errors import NotFinite
 from deodar.session.clock import Clock
 
 RowSpans = list[tuple[int, int]]
-"""Groups of a plan and rows in them."""
+"""Pairs of a group of a plan and a row in it."""
 
 
 def first_steps(
     bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int, copies: Sequence[Any]
 ) -> dict[Any, tuple[int, RowSpans]]:
-    """For each copy the first step after which a value was not finite, and where: by bisection, which copies
-    that fail alike share.
+    """Find for each copy the first step after which a value is not finite, and the rows concerned.
+
+    The search is a bisection, shared by copies that fail at the same steps.
 
     Args:
-        bad: called with a number of steps; returns for each group which rows of which copies are not finite,
+        bad: function of a number of steps; returns for each group which rows of which copies are not finite,
             (copies..., rows).
-        low: steps after which all values are finite.
-        high: steps after which each copy has one that is not.
-        copies: their places in a batch; `...` stands for all as one.
+        low: number of steps after which all values are finite.
+        high: number of steps after which each copy has a value that is not finite.
+        copies: indices of the copies in a batch; `...` means all copies together.
     """
     if not copies:
         return {}
@@ -45,7 +46,7 @@ def first_steps(
 
 
 def not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
-    """The error that names elements and the step."""
+    """Make the error that names the elements and the step."""
     shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
     return NotFinite(
         f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt"

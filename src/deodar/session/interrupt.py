@@ -1,8 +1,7 @@
-"""Ctrl-C as a request that is met between chunks.
+"""Handle Ctrl-C between chunks.
 
-A `KeyboardInterrupt` raised wherever Python happens to be may land in a callback of JAX, which swallows it.
-While a run is on, the first Ctrl-C is therefore kept and told at the end of the chunk; a second one stops at
-once, as usual.
+Python may raise `KeyboardInterrupt` in a callback of JAX, which ignores it. During a run the first Ctrl-C is
+therefore stored and raised at the end of the chunk; a second one stops the run immediately, as usual.
 """
 
 from __future__ import annotations
@@ -15,14 +14,14 @@ from types import FrameType
 
 
 class AtOnce(KeyboardInterrupt):
-    """A second Ctrl-C: nothing is waited for."""
+    """A second Ctrl-C, which stops the run immediately."""
 
 
 @contextlib.contextmanager
 def stoppable() -> Generator[Callable[[], None]]:
-    """A function to call between chunks: it raises KeyboardInterrupt if Ctrl-C was pressed since.
+    """Yield a function to call between chunks: it raises KeyboardInterrupt if Ctrl-C was pressed since.
 
-    Outside the main thread, which alone gets signals, nothing is changed.
+    Outside the main thread, the only one that receives signals, the function does nothing.
     """
     asked: list[int] = []
 

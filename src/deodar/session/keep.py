@@ -1,4 +1,4 @@
-"""What a session has learned, taken into the model it was made from."""
+"""Write the learned values of a session to its model."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from deodar.session.snapshot import SessionSnapshot
 
 
 def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
-    """Values that elements have learned (weights, traces, gains), by the id of the element and the parameter
-    that takes each as its initial value.
+    """Return the values that elements have learned (weights, traces, gains).
+
+    The keys are the id of the element and the parameter for which the value is an initial value:
+    `ID.PARAMETER`.
     """
     found: dict[str, np.ndarray] = {}
     for entry in snapshot.document.entries:
@@ -22,8 +24,9 @@ def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
 
 
 def keep(snapshot: SessionSnapshot, model: Model) -> list[str]:
-    """Write learned values to a model as initial values, in one change, which `undo` takes back; return the
-    paths of the parameters.
+    """Write learned values to a model as initial values; return the paths of the parameters.
+
+    All values are one step of undo.
 
     Raises:
         ParameterError: the model no longer has one of the elements.

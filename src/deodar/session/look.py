@@ -1,7 +1,7 @@
-"""A look at a running program: many ports read at one moment, by one compiled function.
+"""Read many ports of a running program at one moment with one compiled function, a `Look`.
 
-Elements of equal structure are rows of one array, so that a look at hundreds of elements compiles and runs as
-fast as at a few.
+Elements of equal structure are rows of one array, so that a `Look` for hundreds of elements compiles and runs
+as fast as one for a few.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ PortKey = tuple[str, str]
 
 @dc.dataclass(frozen=True)
 class Look:
-    """A compiled reader of ports of one program; for another program it has to be made anew."""
+    """A compiled reader of ports of one program; another program needs another one."""
 
     program: Executable
     ports: tuple[Port, ...]
     reader: Any
 
     def fits(self, places: Iterable[PortKey]) -> bool:
-        """Whether it reads just what these places need."""
+        """Return whether it reads exactly the ports that these places need."""
         return whole(self.program, places) == set(self.ports)
 
     def arrays(self, seen: Iterable[Any], places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
-        """The arrays of places, out of what the reader gave; places it does not cover are left out."""
+        """Return the arrays of places from the values of the reader, without places that it does not read."""
         by_port = dict(zip(self.ports, seen, strict=True))
         out: dict[PortKey, np.ndarray] = {}
         for ident, name in places:
@@ -45,13 +45,13 @@ class Look:
 
 
 def look(program: Executable, places: Iterable[PortKey]) -> Look:
-    """Compile a look at places. It changes nothing of the run, so that another thread may do it meanwhile."""
+    """Compile a `Look` for places; it does not touch the run, so another thread may compile it meanwhile."""
     ports = tuple(sorted(whole(program, places), key=lambda p: (p.group, p.name)))
     return Look(program, ports, program.new_reader(ports) if ports else None)
 
 
 def whole(program: Executable, places: Iterable[PortKey]) -> set[Port]:
-    """The ports of whole groups in which places lie; what the program does not have is left out."""
+    """Return the ports of whole groups that contain the places; places not in the program are omitted."""
     out: set[Port] = set()
     for ident, name in places:
         if ident in program.plan.row:

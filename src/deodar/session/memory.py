@@ -1,4 +1,4 @@
-"""Whether a run fits into memory, checked before anything is allocated."""
+"""Check whether a run fits into memory, before anything is allocated."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
 
 SHARE = 0.8
-"""Share of the free memory that a run may ask for (a guess that leaves the rest of the machine alive)."""
+"""Share of the free memory that a run may use (a guess that leaves enough for other programs)."""
 
 COPIES = 6
-"""Arrays that a step keeps for each output (state, new state, outputs, noise, intermediate; measured 4 to 6).
-"""
+"""Arrays per output in a step (state, new state, outputs, noise, intermediate; measured 4 to 6)."""
 
 
 PROCESS = 300 * 2**20
-"""Bytes that a worker process takes with a small model (measured with JAX 0.10: 210 MiB before the model, 280
-to 310 MiB with its programs).
+"""Bytes that a worker process needs with a small model.
+
+Measured with JAX 0.10: 210 MiB before the model, 280 to 310 MiB with its programs.
 """
 
 
@@ -37,16 +37,16 @@ def require(
     points: int = 1,
     workers: int = 0,
 ) -> None:
-    """Raise unless states, constants and `recorded` numbers fit into the memory that is free.
+    """Raise TooLarge unless states, constants and records fit into the free memory.
 
     Args:
-        nodes: the model.
+        nodes: the nodes of the model.
         precision: float32 or float64.
-        copies: copies of the model that run at once, in each process.
-        recorded: numbers that are kept.
+        copies: number of copies of the model that run at once, in each process.
+        recorded: number of values that are recorded.
         rebuilt: the elements (by id) whose constants differ between the points of a sweep.
-        points: how many such points run at once, in each process.
-        workers: number of processes beside this one; they keep what they record until this one has it.
+        points: number of such points that run at once, in each process.
+        workers: number of worker processes; they keep their records until this process has received them.
     """
     size, processes = _size(precision), max(1, workers)
     constants = sum(_constants(n) * (points if n.id in rebuilt else 1) for n in nodes)
@@ -68,7 +68,7 @@ def require(
 
 
 def copy_bytes(nodes: list[Node], precision: str) -> int:
-    """Bytes of all ports of one copy of a model."""
+    """Return the bytes of all ports of one copy of a model."""
     return _size(precision) * sum(_cells(n) for n in nodes)
 
 
@@ -86,8 +86,10 @@ def _cells(n: Node) -> int:
 
 
 def _constants(n: Node) -> int:
-    """Matrices of kernels, of correlated noise, of shifts and of resampling (one for each axis), and arrays
-    given as parameters.
+    """Return the number of values in the constants of a node.
+
+    Constants are the matrices of kernels, of correlated noise, of shifts and of resampling (one for each
+    axis), and arrays given as parameters.
     """
     e: Any = n.element
     square = len(getattr(e, "kernel", ()) or ()) + sum(

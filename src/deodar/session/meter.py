@@ -13,19 +13,18 @@ class Meter:
     section 3.2, whose meter counts steps that took too long.
 
     Attributes:
-        speed: document time over wall time that was asked for; None: as fast as possible, where nothing can
-            be late.
-        factor: the same as it was achieved (real-time factor).
+        speed: requested ratio of document time to wall time; None: as fast as possible, without any lag.
+        factor: achieved ratio of document time to wall time (real-time factor).
         time: document time that passed, in the document's unit.
         wall: wall time that passed, in seconds.
-        steps: Euler steps taken.
-        lag: how far the run is behind the wall now, and will catch up.
-        worst: the largest lag since it began.
-        lost: wall time that was given up, because the lag had grown beyond what is caught up.
-        overruns: how often the run fell behind by more than the time between two exchanges (or by a step, if
-            that is longer).
-        longest: the longest of them, from the moment that was missed until it was caught up.
-        lengthened: steps that were longer than planned.
+        steps: number of Euler steps taken.
+        lag: present delay behind the wall clock, which the run will catch up.
+        worst: the largest lag since the start.
+        lost: wall time that was dropped, because the lag was too large to be caught up.
+        overruns: number of times the run fell behind by more than the time between two exchanges (or by more
+            than a step, if that is longer).
+        longest: duration of the longest overrun, from the time that was missed until it was caught up.
+        lengthened: number of steps that were longer than planned.
         step: the longest step taken, in the document's unit of time.
     """
 
@@ -44,13 +43,11 @@ class Meter:
 
     @property
     def drift(self) -> float:
-        """How far document time is behind the wall in all, in milliseconds: what will be caught up and what
-        was given up.
-        """
+        """Total delay of document time behind the wall clock, in milliseconds: `lag` plus `lost`."""
         return self.lag + self.lost
 
     def data(self) -> dict[str, float | int | None]:
-        """The meter as plain numbers, for JSON."""
+        """Return the meter as plain numbers, for JSON."""
         return dc.asdict(self) | {"drift": self.drift}
 
     def __str__(self) -> str:

@@ -1,7 +1,7 @@
-"""The pace of a run: the steps that are due by the wall clock.
+"""The pace of a run: the number of steps that are due by the wall clock.
 
-After Lomp, Richter, Zibner and Schoener (2016), section 3.2: a step waits until its time has come. The
-moments are counted from one beginning and not from step to step, so that lateness does not add up.
+After Lomp, Richter, Zibner and Schoener (2016), section 3.2: a step is taken when the wall clock reaches its
+time. Times are counted from one start and not from step to step, so that delays do not add up.
 """
 
 from __future__ import annotations
@@ -21,42 +21,38 @@ from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
 EXCHANGE = 0.01
-"""Wall time of the steps between two exchanges, in seconds; with what else is done there, changes act within
-20 ms.
-"""
+"""Wall time of the steps between two exchanges, in seconds; a change takes effect within 20 ms."""
 
 MEASURED = 0.5
-"""Wall time over which the achieved speed is averaged, and for which a lengthened step is kept at least, in
-seconds.
-"""
+"""Wall time over which the achieved speed is averaged, and a lengthened step kept at least, in seconds."""
 
 MOST_LAG = 0.25
-"""Wall time that is caught up, in seconds: a guess between a hiccup of the machine, which must not set the
-run back for good, and a pause (a laptop that slept), after which a burst of old steps would help nobody. What
-is beyond is given up.
+"""Largest lag that a run catches up, in seconds; the rest is dropped.
+
+A guess: longer than a short delay of the machine, after which the run should return to the wall clock, and
+shorter than a suspension (a laptop that slept), after which a burst of old steps is useless.
 """
 
 RESERVE = 1.1
-"""Wall time that a lengthened step has, over what it takes: a tenth more, a guess, so that the lag shrinks.
-"""
+"""Ratio of a lengthened step's wall time to its computing time: a guess above 1, so that the lag shrinks."""
 
 
 class Paced(Protocol):
-    """What a pace asks of a session."""
+    """The attributes of a session that a pace uses."""
 
     @property
     def world(self) -> World | None:
-        """The world that provides its sensors."""
+        """The world that provides the sensors."""
         ...
 
     @property
     def document(self) -> Document:
-        """The document that runs."""
+        """The document of the run."""
         ...
 
     @property
     def program(self) -> Executable:
-        """Its compiled functions."""
+        """The compiled functions of the document."""
         ...
 
     @property
@@ -83,20 +79,20 @@ class Paced(Protocol):
 
 
 class Pace:
-    """Steps that are due.
+    """Computes the steps that are due by the wall clock.
 
-    Where the machine is too slow, a run falls behind and says so; its steps stay what they are, so that the
-    result is the one of any other run. With `longest` the step grows instead, in whole multiples of the
-    planned one, as cedar does it; each change is entered in the session's journal.
+    If the machine is too slow, the run falls behind, and the meter shows it; the steps are unchanged, so that
+    the result is that of any other run. With `longest` the step grows instead, in whole multiples of the
+    planned one, as in cedar; the session's journal has every such change.
 
     Args:
-        now: the wall clock, in seconds.
+        now: function that returns the wall clock, in seconds.
 
     Attributes:
-        speed: document time over wall time that is asked for; None: as fast as possible.
-        longest: the longest step that may be taken to keep up, in document time; None: the step stays.
-        factor: document time over wall time, as achieved in the last half second.
-        steps: steps in one second of wall time, as achieved.
+        speed: requested ratio of document time to wall time; None: as fast as possible.
+        longest: the longest step that may be taken to keep up, in document time; None: the step is constant.
+        factor: achieved ratio of document time to wall time, over the last half second.
+        steps: achieved number of steps per second of wall time.
     """
 
     def __init__(self, now: Callable[[], float] = time.perf_counter) -> None:
@@ -111,12 +107,12 @@ class Pace:
         self.restart()
 
     def go(self, speed: float | None) -> None:
-        """Another speed from now on."""
+        """Set the speed, and count from now."""
         self.speed = speed
         self.restart()
 
     def restart(self) -> None:
-        """Count from now: nothing is owed for the time in which it stood still."""
+        """Count from now: no steps are due for the time of a pause."""
         self._began = self._now()
         self._unit = 1e-3
         self._passed = self._given_up = 0.0
@@ -128,29 +124,27 @@ class Pace:
         self.factor = self.steps = 0.0
 
     def most(self) -> int:
-        """Steps that fit between two exchanges."""
+        """Return the number of steps that fit between two exchanges."""
         return max(1, int(EXCHANGE / self._cost)) if self._cost else 1
 
     def due(self, session: Paced) -> int:
-        """Steps to take now."""
+        """Return the number of steps to take now."""
         if self.speed is None:
             return self.most()
         owed = self._owed(session)
         most = max(MOST_LAG, 2 * self._wall(session))
-        if owed > most:  # not caught up: it is as if it had stood still for so long
+        if owed > most:  # dropped, as for a pause of this length
             self._given_up += owed - most
             owed = most
         self._late(owed - self._wall(session), session)
         return min(int(owed / self._wall(session) + 1e-6), self.most())
 
     def rest(self, session: Paced) -> float:
-        """Wall time until the next step is due, in seconds."""
+        """Return the wall time until the next step is due, in seconds."""
         return min(0.02, max(0.0, self._wall(session) - self._owed(session)))
 
     def took(self, session: Paced, n: int, passed: float, seconds: float) -> None:
-        """Learn from steps that were taken: how many, how much document time passed, and in what wall
-        time.
-        """
+        """Record that `n` steps were taken, `passed` in document time, `seconds` in wall time."""
         each = seconds / n
         self._cost = each if not self._cost else 0.7 * self._cost + 0.3 * each
         self._passed += passed
@@ -170,15 +164,14 @@ class Pace:
         self._since = (began, time_passed, steps)
 
     def lengthen(self, session: Paced) -> None:
-        """Take a longer step where there is not enough time for the planned one, and the planned one again
-        where there is.
+        """Lengthen the step if there is not enough time for the planned one, else shorten it again.
 
-        A step grows at once and shrinks after half a second at the earliest. It fits into the world's period
-        and into every time constant.
+        A step grows at once and shrinks after half a second at the earliest. The period of the world is a
+        whole number of steps, and the step is within the limit of every time constant.
         """
         if (
             session is not self._of or session.next_dt != self._asked
-        ):  # somebody else set it: that is planned from now on
+        ):  # the step was set from outside: it is the planned one from now on
             self._of, self._planned, self._asked = session, session.next_dt, session.next_dt
         if self.longest is None or self.speed is None or not self._cost:
             wanted = 1
@@ -192,12 +185,12 @@ class Pace:
         self._take(session, self._allowed(session, wanted))
 
     def shorten(self, session: Paced) -> None:
-        """The planned step again."""
+        """Return to the planned step."""
         if session is self._of and session.next_dt == self._asked:
             self._take(session, self._planned)
 
     def meter(self, session: Paced) -> Meter:
-        """What was measured since the beginning."""
+        """Return the measurements since the start."""
         unit, wall = unit_seconds(session.document.time_unit), self._now() - self._began
         late = 0.0 if self._late_since is None else self._now() - self._late_since
         return Meter(
@@ -218,30 +211,31 @@ class Pace:
     # ------------------------------------------------------------------------------------------------- inside
 
     def _owed(self, session: Paced) -> float:
-        """Wall time for which no step was taken yet."""
+        """Return the wall time for which no step was taken yet, in seconds."""
         self._unit = unit_seconds(session.document.time_unit)
         return self._now() - self._began - self._given_up - self._passed * self._unit / (self.speed or 1.0)
 
     def _wall(self, session: Paced) -> float:
-        """Wall time of one step."""
+        """Return the wall time of one step at the requested speed, in seconds."""
         return unit_seconds(session.document.time_unit) * session.dt / (self.speed or 1.0)
 
     def _late(self, lag: float, session: Paced) -> None:
-        """Note a lag: how late the oldest step that is due is, or the newest that was taken."""
+        """Record a lag: the delay of the oldest step that is due, or of the newest that was taken."""
         self._lag = max(0.0, lag)
         self._worst = max(self._worst, self._lag)
         now = self._now()
         if self._lag > max(EXCHANGE, self._wall(session)):
             if self._late_since is None:
-                self._late_since = now - self._lag  # when it should have been
+                self._late_since = now - self._lag  # the time at which the step was due
                 self._overruns += 1
         elif self._late_since is not None:
             self._longest = max(self._longest, now - self._late_since)
             self._late_since = None
 
     def _allowed(self, session: Paced, wanted: int) -> float:
-        """The longest step, at most `n` planned ones, that the bound, the time constants and the world
-        allow.
+        """Return the longest step that the bound, the time constants and the world allow.
+
+        It is a whole multiple of the planned step, at most `wanted` times as long.
         """
         bound = self._planned if self.longest is None else self.longest
         for k in range(min(wanted, int(bound / self._planned + 1e-9)), 1, -1):
@@ -262,7 +256,7 @@ class Pace:
 
 
 def require_speed(speed: object) -> float | None:
-    """A speed as a number above 0, or None: as fast as possible."""
+    """Return a speed above 0, or None (as fast as possible); raise TimeError for any other value."""
     given = None if speed is None else real(speed)
     if speed is not None and (given is None or not 0 < given < math.inf):
         raise TimeError(
@@ -273,7 +267,11 @@ def require_speed(speed: object) -> float | None:
 
 
 def require_longest(session: Paced, longest: object) -> float | None:
-    """The bound of a step that may grow: at least the present step, at most what the time constants allow."""
+    """Return the limit of a step that may grow.
+
+    Raises:
+        TimeError: the limit is shorter than the present step, or longer than the time constants allow.
+    """
     if longest is None:
         return None
     given = real(longest)

@@ -1,4 +1,4 @@
-"""Move, place and remove things in the world of a session; each function returns the entry of the journal."""
+"""Move, place and remove things in the world of a session; each function returns an entry for the journal."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from deodar.worlds._scene import Scene, SceneBox
 
 
 def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tuple[str, Any]:
-    """Put a thing or a mark elsewhere; returns the entry of the journal.
+    """Move a thing or a mark; return the entry for the journal.
 
     Raises:
-        UnknownName: nothing is called so.
-        WorldError: it does not fit there, or the world is not seen from above.
+        UnknownName: the scene has no thing or mark of that name.
+        WorldError: it does not fit at the position, or cannot be moved.
     """
     thing = scene.thing(name)
     scene.require_room(name, center, thing.size if isinstance(thing, SceneBox) else None)
@@ -26,7 +26,11 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
 def place(
     world: World, scene: Scene, name: str, center: Sequence[float], size: Sequence[float]
 ) -> tuple[str, Any]:
-    """Put a thing there, or another one in the place of one of that name; refused as in `move`."""
+    """Add a thing, or replace the one of the same name; return the entry for the journal.
+
+    Raises:
+        WorldError: it does not fit at the position, or a mark has that name.
+    """
     scene.require_room(name, center, size)
     if name in [mark.name for mark in scene.marks]:
         raise WorldError("is the name of a mark", where=name, fix="Choose another name")
@@ -35,7 +39,12 @@ def place(
 
 
 def remove(world: World, scene: Scene, name: str) -> tuple[str, Any]:
-    """Take a thing away; refused as in `move`."""
+    """Remove a thing; return the entry for the journal.
+
+    Raises:
+        UnknownName: the scene has no thing of that name.
+        WorldError: it is a mark, or cannot be moved.
+    """
     if not isinstance(scene.thing(name), SceneBox):
         raise WorldError("is a mark; it can be moved, not taken away", where=name)
     world.remove(name)

@@ -27,18 +27,17 @@ from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
 CHUNK_SECONDS = 0.2
-"""Wall time of a chunk in seconds; between chunks: progress, Ctrl-C, the check for values that are not
-finite.
-"""
+"""Wall time of a chunk, in seconds; progress, Ctrl-C and non-finite values are handled between chunks."""
 
 MOST_STEPS = 2**44
-"""Steps from time 0 up to which times are exact to a sixteenth of a step (`numerics/exact.py`): 557 years at
-a step of 1 ms.
+"""Largest number of steps from time 0: 557 years at a step of 1 ms.
+
+Up to it times are exact to a sixteenth of a step (`numerics/exact.py`).
 """
 
 
 class Run:
-    """One model, or a batch of copies of it, in the middle of running."""
+    """The run of one model, or of a batch of copies of it."""
 
     def __init__(
         self,
@@ -58,19 +57,19 @@ class Run:
         self.load(program, doc)
         self.pace = 0.0
         self.tolerated = 0
-        """Copies of a batch that may diverge: they go into `lost`.
+        """Number of copies of a batch that may diverge; their errors are stored in `lost`.
 
-        One more raises the first error; of a single run none is tolerated.
+        One more copy raises the first error. A single run tolerates none.
         """
         self.lost: dict[tuple[int, ...], NotFinite] = {}
         self.reset()
 
-    # ---------------------------------------------------------------------------------------------- what runs
+    # ------------------------------------------------------------------------------------- program and state
 
     def load(self, program: Executable, doc: Document) -> None:
-        """Take a program and the parameters of a document; the state stays what it is.
+        """Use another program and the parameters of a document; the state stays.
 
-        What is refused changes nothing.
+        After an error nothing changed.
         """
         require_step(doc, self.clock.dt)
         self.exchange.take(doc)
@@ -80,7 +79,7 @@ class Run:
         self.constants = program.prepare(self.values)
 
     def reset(self) -> None:
-        """State, time, noise and world back to the start; parameters stay."""
+        """Reset state, time, noise and world to the start; parameters stay."""
         self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
         self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
@@ -92,13 +91,16 @@ class Run:
         self.forget()
 
     def forget(self) -> None:
-        """Read all sensors anew before the next step: another program, or another moment."""
+        """Discard all readings of sensors, so that the next step reads them again.
+
+        Needed after a change of the program or of the time.
+        """
         self.sensed = self.program.blind()
         self.exchange.unread = True
 
     @property
     def world(self) -> World | None:
-        """What the sensors read and the motors move."""
+        """The world that the sensors read and the motors move."""
         return self.exchange.world
 
     # ------------------------------------------------------------------------------------------------ running
@@ -119,18 +121,18 @@ class Run:
     ) -> None:
         """Advance by `steps` Euler steps; record after the first `start` of them, then after each `every`.
 
-        `collect(k, arrays)` gets the records from number k on; each array has the batch axes first, then the
-        records.
+        `collect(k, arrays)` is called with the records from number k on; each array has the batch axes first,
+        then the records.
         """
         chunk, capacity = self.program.chunk(ports)
         done, taken, due = 0, 0, start
         while due <= steps:
             gap, steady = due - done, self._until_sensing()
             most = min(self._chunk_steps(), steady)
-            # a record at the tick of a new reading belongs to the next chunk, which sees that reading
+            # a record at the tick of a new reading belongs to the next chunk, which has that reading
             if gap and (
                 gap > most or gap == steady
-            ):  # its chunk is not this one: step, and throw the record away
+            ):  # the record belongs to a later chunk: advance, and discard the record
                 head = min(gap, most)
                 self._chunk(chunk, {"head": head, "every": 0, "records": 1}, head)
                 done += head
@@ -194,7 +196,7 @@ class Run:
         )
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
-        """Ports at the present state."""
+        """Return the values of ports in the present state."""
         self.sense()
         reader = self.program.reader(ports)
         seen = self.program.call(
@@ -203,25 +205,25 @@ class Run:
         return [np.asarray(a) for a in seen]
 
     def look(self, reader: Any) -> Sequence[Any]:
-        """What a reader that the caller keeps sees in the present state."""
+        """Return the values of a compiled reader in the present state."""
         self.sense()
         return self.program.call(
             reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now()
         )
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
-        """The state of one element of a single run."""
+        """Return the state of one element of a single run."""
         return {name: np.asarray(values[row]) for name, values in self.state["groups"][group].items()}
 
     def put_row(self, group: int, row: int, state: Mapping[str, Any]) -> None:
-        """Another state for one element of a single run."""
+        """Replace the state of one element of a single run."""
         new = host(self.state)
         for name, values in state.items():
             new["groups"][group][name][row] = values
         self.state = new
 
     def see(self, world: World | None) -> None:
-        """Another world from now on. What is refused changes nothing."""
+        """Use another world from now on. After an error nothing changed."""
         self.exchange = Exchange(self.doc, world)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
         self.forget()
@@ -237,27 +239,27 @@ class Run:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
 
     def _chunk_steps(self) -> int:
-        """Steps that take about CHUNK_SECONDS; the first chunk is a probe."""
+        """Return the number of steps that take about CHUNK_SECONDS; the first chunk is a short probe."""
         return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else 20
 
     # ------------------------------------------------------------------------------------------------- worlds
 
     def _period(self) -> int:
-        """Ticks between two exchanges with the world; 0 where it never changes."""
+        """Return the ticks between two exchanges with the world; 0 if it never changes."""
         if self.world is None or self.world.period is None:
             return 0
         return whole(self.world.period / self._unit(), self.clock.dt, "the world's period")
 
     def _unit(self) -> float:
-        """Milliseconds in a unit of document time."""
+        """Return the milliseconds in a unit of document time."""
         return unit_seconds(self.doc.time_unit) * 1e3
 
     def _until_sensing(self) -> int:
-        """Steps until the world is to be read again."""
+        """Return the number of steps until the next exchange with the world."""
         return self.exchange.steps(self.clock.tick, self._period() if self.exchange.live else 0)
 
     def sense(self) -> None:
-        """Bring the world to the present, and what is sensed with it; a second time it changes nothing."""
+        """Advance the world to the present tick and read the sensors; a second call changes nothing."""
         if self.exchange.live:
             now = ExchangeInstant(self.clock.tick, self.clock.time, self._unit())
             self.exchange.read(now, self._period(), self.clock.dt, self.program.program.dtype, self.sensed)
@@ -271,7 +273,7 @@ class Run:
         return self.tolerated > 0 and bool(self.program.batch.shape)
 
     def _new(self, bad: np.ndarray, after: float = math.inf) -> list[tuple[int, ...]]:
-        """Places of the copies that are bad and not lost yet, or lost in a step later than `after`."""
+        """Return the indices of bad copies that are not lost yet, or lost in a step later than `after`."""
         return [
             place
             for place in map(tuple, np.argwhere(bad).tolist())
@@ -279,8 +281,9 @@ class Run:
         ]
 
     def _lose(self, found: Mapping[tuple[int, ...], NotFinite]) -> None:
-        """Continue without some copies; raise the error of the first if these are more than are tolerated."""
-        for place, error in found.items():  # the earlier one, so that chunks make no difference
+        """Continue without some copies; raise the error of the first one if more are lost than tolerated."""
+        # keep the earlier error, so that the result does not depend on chunks
+        for place, error in found.items():
             if place not in self.lost or error.step < self.lost[place].step:
                 self.lost[place] = error
         if len(self.lost) > self.tolerated:
@@ -293,7 +296,7 @@ class Run:
         raise not_finite(self._without_state(...) or names, self.clock.after(1), self.doc.time_unit)
 
     def _go(self, before: PyTree, steps: int) -> None:
-        """Take the state and the clock from the start of a chunk to some step in it."""
+        """Set the state and the clock to a step within a chunk, from the state at its start."""
         chunk, _ = self.program.chunk(())
         self.state, _, _ = self._call(chunk, before, {"head": steps, "every": 0, "records": 0})
         self.clock = self.clock.after(steps)
@@ -301,7 +304,7 @@ class Run:
     def _diverged(
         self, before: PyTree, used: int, copies: Sequence[tuple[int, ...]]
     ) -> dict[tuple[int, ...], NotFinite]:
-        """For each of these copies the first step at which a value was not finite, as an error."""
+        """Return for each of these copies an error with the first step at which a value was not finite."""
         found = self._search(before, used, copies)
         out: dict[tuple[int, ...], NotFinite] = {}
         state, clock = self.state, self.clock
@@ -316,8 +319,9 @@ class Run:
         return {copy: out[copy] for copy in copies}
 
     def _search(self, before: PyTree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
-        """For each copy (`...`: all as one) the first step of a chunk after which a value was not finite, and
-        the elements where.
+        """Return for each copy the first step after which a value was not finite, and the elements.
+
+        Steps are counted from the start of a chunk. The copy `...` means all copies together.
         """
         chunk, _ = self.program.chunk(())
 
@@ -333,8 +337,9 @@ class Run:
         }
 
     def _without_state(self, copy: Any) -> list[str]:
-        """The first elements without a state whose output is not finite now in a copy (`...`: in any): they
-        spoil the states that read them.
+        """Return the first elements without a state whose output is not finite now in a copy (`...`: in any).
+
+        They are the cause of non-finite states that read them.
         """
         plan = self.program.plan
         groups = list(
@@ -364,7 +369,7 @@ class Run:
         return []
 
     def _require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
-        """Refuse records that are not finite although all states are: a coupling's output may be."""
+        """Raise NotFinite for records that are not finite although all states are: outputs of couplings."""
         lead = len(self.program.batch.shape)
         for port, values in zip(ports, kept, strict=True):
             good = np.isfinite(values)
@@ -390,8 +395,9 @@ class Run:
                 self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)), end)})
 
     def _require_finite_world(self, before: PyTree, state: PyTree, used: int) -> None:
-        """Refuse a world inside the step whose sensors show values that are not finite: they would spoil the
-        model later, and elsewhere.
+        """Raise NotFinite if a world inside the step has sensor values that are not finite.
+
+        Without this check the error would appear later, in an element of the model.
         """
         if not self.exchange.inside or all(
             np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])
@@ -426,13 +432,16 @@ class Run:
         self._lose(errors)
 
     def _path(self, node: Any) -> str:
-        """Path of a node in the present document; the program may have been made before it was renamed."""
+        """Return the path of a node in the present document, where it may have been renamed."""
         entry = self.doc.by_id().get(node.id)
         return entry.path if entry is not None else node.path
 
 
 def require_step(doc: Document, dt: float) -> None:
-    """Refuse a step longer than an element allows: the Euler method would not follow, or diverge."""
+    """Raise TimeError for a step longer than an element allows.
+
+    With such a step the Euler method would be inaccurate or diverge.
+    """
     if not 0 < (real(dt) or 0) < math.inf:
         raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
     if abs(doc.t0) / dt > MOST_STEPS:
@@ -448,7 +457,7 @@ def require_step(doc: Document, dt: float) -> None:
 
 
 def require_duration(duration: Any, what: str) -> float:
-    """A span of time as a number, 0 or above."""
+    """Return a duration as a float; raise TimeError unless it is finite and 0 or above."""
     given = real(duration)
     if given is None or not 0 <= given < math.inf:
         raise TimeError(f"{what} is {show(duration)}; it is a number, 0 or above")
@@ -456,7 +465,7 @@ def require_duration(duration: Any, what: str) -> float:
 
 
 def whole(duration: Any, dt: float, what: str) -> int:
-    """How many steps of dt a duration is; refused unless it is a whole number of them."""
+    """Return the number of steps of dt in a duration; raise TimeError unless it is a whole number."""
     duration = require_duration(duration, what)
     n = duration / dt
     if n > MOST_STEPS:
@@ -472,5 +481,5 @@ def whole(duration: Any, dt: float, what: str) -> int:
 
 
 def host(tree: PyTree) -> PyTree:
-    """A copy of a tree of arrays on the host."""
+    """Copy a PyTree of arrays to the host."""
     return jax.tree.map(lambda a: np.array(a), tree)

@@ -23,36 +23,38 @@ def run_live(
 ) -> Meter:
     """Advance by a duration in document time, paced to the wall clock (Lomp et al. 2016, section 3.2).
 
-    A step is taken when its time has come, and all that are due are taken together, for about 10 ms at most.
-    Where the machine is too slow the run falls behind and says so in the meter; it catches up to 0.25 s, what
-    is beyond is given up. Abstract time counts as milliseconds.
+    A step is taken when the wall clock reaches its time; all steps that are due are taken together, for about
+    10 ms at most. If the machine is too slow, the run falls behind, and the meter shows the lag; the run
+    catches up a lag of up to 0.25 s and drops the rest. Abstract time counts as milliseconds.
 
     Args:
-        session: what runs.
+        session: the session to run.
         duration: document time; a whole number of steps.
-        speed: document time over wall time: 1 is real time, less is slow motion; None: as fast as possible.
-        longest_step: let the step grow up to this, in whole multiples of dt, where there is not enough time
-            for dt. The result then depends on the machine; the journal of the session holds every change of
-            dt with its tick, so that the run can be repeated. None: the step stays, and with it the result.
-        between: called between two exchanges, for input and output of your own; it may read and set the
-            session, and raise to stop.
-        pace: the clock; none: a new one.
-        sleep: how to wait, given seconds.
+        speed: ratio of document time to wall time: 1 is real time, less is slow motion; None: as fast as
+            possible.
+        longest_step: let the step grow up to this length, in whole multiples of dt, if there is not enough
+            time for dt. The result then depends on the machine; the journal of the session has every change
+            of dt with its tick, so that the run can be repeated. None: the step is constant, and so is the
+            result.
+        between: called between two exchanges, for custom input and output; it may read and set the session,
+            and raise an exception to stop.
+        pace: the pace to use; None: a new one.
+        sleep: function that waits for a number of seconds.
 
     Returns:
         The meter: real-time factor, lag, overruns, steps.
 
     Raises:
-        TimeError: a duration that is no whole number of steps, a speed that is not above 0, a step above a
-            time constant.
-        KeyboardInterrupt: on Ctrl-C, between two exchanges; the session stays where it then is.
+        TimeError: the duration is not a whole number of steps, the speed is not above 0, or the longest step
+            is above the limit of a time constant.
+        KeyboardInterrupt: on Ctrl-C, between two exchanges; the session keeps the state reached.
     """
     pace = pace or Pace()
     pace.longest = require_longest(session, longest_step)
     pace.speed = require_speed(speed)
     planned = session.next_dt
     whole(require_duration(duration, "a duration"), planned, "a duration")
-    session.program.chunk(())  # compiled before time counts
+    session.program.chunk(())  # compiled before the clock starts
     end = session.time + duration
     pace.lengthen(session)
     pace.restart()
@@ -62,7 +64,7 @@ def run_live(
                 check()
                 together = session.program.plan.ticks
                 if session.dt > planned and left <= 2 * together:
-                    pace.shorten(session)  # a longer step would not end at the end
+                    pace.shorten(session)  # a longer step would not stop exactly at the end
                     left = together
                 elif session.dt > planned:
                     left -= 2 * together
@@ -83,5 +85,5 @@ def run_live(
 
 
 def _steps(left: float, dt: float) -> int:
-    """Steps that are left, to half a step; a step that is longer than what is left counts as one."""
+    """Return the number of steps left; a rest that is shorter than a step counts as one."""
     return 0 if left < 0.5e-6 * dt else max(1, math.floor(left / dt + 1e-6))

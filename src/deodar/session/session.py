@@ -1,4 +1,4 @@
-"""The session: one running model, stepped by a script, by a clock or by the studio."""
+"""The session: one running model, advanced by a script, by the wall clock or by the studio."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LARGEST_SEED = 2**32 - 1
 
 @dc.dataclass(frozen=True)
 class Change:
-    """One entry of the journal: what was changed, to what, at which tick."""
+    """An entry of the journal: the tick, what was changed, and its new value."""
 
     tick: int
     what: str
@@ -48,23 +48,23 @@ class Change:
 
 
 class Session:
-    """A model that runs.
+    """A running model.
 
     Args:
-        model: the model, as it now is; later edits of the model do not reach the session.
-        dt: Euler step in the document's time unit; none: the document's own, else 1.
+        model: the model in its present state; later edits of the model have no effect on the session.
+        dt: Euler step in the document's time unit; None: that of the document, else 1.
         seed: seed of all noise, 0 to 2^32 - 1.
         precision: float32 or float64.
-        world: what provides the sensors that the model names.
-        trial: which trial of the seed this is; a single run is trial 0.
-        device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
-        accuracy: default, or exact: every kernel by its matrix, however much longer that takes (double
-            precision always is).
+        world: the world that provides the sensors and motors of the model.
+        trial: trial number for this seed; a single run is trial 0.
+        device: cpu, gpu, or one of several as gpu:1; None: the CPU.
+        accuracy: default, or exact: every kernel is applied as a matrix, however slow (float64 always does
+            so).
 
     Attributes:
-        device: where it runs, as it was given.
-        journal: every change of a parameter or of dt, every reset and restore, every hand in the world, with
-            its tick; with seed and document it repeats the session.
+        device: the device, as given.
+        journal: every change of a parameter or of dt, every reset and restore, and every change of the world
+            by the user, with its tick; together with seed and document it repeats the session.
     """
 
     if not TYPE_CHECKING:
@@ -114,7 +114,7 @@ class Session:
     def run(self, duration: float) -> None:
         """Advance by a duration in document time: a whole number of steps of the present dt."""
         waiting, rest = 0, require_duration(duration, "a duration")
-        if self._coming_dt is not None:  # up to the tick common to all parts the old step still counts
+        if self._coming_dt is not None:  # the old step is valid up to the tick common to all parts
             waiting = min(-self.tick % self._run.program.plan.ticks, math.floor(rest / self.dt + 1e-9))
             rest -= waiting * self.dt
         self.step(waiting + whole(rest, self.next_dt, "a duration"))
@@ -132,18 +132,18 @@ class Session:
         return run_live(self, duration, speed, longest_step, between)
 
     def costs(self, seconds: float = SECONDS) -> StepCost:
-        """What each element costs in a step, measured now; see `deodar.session.cost.costs`.
+        """Measure the cost of each element in a step; see `deodar.session.cost.costs`.
 
-        The run is not touched.
+        The run does not change.
         """
         return costs(self.moment(), seconds)
 
     def moment(self) -> StepInputs:
-        """What costs are measured at: it may be handed to another thread."""
+        """Return the inputs of the next step, for measuring costs; another thread may use them."""
         return moment(self._run)
 
     def reset(self, seed: int | None = None) -> None:
-        """State, time and noise back to the start, with another seed if one is given; parameters stay."""
+        """Reset state, time and noise to the start, with another seed if one is given; parameters stay."""
         new = self.seed if seed is None else require_seed(seed)
         self.journal.append(Change(self.tick, "reset", new))
         self._run.seed = new
@@ -152,8 +152,8 @@ class Session:
     def inject(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
         """Inject an external input for `n` Euler steps, without adding an element.
 
-        Exactly as if `amount` (over the element's axes, or one number) were added to its input, noise
-        included.
+        The result is exactly that of adding `amount` (over the element's axes, or one number) to the
+        element's input, with the same noise.
         """
         entry = find.element(self.document, path_of(path))
         self.require_push(entry.id)
@@ -165,7 +165,10 @@ class Session:
             self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), amount, dt) or state)
 
     def _to_new_dt(self, most: int) -> int:
-        """Steps taken until a changed dt may take effect: the next tick common to all parts."""
+        """Advance to the next tick common to all parts, where a changed dt takes effect.
+
+        At most `most` steps are taken; return their number.
+        """
         if self._coming_dt is None:
             return 0
         ticks = self._run.program.plan.ticks
@@ -180,7 +183,12 @@ class Session:
         return taken
 
     def require_push(self, ident: str) -> None:
-        """Refuse to push an element that takes no input from outside."""
+        """Raise an error for an element that accepts no external input.
+
+        Raises:
+            UnknownName: no element with this id runs.
+            ParameterError: the element accepts no external input, or does not run at every tick.
+        """
         entry = self.document.by_id().get(ident)
         if entry is None or ident not in self.program.plan.row:
             raise UnknownName(f"the element with the id {ident} does not run")
@@ -192,28 +200,31 @@ class Session:
                 fix="Push a field or node that runs at every tick",
             )
 
-    # ----------------------------------------------------------------------------------- looking and changing
+    # ----------------------------------------------------------------------------------- reading and changing
 
     def look(self, look: Look, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
-        """Many ports now, through a look that was compiled for the program that runs."""
+        """Read many ports now, with a `Look` that was compiled for the running program."""
         return look.arrays(self._run.look(look.reader) if look.ports else [], places)
 
     def require(self, document: Document) -> None:
-        """Refuse a document that could not go on here: a step too long for a time constant, a sensor that the
-        world does not have.
+        """Raise an error for a document that the session cannot continue with.
+
+        Raises:
+            TimeError: the step is too long for a time constant.
+            WorldError: the world does not have a sensor or motor of the document.
         """
         for step in {self.dt, self.next_dt}:
             require_step(document, step)
         self._run.exchange.require(document)
 
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
-        """The program that this session would run a document with; `model`: which keeps it."""
+        """Compile the program that this session would run a document with; `model` caches it."""
         return executable(
             model or self._model, document, self._precision, device=self.device, accuracy=self._accuracy
         )
 
     def cost(self, document: Document) -> str:
-        """What going on with another document would cost: live, rebuild or recompile."""
+        """Return the cost of continuing with another document: live, rebuild or recompile."""
         return self._cost(document, changed_leaves(self.document, document))
 
     def _cost(self, document: Document, changed: Sequence[LeafChange] | None) -> str:
@@ -229,14 +240,14 @@ class Session:
         )
 
     def read(self, path: str | Handle) -> np.ndarray:
-        """Return what a port holds now: an array over the port's axes in their order, of shape () for a node.
+        """Return the present value of a port: an array over the port's axes, of shape () for a node.
 
         The path of a field alone means its activation: `session.read("u")`.
         """
         return self._run.read([self._port(path)])[0]
 
     def get(self, path: str) -> Any:
-        """The value of a parameter."""
+        """Return the value of a parameter."""
         found = find.target(self.document, path)
         if found.entry is None:
             return next(k.value for k in self.document.knobs if k.name == found.knob)
@@ -245,10 +256,10 @@ class Session:
     def set(self, path: str | Mapping[str, Any], value: Any = ...) -> str:
         """Change a parameter, or several at once, from the next step on; states stay.
 
-        Returns what it cost: live, rebuild or recompile.
+        Return the cost of the change: live, rebuild or recompile.
 
-        For example `session.set("u.tau", 30)` or `session.set({"u.tau": 30, "v.tau": 10})`; after an error
-        none is changed.
+        For example `session.set("u.tau", 30)` or `session.set({"u.tau": 30, "v.tau": 10})`; after an error no
+        parameter has changed.
         """
         values = edit.assignments(path, value)
         cost = self._adopt(edit.change_all(self.document, values))
@@ -259,14 +270,17 @@ class Session:
         return cost
 
     def edit(self, document: Document) -> str:
-        """Go on with another document; elements that stay (by id) keep their states."""
+        """Continue with another document; elements that remain (by id) keep their states.
+
+        Return the cost.
+        """
         cost = self._adopt(document)
         self._ports.clear()
         self.journal.append(Change(self.tick, "document", document))
         return cost
 
     def snapshot(self) -> SessionSnapshot:
-        """The whole state, to go back to."""
+        """Return the whole state, for `restore`."""
         run = self._run
         return SessionSnapshot(
             self.document,
@@ -278,7 +292,7 @@ class Session:
         )
 
     def restore(self, snapshot: SessionSnapshot) -> None:
-        """Back to a snapshot, of this session or of another one of the same model."""
+        """Restore a snapshot of this session or of another session of the same model."""
         if not isinstance(snapshot, SessionSnapshot):
             raise ParameterError(f"{show(snapshot)} is no snapshot", fix="Take one with session.snapshot()")
         if snapshot.precision != self._precision:
@@ -301,36 +315,40 @@ class Session:
         run.exchange.put(snapshot.world)
 
     def keep(self) -> list[str]:
-        """Take what elements have learned (weights, traces, gains) into the model, for `save`: what they
-        start from. Returns its paths.
+        """Write learned values (weights, traces, gains) back to the model as initial values, for `save`.
+
+        Return the paths of the parameters.
         """
         return keep(self.snapshot(), self._model)
 
-    # ------------------------------------------------------------------------------------ a hand in the world
+    # ------------------------------------------------------------------------------------ things in the world
 
     def scene(self) -> Scene | None:
-        """The world from above, now; None where there is none, or nothing to draw."""
+        """Return the present view of the world from above; None without a world or such a view."""
         if self.world is None:
             return None
-        self._run.sense()  # a hand finds the world at the present, whether or not somebody looked before
+        self._run.sense()  # the world advances to the present, whether or not it was read before
         return self.world.scene()
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Put a thing of the world, or its goal, elsewhere: x and y of its middle.
+        """Move a thing of the world, or its goal; `center` is the new x and y of its middle.
 
-        Refused where it does not fit.
+        Raises:
+            UnknownName: the world has no thing or mark of that name.
+            WorldError: it does not fit at the position, or cannot be moved.
         """
         self._note(*rearrange.move(*self._seen(), name, center))
 
     def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
-        """Put a thing into the world, or another one in the place of one of that name.
+        """Add a thing to the world, or replace the one of the same name.
 
-        Refused where it does not fit.
+        Raises:
+            WorldError: it does not fit at the position.
         """
         self._note(*rearrange.place(*self._seen(), name, center, size))
 
     def remove(self, name: str) -> None:
-        """Take a thing out of the world."""
+        """Remove a thing from the world."""
         self._note(*rearrange.remove(*self._seen(), name))
 
     def _seen(self) -> tuple[World, Scene]:
@@ -344,19 +362,19 @@ class Session:
 
     def _note(self, what: str, value: Any) -> None:
         if self.journal and (self.journal[-1].tick, self.journal[-1].what) == (self.tick, what):
-            self.journal.pop()  # of several moves between two steps the last counts
+            self.journal.pop()  # only the last of several moves between two steps has an effect
         self.journal.append(Change(self.tick, what, value))
 
     # --------------------------------------------------------------------------------------------- properties
 
     @property
     def program(self) -> Executable:
-        """The compiled program that runs."""
+        """The running compiled program."""
         return self._run.program
 
     @property
     def world(self) -> World | None:
-        """What the sensors read; another one is read from the next step on."""
+        """The world that the sensors read; a new one is read from the next step on."""
         return self._run.world
 
     @world.setter
@@ -366,7 +384,7 @@ class Session:
 
     @property
     def document(self) -> Document:
-        """The document with the parameters as they now are."""
+        """The document with the present values of the parameters."""
         return self._run.doc
 
     @property
@@ -383,7 +401,7 @@ class Session:
 
     @property
     def next_dt(self) -> float:
-        """The Euler step that was set last: `dt`, once it has taken effect."""
+        """The Euler step that was set last; it equals `dt` when it has taken effect."""
         return self._coming_dt or self.dt
 
     @property
@@ -393,7 +411,7 @@ class Session:
 
     @property
     def tick(self) -> int:
-        """Steps taken since the start."""
+        """Number of steps taken since the start."""
         return self._run.clock.tick
 
     @property
@@ -403,7 +421,7 @@ class Session:
 
     @property
     def precision(self) -> str:
-        """float32 or float64."""
+        """Precision, float32 or float64."""
         return self._precision
 
     def __repr__(self) -> str:
@@ -422,7 +440,7 @@ class Session:
         path, program = path_of(path), self._run.program
         if (
             self._ports.get(path, (None,))[0] is not program
-        ):  # found once for each program: a renamed element has another path
+        ):  # looked up once for each program: a renamed element has another path
             entry, name = find.shown(self.document, path)
             self._ports[path] = (program, program.port(entry.id, name))
         return self._ports[path][1]
@@ -434,7 +452,7 @@ class Session:
         if changed is None or any(
             limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)
         ):
-            self.require(doc)  # other leaves change no limit of the step
+            self.require(doc)  # other leaves have no effect on the limit of the step
         if changed is not None and self._cost(doc, changed) != "recompile":
             return self._change(doc, changed)
         states = rows(run.program, run.state)
@@ -443,7 +461,7 @@ class Session:
         return "recompile"
 
     def _change(self, doc: Document, changed: Sequence[LeafChange]) -> str:
-        """New values of leaves the program has: the vector, and `prepare` where they rebuild."""
+        """Write new values of leaves to the program's vector and arrays, and rebuild constants if needed."""
         run = self._run
         vector, arrays = run.values["vector"].copy(), dict(run.values["arrays"])
         for leaf, value, _, _ in changed:
@@ -461,7 +479,7 @@ class Session:
 
 
 def require_model(model: Any) -> Model:
-    """The model, refused if it is something else."""
+    """Return the model; raise ModelError if it is something else."""
     if not isinstance(model, Model):
         raise ModelError(
             f"{show(model)} is no model", fix="Build one with dd.Model(name), or read one with dd.load(file)"
@@ -470,7 +488,7 @@ def require_model(model: Any) -> Model:
 
 
 def require_seed(seed: Any) -> int:
-    """The seed (or trial) as a number, refused outside 0 to 2^32 - 1."""
+    """Return the seed (or trial) as an int; raise ParameterError outside 0 to 2^32 - 1."""
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed <= LARGEST_SEED:
         raise ParameterError(f"a seed (or trial) is a whole number from 0 to 2^32 - 1, not {show(seed)}")
     return int(seed)

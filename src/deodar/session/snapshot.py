@@ -1,4 +1,4 @@
-"""The state of a session at one moment: element by element, so that it fits into another program."""
+"""The state of a session at one moment, stored by element, so that another program can use it."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ class SessionSnapshot:
 
     Attributes:
         document: the document with its parameters.
-        states: for each element by id its state, and the one that is not yet visible (of parts with a step of
-            their own).
+        states: for each element by id its visible state, and the state that is not visible yet (of elements
+            with a step of their own).
         clock: tick, time and dt.
-        seed: seed of the noise; with the tick it says all about it.
+        seed: seed of the noise, which is determined by seed and tick.
         precision: float32 or float64.
-        world: where the world then stood; None: there was none.
+        world: state of the world; None: the session had none.
     """
 
     document: Document
@@ -41,8 +41,9 @@ class SessionSnapshot:
 
 
 def rows(program: Executable, state: PyTree) -> dict[str, tuple[StateRow, StateRow]]:
-    """The state of every element by id: what is shown, and what is held until it is due (the same where
-    nothing is held).
+    """Return the state of every element by id: the visible one, and the one that is held until it is due.
+
+    Both are the same for elements that run at every tick.
     """
     here = host(state)
     out: dict[str, tuple[StateRow, StateRow]] = {}
@@ -54,9 +55,9 @@ def rows(program: Executable, state: PyTree) -> dict[str, tuple[StateRow, StateR
 
 
 def fill(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
-    """States by id into the present program, where their shapes are the same; others start anew.
+    """Copy states by id into the present program, for elements whose states have the same shapes.
 
-    Noise follows from seed and tick.
+    Other elements start at their initial states. Noise follows from seed and tick.
     """
     fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
     state = host(fresh)
