@@ -18,7 +18,7 @@ __version__ = "0.1.0"
 
 
 def _homes() -> dict[str, str]:
-    """The module of each public name, read from the lines `from MODULE import NAME as NAME` of the stub."""
+    """Return the module of each public name, from the lines `from MODULE import NAME as NAME` of the stub."""
     with open(os.path.join(__path__[0], "__init__.pyi"), encoding="utf-8") as stub:
         lines = [line.split() for line in stub if line.startswith("from ")]
     return {words[3]: words[1] for words in lines}
@@ -35,7 +35,7 @@ def __getattr__(name: str) -> Any:
     if home is None:
         raise importlib.import_module("deodar.renamed").missing(
             "deodar", name, _HOMES
-        )  # `from deodar import` would ask here again
+        )  # otherwise `from deodar import` would call this function again
     found = (
         importlib.import_module(f"deodar.{name}")
         if home == "deodar"

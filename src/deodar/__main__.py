@@ -1,4 +1,4 @@
-"""`python -m deodar` is `deodar`."""
+"""The command `python -m deodar`, equal to `deodar`."""
 
 import sys
 

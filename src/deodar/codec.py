@@ -1,9 +1,9 @@
-"""JSON: the one reader and the one writer of it.
+"""Reading and writing of JSON.
 
-`read` is for documents, which may come from anywhere: it requires finite numbers, unique keys, bounded
-nesting and UTF-8. `foreign` is for files of other tools, which break these rules. `parse` is for text that
-deodar wrote itself. `text` and `line` write. Numbers get the shortest digits that give the same number again;
-NumPy values are written as numbers and lists, tuples as lists. Keys keep their order.
+`read` is for documents, which may be untrusted: it requires finite numbers, unique keys, bounded nesting and
+UTF-8. `foreign` is for files of other tools, which break these rules. `parse` is for text that deodar wrote.
+`text` and `line` write. Numbers are written with the fewest digits that restore the same number; NumPy values
+are written as numbers and lists, tuples as lists. Keys keep their order.
 """
 
 from __future__ import annotations
@@ -17,27 +17,27 @@ from typing import Any, cast
 from deodar.errors import DocumentError, OutputError, Problem
 
 DEEPEST = 64
-"""Levels of nesting that are read (a guess, several times that of the deepest known document)."""
+"""Largest depth of nesting (a guess, several times that of the deepest known document)."""
 
 MOST_DIGITS = 300
-"""Digits of a whole number; more are beyond the range of a double."""
+"""Most digits of an integer; more exceed the range of a double."""
 
 
 # -------------------------------------------------------------------------------------------------------- out
 
 
 def text(data: object, indent: int = 2, finite: bool = False) -> str:
-    """Write JSON for people: an entry a line, characters as they are; no newline at the end.
+    """Write readable JSON: one entry per line, characters without escapes, no newline at the end.
 
     Args:
-        data: what is written.
+        data: the value to write.
         indent: spaces for each level.
-        finite: refuse numbers that are not finite, which JSON has no form for; otherwise they are written as
-            `NaN` and `Infinity`, which Python reads.
+        finite: whether numbers that are not finite, which JSON does not define, are an error; otherwise they
+            are written as `NaN` and `Infinity`, which Python reads.
 
     Raises:
-        OutputError: a number is not finite, and `finite` asks for it; the message names its place.
-        TypeError: a value has no form in JSON.
+        OutputError: if a number is not finite and `finite` is true; the message states its path.
+        TypeError: if a value has no form in JSON.
     """
     return _written(data, finite, indent=indent, ensure_ascii=False)
 
@@ -52,11 +52,11 @@ def line(
     """Write JSON in one line.
 
     Args:
-        data: what is written.
-        ascii: escape characters beyond ASCII.
-        sort: write keys in alphabetical order.
+        data: the value to write.
+        ascii: whether to escape characters beyond ASCII.
+        sort: whether to write keys in alphabetical order.
         finite: as in `text`.
-        other: gives what is written for a value that has no form in JSON; None: it is an error.
+        other: converts a value that has no form in JSON; None: such a value is an error.
 
     Raises:
         OutputError, TypeError: as in `text`.
@@ -65,7 +65,7 @@ def line(
 
 
 def _plain(value: object) -> object:
-    """NumPy's arrays and numbers as lists and numbers."""
+    """Convert NumPy arrays and numbers to lists and numbers."""
     as_list = getattr(value, "tolist", None)
     if as_list is None:
         raise TypeError(f"{type(value).__name__} has no form in JSON")
@@ -86,7 +86,7 @@ def _written(data: object, finite: bool, default: Callable[[object], object] = _
 
 
 def _not_finite(data: object, path: tuple[KeyStep, ...]) -> tuple[tuple[KeyStep, ...], float] | None:
-    """The place and value of the first number that is not finite."""
+    """Return the path and value of the first number that is not finite."""
     if isinstance(data, float):
         return None if math.isfinite(data) else (path, data)
     data = _plain(data) if hasattr(data, "tolist") else data
@@ -105,10 +105,10 @@ def _not_finite(data: object, path: tuple[KeyStep, ...]) -> tuple[tuple[KeyStep,
 
 
 def parse(content: bytes | str) -> Any:
-    """Read JSON that deodar wrote, or a value that a person typed; of a doubled key the last value counts.
+    """Read JSON that deodar wrote, or a value that a user typed; of a repeated key the last value counts.
 
     Raises:
-        ValueError: it is not JSON, or nested too deeply.
+        ValueError: if it is not JSON, or nested too deeply.
     """
     try:
         return json.loads(content)
@@ -117,10 +117,10 @@ def parse(content: bytes | str) -> Any:
 
 
 def leading(content: str, start: int = 0) -> tuple[Any, int]:
-    """Read the JSON value that begins at a character of a text; returns it and where it ends.
+    """Read the JSON value that begins at position `start` of a text; return it and the position of its end.
 
     Raises:
-        ValueError: no value begins there.
+        ValueError: if no value begins there.
     """
     return json.JSONDecoder().raw_decode(content, start)
 
@@ -129,7 +129,7 @@ def read(content: bytes | str) -> Any:
     """Read JSON with finite numbers, unique keys and bounded nesting.
 
     Raises:
-        DocumentError: it is not such JSON; the message has line and column, or every key that is doubled.
+        DocumentError: if it is not such JSON; the message states line and column, or all repeated keys.
     """
 
     def refuse(constant: str) -> Any:
@@ -173,11 +173,13 @@ def read(content: bytes | str) -> Any:
 
 
 def foreign(content: bytes) -> Any:
-    """Read JSON of another tool: a byte order mark, control characters in strings, Latin-1 text and doubled
-    keys (marked, see `repeated`) are taken, and numbers that are not finite.
+    """Read JSON of another tool.
+
+    A byte order mark, control characters in strings, Latin-1 text, numbers that are not finite and repeated
+    keys (marked, see `repeated`) are accepted.
 
     Raises:
-        DocumentError: it is not JSON all the same.
+        DocumentError: if it is still not JSON.
     """
     try:
         try:
@@ -185,7 +187,7 @@ def foreign(content: bytes) -> Any:
         except UnicodeDecodeError:
             data = json.loads(
                 content.decode("latin-1"), strict=False, object_pairs_hook=collect
-            )  # older MATLAB wrote the system's own characters
+            )  # older versions of MATLAB wrote the system's encoding
     except json.JSONDecodeError as error:
         raise _not_json(error) from None
     except RecursionError:
@@ -231,10 +233,9 @@ KeyStep = str | int
 
 
 class Ambiguous(dict[str, Any]):
-    """An object of a JSON text in which keys occur more than once: each key with its last value, as `json`
-    gives it.
+    """A JSON object with repeated keys: each key with its last value, as `json` returns it.
 
-    `pairs` holds all keys and values in the order of the text.
+    `pairs` has all keys and values in the order of the text.
     """
 
     pairs: list[tuple[str, Any]]
@@ -245,9 +246,9 @@ class Repeated:
     """A key that occurs more than once.
 
     Attributes:
-        path: steps from the root to the object that holds it.
+        path: steps from the root to the object with the key.
         key: the key.
-        values: every value that it has, in the order of the text; the last one is in use.
+        values: all values of the key, in the order of the text; the last one is used.
     """
 
     path: tuple[KeyStep, ...]
@@ -261,7 +262,7 @@ class Repeated:
 
 
 def collect(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """The object of a JSON text with these keys and values; marked for `repeated` where keys are doubled."""
+    """Create the object with these keys and values, marked for `repeated` if keys are repeated."""
     out = dict(pairs)
     if len(out) == len(pairs):
         return out
@@ -271,7 +272,7 @@ def collect(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def repeated(data: Any) -> list[Repeated]:
-    """All keys that occur more than once, outermost objects first; `data` was read with `collect`."""
+    """Return all keys that occur more than once, outermost objects first; `data` was read with `collect`."""
     found: list[Repeated] = []
     level: list[tuple[tuple[KeyStep, ...], Any]] = [((), data)]
     while level:

@@ -1,5 +1,5 @@
-"""What a part declares of a parameter beside its type: what a change costs, the unit, the range, and what
-kind of time it is.
+"""Declarations of a parameter beside its type: the cost of a change, the unit, the range, the role of a
+time.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal
 Cost = Literal["live", "rebuild", "recompile"]
 Role = Literal["", "time constant", "time scale", "rate", "speed", "moment", "duration"]
 TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "rate", "speed", "moment", "duration")
-"""What a parameter is whose unit has time in it: see `Declaration`."""
+"""The roles of parameters whose unit contains time: see `Declaration`."""
 
 LIMITING: tuple[Role, ...] = ("time constant", "time scale", "rate")
 """Roles of parameters that limit the Euler step."""
@@ -19,9 +19,9 @@ LIMITING: tuple[Role, ...] = ("time constant", "time scale", "rate")
 
 @dc.dataclass(frozen=True)
 class Declaration:
-    """What is declared beside a parameter's type; use `Live`, `Rebuild` or `Recompile`.
+    """The declaration of a parameter beside its type; use `Live`, `Rebuild` or `Recompile`.
 
-    A parameter whose unit has time in it ("time", "1/time", "axis/time") states its `role`:
+    A parameter whose unit contains time ("time", "1/time", "axis/time") states its `role`:
 
     * `time constant`: of a linear relaxation; a run refuses an Euler step that is longer.
     * `time scale`: a time constant for an input of 1, such as tau of tau dphi/dt = f (x - phi); a run refuses
@@ -33,19 +33,19 @@ class Declaration:
     * `moment`: a point of document time.
     * `duration`: a length of time, such as a delay, a period or an interval; it may be shorter than a step.
 
-    What is compared with document time, or multiplied by it, is `exact`: in a program of single precision it
-    keeps the digits of float64 (`numerics/exact.py`). Moments always are.
+    A parameter that is compared with document time, or multiplied by it, is `exact`: in a program of single
+    precision it keeps the digits of float64 (`numerics/exact.py`). Moments are always exact.
 
     Attributes:
-        unit: of the value, for forms and messages: "time" for the document's, "axis", "activation", "1/time"
-            and so on.
+        unit: unit of the value, for forms and messages: "time" for the document's unit, "axis",
+            "activation", "1/time" and so on.
         lower: lowest value; None: any.
         upper: highest value; None: any.
         neutral: the value at which the parameter has no effect, so that the program leaves it out.
         choices: the allowed texts; empty: any.
         meaning: one phrase for forms, the reference and the schema.
-        off: whether the neutral value switches something off, instead of being what small values tend to.
-        role: what a parameter is whose unit has time in it, see above.
+        off: whether the neutral value switches the effect off, instead of being the limit of small values.
+        role: role of a parameter whose unit contains time, see above.
         exact: whether it keeps the digits of float64 in a program of single precision.
     """
 
@@ -64,9 +64,9 @@ class Declaration:
 class Live(Declaration):
     """A traced leaf: a change takes effect at the next exchange and never recompiles.
 
-    A parameter with a `neutral` value (noise 0) is left out of the program while it has it; leaving it
-    recompiles once. Where that value is not what small values tend to (a speed limit of 0 means none), `off`
-    says so: reaching it recompiles as well.
+    A parameter is omitted from the program while it has its `neutral` value (noise 0); a change from that
+    value recompiles once. If the neutral value is not the limit of small values (a speed limit of 0 means no
+    limit), `off` is true, and a change to it recompiles as well.
     """
 
     cost = "live"
@@ -79,18 +79,17 @@ class Rebuild(Declaration):
 
 
 class Recompile(Declaration):
-    """A change makes a new program; states are kept by the element's id."""
+    """A change compiles a new program; states are kept by the element's id."""
 
     cost = "recompile"
 
 
 @dc.dataclass(frozen=True)
 class Needed:
-    """The default of a parameter that has none: leaving it out is an error that proposes a value; use
-    `needed`.
+    """The marker of a parameter without a default; an error proposes a value if it is omitted. Use `needed`.
 
     Attributes:
-        like: a value as it is written in a call, such as `[x]`; the names in it stand for axes.
+        like: a value as it is written in a call, such as `[x]`; the names in it denote axes.
     """
 
     like: str
@@ -100,7 +99,7 @@ class Needed:
 
     @property
     def names(self) -> list[str]:
-        """Names of the axes in the proposed value."""
+        """The names of the axes in the proposed value."""
         return re.findall(r"\w+", self.like)
 
 

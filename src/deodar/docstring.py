@@ -1,6 +1,6 @@
-"""The parser of docstrings: summary, sections, and the entries that a section lists.
+"""The parser of docstrings: summary, sections, and the entries of a section.
 
-Help, the manual, the studio and the command line read docstrings with it, and so do the tests.
+Help, the manual, the studio, the command line and the tests read docstrings with it.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Docstring:
         return {name: " ".join(line.strip() for line in block)[len(name) + 2 :] for name, block in blocks}
 
     def blocks(self, title: str) -> dict[str, list[str]]:
-        """Return the entries of a section as they are written: for each name its lines."""
+        """Return the entries of a section with their line breaks: for each name its lines."""
         out: dict[str, list[str]] = {}
         for line in self.sections.get(title, "").splitlines():
             if found := _ENTRY.fullmatch(line):
@@ -87,7 +87,7 @@ def parse(text: str) -> Docstring:
 
 
 def source(cls: type) -> str:
-    """Return the docstring that the source of a class has, without its indentation; "" without one."""
+    """Return the docstring in the source of a class, without its indentation; "" without one."""
     return inspect.cleandoc(vars(cls).get("__doc__") or "")
 
 

@@ -1,15 +1,15 @@
-"""The contract of elements and couplings: everything that stands in a model.
+"""The contract of elements and couplings, the parts of a model.
 
-An element sees one copy of itself: batches, trials, groups, rates and the working precision are the
-compiler's. Inside the compiled program its live and rebuild parameters are tracers, so that `self.tau` may be
-used in formulas as it stands.
+The methods of an element describe one copy of it: the compiler adds batches, trials, groups, rates and the
+working precision. Inside the compiled program its live and rebuild parameters are tracers, so formulas may
+use `self.tau` directly.
 
-The laws that an element may rely on:
+An element may rely on these rules:
 
 * a step reads every output at time t, then commits all new states together;
 * all connections into one port are summed, in the port's axes;
-* `prepare` may use parameters that rebuild (and arrays), not live ones; what it returns is handed to
-  `hoist`, which may use all and is computed once a chunk; what that returns is handed to `output` and
+* `prepare` may use parameters that rebuild (and arrays), not live ones; its result is passed to `hoist`,
+  which may use all parameters and is computed once per chunk; the result of `hoist` is passed to `output` and
   `advance`.
 """
 
@@ -41,13 +41,13 @@ class Time:
     """Document time inside a step, exact in both precisions.
 
     It is `origin + passed * step`, computed in float64 from the number of steps, so that it does not depend
-    on how a run was cut into chunks.
+    on the division of a run into chunks.
 
     Attributes:
-        origin: document time at some tick before, or at the present one.
-        passed: steps since then, a whole number.
+        origin: document time at an earlier tick, or at the present one.
+        passed: number of steps since then, an integer.
         step: step of the model.
-        ticks: step of the element as a multiple of it.
+        ticks: step of the element as a multiple of the model's step.
     """
 
     origin: Any
@@ -62,41 +62,42 @@ class Time:
 
     @classmethod
     def at(cls, now: float, dt: float, dtype: DTypeLike) -> Time:
-        """A time given by numbers of the host."""
+        """Create a time from numbers of the host."""
         return cls(Exact(*split(now, dtype)), np.uint32(0), Exact(*split(dt, dtype)))
 
     @property
     def dt(self) -> Any:
-        """Step of the element (of its own rate), in the working precision."""
+        """The step of the element (at its own rate), in the working precision."""
         return self.step.high * self.ticks
 
     @property
     def wide(self) -> Array:
-        """The time in float64, inside `exact()`."""
+        """The time in float64; use it inside `exact()`."""
         return wide(self.origin) + jnp.asarray(self.passed).astype(jnp.float64) * wide(self.step)
 
     @property
     def wide_dt(self) -> Array:
-        """Step of the element in float64, inside `exact()`."""
+        """The step of the element in float64; use it inside `exact()`."""
         return wide(self.step) * self.ticks
 
     @property
     def moment(self) -> Exact:
-        """The time as two numbers of the working precision, for a state that stores when something happened.
+        """The time as two numbers of the working precision, for a state that stores the time of an event.
 
-        A state that counts steps or adds up `dt` instead stops counting in single precision.
+        In single precision, a state that counts steps or sums `dt` would stop changing.
         """
         dtype = self.step.high.dtype
         with exact():
             now, digits = self.wide, jnp.finfo(dtype)
             high = lax.reduce_precision(
                 now, digits.nexp, digits.nmant
-            )  # a cast there and back would be left out as superfluous
+            )  # the compiler would remove a cast there and back as redundant
             return Exact(high.astype(dtype), (now - high).astype(dtype))
 
     def since(self, moment: Exact | Array | float) -> Array:
-        """Time passed since `moment` (negative before it), in the working precision: exact to its last digit
-        near the moment.
+        """Return the time since `moment` (negative before it), in the working precision.
+
+        Near the moment it is exact to the last digit.
         """
         now = self.moment
         m = moment if isinstance(moment, Exact) else Exact(moment, 0.0)
@@ -104,24 +105,23 @@ class Time:
 
     @property
     def now(self) -> Array:
-        """The time itself, in the working precision: in float32 it has 24 bits, so compare with moments by
-        `since`.
+        """The time in the working precision: 24 bits in float32, so use `since` to compare it with
+        moments.
         """
         return self.since(0.0)
 
 
 @dc.dataclass(frozen=True)
 class Convolution:
-    """Declares what an element convolves with its `kernels`, by `Setting.convolve`, and where the integral
-    goes.
+    """The declaration of the port that an element convolves with its `kernels`, and of the port that uses it.
 
-    A class that overrides `output` or `advance` restates the declaration. Without it `Setting.convolve` works
-    too, but the compiler does not rearrange sums around the class.
+    A class that overrides `output` or `advance` must repeat the declaration. `Setting.convolve` also works
+    without it, but the compiler then does not rearrange sums around the class.
 
     Attributes:
         of: port that is convolved: an input, or the output that the dynamics read.
-        into: an output that is the integral and nothing else, or an input to which `advance` adds the
-            integral and which it does not use otherwise.
+        into: an output that is equal to the integral, or an input to which `advance` adds the integral and
+            that it does not use otherwise.
     """
 
     of: str
@@ -138,7 +138,7 @@ def _undeclared(y: Any) -> Any:
 
 @dc.dataclass(frozen=True)
 class Setting:
-    """Where an element stands: the axes at its ports, the precision of the model, and its convolution.
+    """The context of an element: the axes of its ports, the precision of the model, and its convolution.
 
     Attributes:
         ins, outs: axes of the ports.
@@ -158,15 +158,15 @@ class Setting:
             raise renamed.no_member(self, name)
 
     def full(self, axes: Axes, value: Any) -> Array:
-        """An array over the axes, filled with one value."""
+        """Return an array over the axes, filled with one value."""
         return jnp.full(shape(axes), value, self.dtype)
 
     def array(self, values: Any) -> Array:
-        """The values as an array in the working precision."""
+        """Return the values as an array in the working precision."""
         return jnp.asarray(getattr(values, "data", values), self.dtype)
 
     def exact(self, values: Any) -> Exact:
-        """The values, with the digits of float64."""
+        """Return the values with the digits of float64."""
         return (
             values
             if isinstance(values, Exact)
@@ -174,28 +174,31 @@ class Setting:
         )
 
     def points(self, axis: Axis) -> Array:
-        """Values at the samples of an axis, in the working precision."""
+        """Return the values at the samples of an axis, in the working precision."""
         return jnp.asarray(axis.points, self.dtype)
 
 
 @dc.dataclass(frozen=True)
 class Element(Part):
-    """Base of everything that stands in a model.
+    """The base class of the elements of a model.
 
     Class attributes:
         inputs: names of the input ports.
-        direct: for each output port that passes inputs on in the same instant, which; ports not named show
-            the state.
-        follows: for an input port that takes the axes of another one, which.
-        external: input that no connection reaches, of the axes of `output`; its value comes from outside the
+        direct: for each output port that depends on inputs of the same step, the names of these inputs; other
+            output ports depend on the state only.
+        follows: for an input port that has the axes of another input port, the name of that port.
+        external: input without connections, with the axes of `output`; its value comes from outside the
             model: from the world for a `Sensor` and classes derived from it, else it is 0. "": none.
-        stateful: whether `advance` exists; if not, all outputs follow from inputs, time and noise.
-        reads_own_output: output ports that `advance` finds among its inputs, as they were in the same step.
+        stateful: whether the element has `advance`; if not, all outputs follow from inputs, time and noise.
+        reads_own_output: output ports that `advance` receives among its inputs, with their values of the same
+            step.
         linear: whether the default output is linear in the one input.
-        convolution: what it convolves with its `kernels`, and where the integral goes; None: nothing.
-        scaled_by: the parameter by which `output` is a multiple of `input`; "" where it is no multiple.
-        levels: for a port, the parameters that are levels on its scale, by what they are called: drawn as
-            lines in plots.
+        convolution: the port that it convolves with its `kernels`, and the port that uses the integral; None:
+            no convolution.
+        scaled_by: the parameter that is the factor from `input` to `output`; "" if `output` is not a multiple
+            of `input`.
+        levels: for a port, the parameters that are levels on its scale, by their names in plots, which draw
+            them as lines.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = dc.field(default="", kw_only=True)
@@ -226,132 +229,136 @@ class Element(Part):
     # ------------------------------------------------------------------------------- on paper: axes and ports
 
     def ports(self) -> tuple[str, ...]:
-        """Names of the input ports."""
+        """Return the names of the input ports."""
         return self.inputs
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        """Return the axes that an input port takes; None where the connection with most axes decides."""
+        """Return the axes of an input port; None if those of the connection with the most axes are used."""
         axes: Axes | None = getattr(self, "axes", None)
         return axes
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
-        """Axes of every output port; the first is the default one.
+        """Return the axes of every output port; the first is the default port.
 
-        Elements that show only states ignore `ins`.
+        Elements whose outputs are states ignore `ins`.
         """
         raise NotImplementedError
 
     def steady(self) -> bool:
-        """Whether outputs of a stateless element stay the same while its inputs and parameters do."""
+        """Return whether outputs of a stateless element are constant while its inputs and parameters are."""
         return True
 
     def noise_axes(self) -> Axes | None:
-        """Axes of the element's noise, or None where it has none now."""
+        """Return the axes of the element's noise, or None without noise."""
         return None
 
     def external_code(self) -> str:
-        """Return the name of external code that it runs and that `load` gives, or "". The code is not loaded
-        before the document is trusted.
+        """Return the name of the external code that `load` imports, or "".
+
+        The code is not loaded before the document is trusted.
         """
         return ""
 
     def load(self) -> Any:
-        """The code from outside; another one makes another program."""
+        """Return the external code; different code compiles a different program."""
         return None
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        """Check the parameters against the axes at the ports: yield what is wrong, or (what is wrong, what to
-        type) where the remedy is not another connection.
+        """Check the parameters against the axes of the ports.
+
+        Yield the problem, or (problem, fix) if the fix is not another connection.
         """
         return iter(())
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        """What is probably a mistake, although it runs: (what is wrong and why, what to type).
+        """Yield probable mistakes that do not prevent a run: (problem and reason, fix).
 
-        Called only where nothing is a misfit.
+        Called only if `validate_axes` yields nothing.
         """
         return iter(())
 
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
     ) -> Mapping[str, Interval]:
-        """Between which values its ports lie, given the bounds of what arrives and what it returned `before`
-        (empty at first).
+        """Return the smallest and largest value of output ports, for checks.
 
-        For checks: an output that is not named may have any value. A strength of 0 counts as one that is set
-        later.
+        `inputs` are the bounds of the inputs, `before` is the previous result (empty at first). An output
+        that is not in the result may have any value. A strength of 0 counts as not set yet.
         """
         return {}
 
     def kernels(self) -> Sequence[Kernel]:
-        """The kernels that `Setting.convolve` applies, summed."""
+        """Return the kernels that `Setting.convolve` applies, summed."""
         return ()
 
     # -------------------------------------------------------------------------------------------- in pictures
 
     def polarity(self) -> Sign:
-        """Sign with which the output acts on what reads it: pictures tell inhibition from excitation by
-        it.
+        """Return the sign of the output's effect on its targets; pictures show inhibition and excitation
+        by it.
         """
         return "+"
 
     def recurrence(self) -> Mapping[str, Sign]:
-        """Signs of the interactions of the element with itself, by name: pictures show them as loops."""
+        """Return the signs of the element's interactions with itself, by name; pictures show them as
+        loops.
+        """
         return {}
 
     # -------------------------------------------------------------------------------- in the compiled program
 
     def init(self, at: Setting) -> Arrays:
-        """The state at the start."""
+        """Return the state at the start."""
         return {}
 
     def prepare(self, at: Setting) -> Any:
-        """Constants that depend on axes and on parameters that rebuild."""
+        """Return constants that depend on axes and on parameters that rebuild."""
         return {}
 
     def hoist(self, at: Setting, constants: Any) -> Any:
-        """Compute, once a chunk, what depends on live parameters but not on the state, from the constants of
-        `prepare`.
+        """Compute, once per chunk, values that depend on live parameters but not on the state.
 
-        `output` and `advance` get what it returns in place of the constants.
+        `constants` is the result of `prepare`; `output` and `advance` receive the result of `hoist` in its
+        place.
         """
         return constants
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
-        """Every output port at time t."""
+        """Return the value of every output port at time t."""
         raise NotImplementedError
 
     def advance(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
-        """The state at t + dt. `noise` holds standard normal deviates over `noise_axes`, or None."""
+        """Return the state at t + dt; `noise` has standard normal deviates over `noise_axes`, or is None."""
         return state
 
     def undefined(self) -> Sequence[str]:
-        """Output ports that show NaN where they have no value yet. Only these may do so in a record."""
+        """Return the output ports that are NaN where they have no value yet; only these may be NaN in a
+        record.
+        """
         return ()
 
     def inject(
         self, state: Mapping[str, np.ndarray], amount: np.ndarray | float, dt: float
     ) -> Mapping[str, np.ndarray] | None:
-        """Return the state after a step as if its input had been larger by `amount` (over the axes); for
-        external inputs to a running model.
+        """Return the state after a step as if its input had been larger by `amount` (over the axes).
 
-        None where that is not a simple sum, or where there is no such input.
+        Running models use it for external inputs. None if the effect is not a sum, or without such an input.
         """
         return None
 
     def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Return the learned state as parameters with which `init` gives this state; empty where nothing is
+        """Return the learned state as parameters from which `init` restores it; empty if nothing is
         learned.
         """
         return {}
 
     @classmethod
     def example(cls) -> Self:
-        """An instance that works on its own."""
+        """Return an instance that works without other elements."""
         if "axes" in (f.name for f in dc.fields(cls)):
             return cls(name="example", axes=[Axis("x", 0, 20, samples=21)])  # type: ignore[call-arg]
         return cls(name="example")
@@ -359,7 +366,7 @@ class Element(Part):
 
 @dc.dataclass(frozen=True)
 class Coupling(Element):
-    """An element between elements: its output follows its input in the same instant."""
+    """The base class of elements between elements, whose output depends on the input of the same step."""
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 

@@ -1,7 +1,7 @@
 """Errors that say what is wrong, where, why, and what to type.
 
-Every error deodar raises on purpose is a `DeodarError`. Its message is one paragraph made of up to four
-parts: *what* is wrong, *where* (a path, and the line that declared it), *why* it cannot be, and a *fix* to
+Every error that deodar raises on purpose is a `DeodarError`. Its message is one paragraph of up to four
+parts: *what* is wrong, *where* (a path, and the line that declared it), *why* it is wrong, and a *fix* to
 type.
 """
 
@@ -17,9 +17,9 @@ Severity = Literal["problem", "warning"]
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong: where, what, and what to type instead.
+    """One problem or warning: where, what, and what to type instead.
 
-    A `problem` stops a run. A `warning` never does: the model runs, but probably not as it was meant.
+    A `problem` prevents a run. A `warning` does not: the model runs, but probably not as intended.
     """
 
     where: str
@@ -33,7 +33,7 @@ class Problem:
 
 
 class DeodarError(Exception):
-    """Base of every error raised on purpose; `problems` lists what is wrong, one entry each."""
+    """The base class of all errors raised on purpose; `problems` lists the problems, one entry each."""
 
     def __init__(self, what: str | Sequence[Problem], where: str = "", fix: str = "") -> None:
         if isinstance(what, str):
@@ -43,7 +43,9 @@ class DeodarError(Exception):
         super().__init__(self._text())
 
     def __reduce__(self) -> Any:
-        """An error crosses from one process to another whole, whatever its class takes."""
+        """Pickle all attributes, whatever the arguments of the class, so that an error can cross
+        processes.
+        """
         return _again, (type(self), self.args, self.__dict__)
 
     def _text(self) -> str:
@@ -65,8 +67,8 @@ class UnknownName(DeodarError):
 
 
 class UnknownAttribute(UnknownName, AttributeError):
-    """Raised when a handle of an element has no such parameter; an `AttributeError` too, so that `hasattr`
-    answers.
+    """Raised when an element's handle lacks a parameter; also an `AttributeError`, so that `hasattr`
+    works.
     """
 
     def __init__(self, what: str | Sequence[Problem], where: str = "", fix: str = "") -> None:
@@ -75,33 +77,31 @@ class UnknownAttribute(UnknownName, AttributeError):
 
 
 class AxesError(DeodarError):
-    """Raised when axes are impossible or do not fit each other."""
+    """Raised when axes are invalid or do not match each other."""
 
 
 class ModelError(DeodarError):
-    """Raised when an architecture cannot be: names that clash, ports that do not fit, loops without a
-    state.
-    """
+    """Raised when a model is invalid: duplicate names, ports that do not match, loops without a state."""
 
 
 class DocumentError(DeodarError):
-    """Raised when a document file cannot be read: not JSON, unknown version or kind, an array file that is
-    not its own.
+    """Raised when a document file cannot be read: not JSON, unknown version or kind, or an array file of
+    another document.
     """
 
 
 class Untrusted(DeodarError):
-    """Raised when a document asks to run a user's function and nobody has said that it may be trusted."""
+    """Raised when a document contains a custom function and is not trusted."""
 
 
 class WorldError(DeodarError):
-    """Raised when a world cannot give what a sensor asks for, or a model reads sensors that no world
-    provides.
+    """Raised when a world cannot provide the reading of a sensor, or a model reads sensors without a
+    world.
     """
 
 
 class TimeError(DeodarError):
-    """Raised when durations and steps do not fit: not a multiple of dt, or a step longer than a time
+    """Raised when durations and steps do not match: not a multiple of dt, or a step longer than a time
     constant.
     """
 
@@ -124,25 +124,25 @@ class RunWarning(UserWarning):
 
 
 class TooLarge(DeodarError):
-    """Raised before allocating what would not fit into memory."""
+    """Raised before an allocation that would not fit into memory."""
 
 
 class CoresError(DeodarError):
-    """Raised when the number of cores is to be changed after JAX has started."""
+    """Raised on an attempt to change the number of cores after JAX has started."""
 
 
 class DeviceError(DeodarError):
-    """Raised when a device is asked for that is not there."""
+    """Raised when a requested device does not exist."""
 
 
 class WorkerError(DeodarError):
-    """Raised when worker processes cannot do a run: something cannot be handed to them, or one of them has
+    """Raised when worker processes cannot execute a run: an object cannot be pickled, or a worker has
     died.
     """
 
 
 class OutputExists(DeodarError):
-    """Raised before writing over something that this run did not write."""
+    """Raised before overwriting a file that this run did not write."""
 
 
 class OutputError(DeodarError):
@@ -154,7 +154,7 @@ class RecordError(DeodarError):
 
 
 class AnalysisError(DeodarError):
-    """Raised when a measurement does not apply to what it was asked of."""
+    """Raised when a measurement does not apply to its argument."""
 
 
 class MissingExtra(DeodarError):
@@ -168,9 +168,7 @@ class MissingExtra(DeodarError):
 
 
 class Interrupted(DeodarError):
-    """Raised when a run is stopped with Ctrl-C; `data` holds what was recorded until then (an
-    `xarray.Dataset`).
-    """
+    """Raised when a run is stopped with Ctrl-C; `data` is the record until then (an `xarray.Dataset`)."""
 
     def __init__(self, what: str, data: Any) -> None:
         self.data = data
@@ -184,7 +182,7 @@ def _again(kind: type[DeodarError], args: tuple[Any, ...], state: dict[str, Any]
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A hint that names the nearest known name, or lists the few there are.
+    """Return a hint with the nearest known name, or with all names if they are few.
 
     >>> did_you_mean("restng_level", ["tau", "resting_level"])
     "Did you mean 'resting_level'?"
@@ -200,12 +198,12 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 
 
 def show(value: Any) -> str:
-    """A value as messages show it: in one short line, whatever it is."""
+    """Return any value as one short line, for messages."""
     if isinstance(value, type):
         return f"the class {value.__name__}"
     try:
         text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
-    except Exception as error:  # a number of thousands of digits, an object whose repr is broken
+    except Exception as error:  # a number of thousands of digits, or an object whose repr raises
         text = f"{type(value).__name__} ({error})"
     if " at 0x" in text:
         text = f"{an(type(value).__name__)}"
@@ -213,5 +211,5 @@ def show(value: Any) -> str:
 
 
 def an(name: str) -> str:
-    """A name with its article: an Axis, a Kernel."""
+    """Return a name with its article: an Axis, a Kernel."""
     return f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}"

@@ -1,4 +1,4 @@
-"""The members of a group by name: those of deodar, and those that installed packages name.
+"""The members of a group by name, from deodar and from installed packages.
 
 Measures and figures are such groups (`plugins.GROUPS`). Kinds and worlds, which documents store, are in
 `registry.py`.
@@ -21,10 +21,10 @@ class Extensions(Mapping[str, T], Generic[T]):
 
     Args:
         group: a key of `plugins.GROUPS`.
-        what: what a member is called in messages, for example "measure".
-        own: the members that come with deodar.
-        problem: what is wrong with an object that a package names, from its entry point and the object; ""
-            where nothing is.
+        what: the term for a member in messages, for example "measure".
+        own: the members in deodar.
+        problem: returns the problem of an object from a package, from its entry point and the object; ""
+            without a problem.
     """
 
     def __init__(
@@ -33,11 +33,11 @@ class Extensions(Mapping[str, T], Generic[T]):
         self._group, self._what, self._own, self._problem = group, what, own, problem
 
     def packaged(self) -> list[Plugin]:
-        """The members that installed packages name, without importing them."""
+        """Return the members from installed packages, without importing them."""
         return plugins.found(self._group, list(self._own()))
 
     def problem(self, plugin: Plugin) -> str:
-        """Import a member of a package and return what is wrong with it; "" where nothing is."""
+        """Import a member of a package and return its problem; "" without a problem."""
         found, problem = plugin.load()
         return problem or self._problem(plugin, found)
 
@@ -45,7 +45,7 @@ class Extensions(Mapping[str, T], Generic[T]):
         """Return a member.
 
         Raises:
-            UnknownName: no member has that name (the nearest is suggested), or its package cannot be used.
+            UnknownName: if no member has that name (the nearest is suggested), or its package cannot be used.
         """
         own = self._own()
         if name in own:
@@ -65,7 +65,7 @@ class Extensions(Mapping[str, T], Generic[T]):
         return plugin.load()[0]
 
     def __contains__(self, name: object) -> bool:
-        """Whether a member has that name, also one that cannot be used; nothing is imported."""
+        """Return whether a member has that name, usable or not, without importing it."""
         return name in self._own() or name in [p.name for p in self.packaged()]
 
     def __iter__(self) -> Iterator[str]:

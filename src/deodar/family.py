@@ -14,10 +14,10 @@ C = TypeVar("C", bound=type[Any])
 class Family(Mapping[str, type[T]], Generic[T]):
     """The classes of one family by their names, in the order of declaration.
 
-    The decorator `register` is the only way in, so no list names the classes a second time.
+    The decorator `register` adds a class, so that no second list of the classes is needed.
 
     Args:
-        base: the class that all of them derive from.
+        base: the base class of the family.
     """
 
     def __init__(self, base: type[T]) -> None:
@@ -28,7 +28,7 @@ class Family(Mapping[str, type[T]], Generic[T]):
         """Class decorator: add `cls` under its name.
 
         Raises:
-            ModelError: it does not derive from the base, or the name is taken.
+            ModelError: if `cls` does not derive from the base, or the name is taken.
         """
         base = self._base.__name__
         if not issubclass(cls, self._base):

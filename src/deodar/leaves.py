@@ -24,9 +24,9 @@ P = TypeVar("P", bound=Part)
 def leaves(
     part: Any, prefix: str = "", only: Container[str] | None = None
 ) -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
-    """(path, value, declaration) of every traced leaf, nested parts included: `kernel.0.sigma`.
+    """Yield (path, value, declaration) of every traced leaf, including nested parts: `kernel.0.sigma`.
 
-    `only`: of parameters with these names.
+    `only` restricts the parameters to these names.
     """
     for p in parameters(type(part)):
         if only is not None and p.name not in only:
@@ -49,7 +49,7 @@ def leaves(
 
 
 def bind(part: P, values: Callable[[str], Any], prefix: str = "") -> P:
-    """A copy whose traced leaves are `values(path)`; leaves for which it gives None keep their own value."""
+    """Return a copy whose traced leaves are `values(path)`; leaves for which it is None keep their value."""
     new = object.__new__(type(part))
     for p in parameters(type(part)):
         value, path = getattr(part, p.name), prefix + p.name
@@ -75,9 +75,10 @@ def _or(value: Any, default: Any) -> Any:
 
 
 def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = "") -> tuple[Any, ...]:
-    """Hashable description of all that is not a traced leaf, nor the name: equal structure, equal code.
+    """Return a hashable description of everything but traced leaves and the name: equal structure, equal
+    code.
 
-    Leaves named in `neutral` are left out of the program, which is a structure of its own.
+    Leaves in `neutral` are omitted from the program, which is a different structure.
     """
     out: list[Any] = [type(part)]
     for p in parameters(type(part)):
@@ -103,7 +104,7 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
 
 
 def arrays(part: Any) -> Iterator[np.ndarray]:
-    """The arrays among the parameters of a part and of its parts."""
+    """Yield the arrays among the parameters of a part and of its nested parts."""
     for p in parameters(type(part)):
         value = getattr(part, p.name)
         if isinstance(value, FrozenArray):
@@ -118,9 +119,9 @@ class StepLimit:
     """A parameter that limits the Euler step.
 
     Attributes:
-        path: of the parameter inside its part.
-        value: its value.
-        role: which kind of limit: one of `LIMITING`.
+        path: path of the parameter in its part.
+        value: value of the parameter.
+        role: the kind of limit, one of `LIMITING`.
     """
 
     path: str
@@ -143,7 +144,7 @@ class StepLimit:
 
 
 def step_limits(part: Any) -> Iterator[StepLimit]:
-    """Every parameter whose role limits the Euler step, nested parts included."""
+    """Yield every parameter whose role limits the Euler step, including nested parts."""
     only = _may_limit(type(part))
     return (
         StepLimit(path, value, p.role)
@@ -158,7 +159,7 @@ def _may_limit(cls: type[Part]) -> frozenset[str]:
 
 
 def resting(part: Any) -> frozenset[str]:
-    """Leaves that have their declared neutral value."""
+    """Return the leaves that have their declared neutral value."""
     return frozenset(
         path
         for path, value, p in leaves(part)
@@ -167,13 +168,15 @@ def resting(part: Any) -> frozenset[str]:
 
 
 def is_neutral(value: Any, neutral: float = 0.0) -> bool:
-    """Whether a bound value is the plain neutral number: the program is then compiled without it."""
+    """Return whether a bound value is the plain neutral number, so that the program is compiled without
+    it.
+    """
     values: tuple[Any, ...] = typing.cast(Any, value) if isinstance(value, tuple) else (value,)
     return all(isinstance(v, float) and v == neutral for v in values)
 
 
 def per_axis(value: Any, axes: Sequence[Any]) -> tuple[Any, ...]:
-    """One value for each axis, from one for all or one for each."""
+    """Return one value for each axis, from one value for all axes or one for each."""
     if isinstance(value, tuple):
         return typing.cast("tuple[Any, ...]", value)
     return (value,) * len(axes)
@@ -183,7 +186,7 @@ def per_axis(value: Any, axes: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def get(part: Any, path: str) -> Any:
-    """The value of a parameter: `get(field, "kernel.0.sigma")`."""
+    """Return the value of a parameter: `get(field, "kernel.0.sigma")`."""
     value = part
     for step in path.split("."):
         value = _child(value, step, path)
@@ -191,7 +194,7 @@ def get(part: Any, path: str) -> Any:
 
 
 def replace(part: P, path: str, value: Any) -> P:
-    """A copy with one value changed, checked as at construction: `replace(field, "kernel.0.sigma", 3)`."""
+    """Return a copy with one value changed and checked: `replace(field, "kernel.0.sigma", 3)`."""
     head, _, rest = path.partition(".")
     if rest:
         inner = _child(part, head, path)

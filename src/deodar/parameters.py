@@ -1,11 +1,11 @@
-"""The single declaration of a parameter, and everything that is read from it.
+"""The declaration of parameters, and the checks that follow from it.
 
-A part (element, coupling, kernel, sigmoid) is a frozen dataclass. Its annotations say what a parameter is,
-what it costs to change, and in which range it makes sense::
+A part (element, coupling, kernel, sigmoid) is a frozen dataclass. Its annotations state the type of a
+parameter, the cost of a change, the unit and the range::
 
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 20.0
 
-From this one line come the range check, the JSON form and its schema, the page of the manual, the form in the
+This line defines the range check, the JSON form and its schema, the page of the manual, the form in the
 studio and the traced leaf of the compiled program.
 """
 
@@ -51,11 +51,11 @@ class FrozenArray:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the array."""
+        """The shape of the array."""
         return self.data.shape
 
     def __reduce__(self) -> tuple[type[FrozenArray], tuple[np.ndarray]]:
-        return type(self), (self.data,)  # NumPy's own copies and pickles can be written to
+        return type(self), (self.data,)  # copies and pickles by NumPy would be writable
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, FrozenArray) and other.digest == self.digest
@@ -68,8 +68,8 @@ class FrozenArray:
 
 
 class Reference:
-    """A value inside a model, such as `u.kernel`: where a value is needed, it counts as the value that the
-    model has at that moment.
+    """A reference to a value in a model, such as `u.kernel`; it is replaced by the model's present value when
+    a value is needed.
     """
 
     def __value__(self) -> Any:
@@ -106,7 +106,7 @@ ValueForm = Literal[
 
 @dc.dataclass(frozen=True)
 class Parameter:
-    """One parameter as read from its declaration."""
+    """One parameter, read from its declaration."""
 
     name: str
     form: ValueForm
@@ -133,7 +133,7 @@ class Parameter:
 
 
 class Part(metaclass=PartType):
-    """Base of everything that is declared: a frozen dataclass whose annotations are read by `parameters`."""
+    """The base class of parts: a frozen dataclass whose annotations are read by `parameters`."""
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Part:
         known = [p.name for p in parameters(cls)]
@@ -164,7 +164,7 @@ class Part(metaclass=PartType):
             try:
                 if not _same(
                     stored := normal(p, given), given
-                ):  # an unchanged object is kept, so that changes are found by identity
+                ):  # an unchanged object is kept, so that changes can be detected by identity
                     object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
@@ -178,16 +178,18 @@ class Part(metaclass=PartType):
         return iter(())
 
     short: ClassVar[str] = ""
-    """How it may be written in short, for messages."""
+    """The short form of the part, for messages."""
 
     @classmethod
     def accept(cls, value: Any) -> Any:
-        """What may stand for an instance, made into one: for parts with a short way of writing them."""
+        """Convert the short form of a part to an instance, for parts that have one."""
         return value
 
     @classmethod
     def example(cls) -> Part:
-        """An instance that works on its own: what the tests, the manual and a palette start from."""
+        """Return an instance that works without other parts, for the tests, the manual and the studio's
+        palette.
+        """
         return cls()
 
     @classmethod
@@ -199,7 +201,7 @@ class Part(metaclass=PartType):
 
 
 def _call(cls: type[Any], last: Parameter) -> str:
-    """A call with the needed parameter and the positional parameters before it."""
+    """Return a call with the missing parameter and the positional parameters before it."""
     known, order = {p.name: p for p in parameters(cls)}, positional(cls)
     before = [known[name] for name in order[: order.index(last.name)]]
     likes = [
@@ -223,19 +225,19 @@ def _call(cls: type[Any], last: Parameter) -> str:
 
 @functools.cache
 def parameters(cls: type[Any]) -> tuple[Parameter, ...]:
-    """The parameters of a part in the order of its fields."""
+    """Return the parameters of a part in the order of its fields."""
     hints = typing.get_type_hints(cls, include_extras=True)
     return tuple(_read(cls, field, hints[field.name]) for field in dc.fields(cls))
 
 
 @functools.cache
 def positional(cls: type[Any]) -> tuple[str, ...]:
-    """Names of the parameters that may be given by position."""
+    """Return the names of the parameters that may be given by position."""
     return tuple(field.name for field in dc.fields(cls) if not field.kw_only)
 
 
 def parameter(cls: type[Any], name: str) -> Parameter:
-    """The parameter of that name; an unknown one is an error that suggests the nearest."""
+    """Return the parameter of that name; an unknown name is an error that suggests the nearest."""
     for p in parameters(cls):
         if p.name == name:
             return p
@@ -309,7 +311,7 @@ def _form(hint: Any) -> tuple[ValueForm, type[Any] | None, bool]:
 
 
 def normal(p: Parameter, value: Any) -> Any:
-    """The value in its stored form; a ValueError says what is wrong with it."""
+    """Return the value in its stored form, or raise a ValueError that states the problem."""
     if isinstance(value, Reference):
         value = value.__value__()
     if value is None and not p.optional:
@@ -324,10 +326,8 @@ def _same(a: Any, b: Any) -> bool:
 
 
 def real(value: Any) -> float | None:
-    """The number that a value is, or None if it is none; true and false are not, nor is text that looks like
-    one.
-    """
-    if hasattr(value, "item"):  # of NumPy or JAX
+    """Return the value as a number, or None if it is not a number; booleans and text are not numbers."""
+    if hasattr(value, "item"):  # a scalar of NumPy or JAX
         value = value.item() if np.ndim(value) == 0 else None
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return None
@@ -432,7 +432,7 @@ def _pairs(p: Parameter, value: Any) -> tuple[tuple[str, str], ...]:
 
 
 def _named(value: Any, what: str) -> list[tuple[str, Any]]:
-    """Pairs of a name and something, from a mapping or from a sequence of pairs; each name occurs once."""
+    """Return pairs of a unique name and a value, from a mapping or a sequence of pairs."""
     items = list(value.items()) if isinstance(value, Mapping) else _items(value)
     if not all(
         isinstance(item, (tuple, list)) and len(typing.cast(Any, item)) == 2 and isinstance(item[0], str)
@@ -446,7 +446,7 @@ def _named(value: Any, what: str) -> list[tuple[str, Any]]:
 
 
 def is_text(value: str) -> bool:
-    """Whether text can be written to a file: no halves of characters."""
+    """Return whether text can be written to a file: it has no unpaired surrogates."""
     try:
         value.encode()
     except UnicodeEncodeError:

@@ -1,6 +1,4 @@
-"""The class of parts: what `help`, `inspect.signature` and completion show of them, from their
-declarations.
-"""
+"""The metaclass of parts: `help`, `inspect.signature` and completion from their declarations."""
 
 from __future__ import annotations
 
@@ -20,7 +18,7 @@ _NAMES: dict[Any, str] = {type(None): "None", Any: "Any", ...: "..."}
 
 
 class PartType(type):
-    """The class of a part: its signature and documentation are those of the declared parameters.
+    """The metaclass of parts, which derives signature and documentation from the declared parameters.
 
     `cls.__doc__` is the docstring of the source (`docstring.source`) with units, ranges and the parameters
     that it does not describe.
@@ -41,9 +39,7 @@ class PartType(type):
         return _signature(cls)
 
     def __dir__(cls) -> list[str]:
-        """What no base class has, parameters aside: the signature has those, and a contract's methods are
-        listed where it is declared.
-        """
+        """List the attributes that no base class has, without the parameters, which are in the signature."""
         declared: Any = vars(cls).get("__dataclass_fields__", {})
         return sorted(
             name
@@ -55,14 +51,15 @@ class PartType(type):
 
 
 def _finished(cls: type[Any]) -> bool:
-    """Whether `dataclass` has made the class: it asks for the docstring before, when annotations may name
-    what is not defined yet.
+    """Return whether `dataclass` has completed the class.
+
+    `dataclass` reads the docstring before that, when annotations may refer to names that are not defined yet.
     """
     return "__match_args__" in vars(cls)
 
 
 class _Annotation:
-    """A type that a signature shows in a few plain words."""
+    """A type that a signature shows in words."""
 
     def __init__(self, hint: Any, text: str) -> None:
         self.hint, self.text = hint, text
@@ -106,11 +103,11 @@ def _words(hint: Any) -> str:
 
 @functools.cache
 def _documentation(cls: Any) -> str:
-    """The docstring of the source, with unit and range after each parameter, and the parameters that it does
-    not describe.
+    """Return the docstring of the source, with unit and range after each parameter, and with the parameters
+    that it does not describe.
     """
     text = docstring.source(cls)
-    if text.startswith(f"{cls.__name__}("):  # `dataclass` writes the call where the source has no docstring
+    if text.startswith(f"{cls.__name__}("):  # without a docstring in the source, `dataclass` writes the call
         text = ""
     read = docstring.parse(text or f"{cls.__name__}.")
     title = next((title for title in read.sections if title in _TITLES), _TITLES[0])

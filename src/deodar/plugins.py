@@ -1,12 +1,12 @@
 """Packages that extend deodar, found by their entry points.
 
-A package names in its metadata what it brings, for example
+A package lists its extensions in its metadata, for example
 
     [project.entry-points."deodar.kinds"]
     Change = "deodar_change.change:Change"
 
-Nothing is imported before its name is looked up. What is wrong with a package is text, not an error: the rest
-works, and `deodar doctor` lists it.
+An extension is imported when its name is looked up. A problem with a package is text, not an error: all other
+extensions work, and `deodar doctor` lists the problem.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ GROUPS = {
     "commands": "modules with HELP, arguments and run",
     "papers": "modules with HELP, about, jobs, report and so on",
 }
-"""What the entry points of each group `deodar.GROUP` name."""
+"""The kind of object that the entry points of each group `deodar.GROUP` refer to."""
 
 
 @dataclass(frozen=True)
@@ -37,10 +37,10 @@ class Plugin:
 
     Attributes:
         group: a key of `GROUPS`.
-        name: what it is looked up by.
-        package: name of the package as it is installed.
-        version: its version.
-        problem: why it is not imported, known without importing it; "" where nothing is.
+        name: name for look-ups.
+        package: name of the installed package.
+        version: version of the package.
+        problem: reason why it cannot be imported, found without importing it; "" without a problem.
         entry: the entry point.
     """
 
@@ -52,14 +52,14 @@ class Plugin:
     entry: importlib.metadata.EntryPoint
 
     def load(self) -> tuple[Any, str]:
-        """Import it, once: the object and "", or None and what is wrong."""
+        """Import the object, once; return it and "", or None and the problem."""
         return (None, self.problem) if self.problem else _load(self)
 
 
 def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
-    """The entry points of a group, in the order of their packages.
+    """Return the entry points of a group, in the order of their packages.
 
-    A name of deodar itself (`taken`), or of an earlier package, is a problem.
+    A name that deodar (`taken`) or an earlier package already has is a problem.
     """
     out: list[Plugin] = []
     owners = dict.fromkeys(taken, "deodar")
@@ -86,7 +86,7 @@ def _entries(group: str) -> tuple[importlib.metadata.EntryPoint, ...]:
 
 @functools.cache
 def _misfit(package: str) -> str:
-    """What is wrong where a package requires another version of deodar than this one."""
+    """Return the problem if a package requires another version of deodar."""
     # start-up time
     from packaging.requirements import InvalidRequirement, Requirement
     from packaging.utils import canonicalize_name
@@ -107,6 +107,6 @@ def _misfit(package: str) -> str:
 def _load(plugin: Plugin) -> tuple[Any, str]:
     try:
         return plugin.entry.load(), ""
-    except (Exception, SystemExit) as error:  # a module may raise anything
+    except (Exception, SystemExit) as error:  # a module may raise any exception
         first = (str(error).strip() or "no message").splitlines()[0]
         return None, f"raises {type(error).__name__} when it is imported: {first}"

@@ -1,4 +1,4 @@
-"""The folder is the registry: every module of an extension folder registers exactly one kind.
+"""The registry of kinds: every module of an extension folder registers exactly one kind.
 
 A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...). `scan` imports its modules once,
 when a kind is first looked up, and refuses a module that registers nothing or two things. Kinds of installed
@@ -26,7 +26,7 @@ _kinds: dict[str, type[Any]] = {}
 
 
 def register(cls: T) -> T:
-    """Class decorator: make `cls` known by its class name, the `kind` that documents store."""
+    """Class decorator: register `cls` under its class name, the `kind` that documents store."""
     owner = _kinds.get(cls.__name__)
     if owner is not None and owner.__module__ != cls.__module__:
         raise ModelError(
@@ -38,9 +38,11 @@ def register(cls: T) -> T:
 
 
 def modules(room: str) -> list[str]:
-    """Names of the modules of an extension folder: its files and, of each folder in it, the file of the
-    folder's own name (`worlds/arena/arena.py`), or the folder itself where it has no such file
-    (`importers/cosivina`). Names that begin with an underscore are not extensions.
+    """Return the names of the modules of an extension folder.
+
+    They are its files and, for each folder in it, the file with the folder's name
+    (`worlds/arena/arena.py`), or the folder itself without such a file (`importers/cosivina`). Names that
+    begin with an underscore are not extensions.
     """
     package = importlib.import_module(f"deodar.{room}")
     found = sorted(pkgutil.iter_modules(package.__path__), key=lambda module: module.name)
@@ -56,13 +58,14 @@ def _within(paths: Iterable[str], name: str) -> str:
 
 
 def imported(room: str) -> list[Any]:
-    """The modules of an extension folder themselves, in the order of their names."""
+    """Import and return the modules of an extension folder, in the order of their names."""
     return [importlib.import_module(name) for name in modules(room)]
 
 
 def kinds(room: str | None = None) -> dict[str, type[Any]]:
-    """Every registered kind by name, or those of one room: kinds from outside belong to the room None, worlds
-    of packages to `worlds` too.
+    """Return every registered kind by name, or those of one room.
+
+    Kinds of packages belong to the room None, worlds of packages also to `worlds`.
     """
     for each in ROOMS:
         _scan(each)
@@ -76,10 +79,10 @@ def kinds(room: str | None = None) -> dict[str, type[Any]]:
 
 
 def kind(name: str) -> type[Any]:
-    """The class registered under `name`, of deodar or of an installed package.
+    """Return the class registered under `name`, of deodar or of an installed package.
 
     Raises:
-        UnknownName: nothing is called so (the nearest name is suggested), or its package cannot be used.
+        UnknownName: if no kind has that name (the nearest is suggested), or its package cannot be used.
     """
     if name not in _kinds:
         for each in ROOMS:
@@ -102,19 +105,19 @@ def kind(name: str) -> type[Any]:
 
 
 def packaged() -> list[Plugin]:
-    """The kinds and worlds that installed packages name, without importing them."""
+    """Return the kinds and worlds of installed packages, without importing them."""
     own = {name for name, cls in _kinds.items() if cls.__module__.startswith("deodar.")}
     return [*plugins.found("kinds", own), *plugins.found("worlds", own)]
 
 
 def take(plugin: Plugin) -> str:
-    """Register the kind of a package; returns what is wrong, "" where nothing is."""
+    """Register the kind of a package; return the problem, "" without a problem."""
     before = set(_kinds)
     cls, problem = plugin.load()
     if not problem and getattr(cls, "__name__", "") != plugin.name:
         problem = f"names {plugin.entry.value} as {plugin.name!r}, which is no class of that name"
     if problem:
-        for extra in set(_kinds) - before:  # a module that raises may have registered a part of its kinds
+        for extra in set(_kinds) - before:  # a module that raises may have registered some of its kinds
             del _kinds[extra]
         return problem
     _kinds.setdefault(plugin.name, cls)
@@ -122,8 +125,8 @@ def take(plugin: Plugin) -> str:
 
 
 def package(name: str) -> str:
-    """Name and version of the installed package that a registered kind comes from, as documents state them;
-    "" where it comes from none.
+    """Return name and version of the package of a registered kind, in the form of documents; "" for a kind of
+    deodar.
     """
     cls = _kinds.get(name)
     if cls is None or cls.__module__.startswith("deodar."):

@@ -1,6 +1,6 @@
 """Public names that have changed: the table old -> new, and the errors that old names raise.
 
-CHANGELOG.md holds the same table; a test compares the two. The flat names are written `dd.NAME`, others with
+CHANGELOG.md has the same table; a test compares the two. Flat names are written `dd.NAME`, others with
 their full path.
 """
 
@@ -87,7 +87,7 @@ RENAMED = {
     "deodar.recording.files.save": "dd.save_record",
     "deodar.worlds.arena.Arena": "dd.Arena",
 }
-"""What each old name is called now."""
+"""The new name of each old name."""
 
 
 def fix(old: str) -> str:
@@ -109,8 +109,8 @@ def missing(module: str, name: str, known: Iterable[str] = ()) -> AttributeError
 
 
 def no_member(obj: object, name: str) -> AttributeError:
-    """Make the error for an attribute that an object of a public class does not have; Python itself suggests
-    the nearest one.
+    """Make the error for an attribute that an object of a public class does not have; Python suggests the
+    nearest one.
     """
     kind = type(obj).__name__
     text = f"{kind!r} object has no attribute {name!r}"
@@ -143,10 +143,10 @@ def arguments(call: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
 
 def left(module: str) -> Callable[[str], Any]:
-    """Make the `__getattr__` of a module that public names have left.
+    """Make the `__getattr__` of a module from which public names have moved.
 
     An old name raises ImportError, because `from MODULE import NAME` replaces the message of an
-    AttributeError by its own.
+    AttributeError with its own.
     """
 
     def __getattr__(name: str) -> Any:
