@@ -410,7 +410,7 @@ export type OpenText = {
   discard?: boolean;
 };
 
-// The whole document; None: no document is open. `session` is the number of documents opened so far.
+// The whole document; None: none is open. `session` increases when a document is opened or closed.
 export type Opened = {
   type: "opened";
   session: number;

@@ -117,7 +117,7 @@ class Engine:
         self._wake.set()
 
     def close(self) -> None:
-        """End both threads."""
+        """Stop the engine's thread and the compiler's threads."""
         self._closed = True
         self._wake.set()
         self._thread.join()

@@ -92,7 +92,7 @@ class OpenProject:
 
     @property
     def session(self) -> int:
-        """Number of documents opened so far."""
+        """Counter that increases when a document is opened or closed."""
         return self.turns.session
 
     def view(self) -> DocumentView | None:

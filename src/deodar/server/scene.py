@@ -44,7 +44,7 @@ class Follower:
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
         fresh = way is not self._way
         taken = 0 if fresh else self._taken
-        count = len(way.places)  # it may grow meanwhile
+        count = len(way.places)  # the engine's thread may add positions meanwhile
         if not fresh and count == taken and bodies == self._bodies:
             return None
         self._way, self._taken, self._bodies = way, count, bodies

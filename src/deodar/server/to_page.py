@@ -196,7 +196,7 @@ class Gallery(Message, frozen=True, tag="gallery"):
 
 @MESSAGES.register
 class Opened(Message, frozen=True, tag="opened"):
-    """The whole document; None: no document is open. `session` is the number of documents opened so far."""
+    """The whole document; None: none is open. `session` increases when a document is opened or closed."""
 
     session: int
     version: int

@@ -29,7 +29,7 @@ class DocumentRequest(Request, frozen=True):
 
     The server handles the requests of all pages one after the other. `session` is the number of the document
     that the request is meant for, as in `opened`; the request is refused if another document was opened
-    since. 0: any open document.
+    since. With 0 it is meant for any open document.
     """
 
     session: Count = 0

@@ -18,7 +18,7 @@ class Turns:
     document would overwrite the first.
 
     Attributes:
-        session: number of documents opened so far.
+        session: counter that increases when a document is opened or closed.
     """
 
     def __init__(self) -> None:
@@ -34,7 +34,7 @@ class Turns:
 
         Args:
             change: function that makes the change.
-            session: number of the document that the change is meant for; 0: any open document.
+            session: value of the counter for the document that the change is meant for; 0: any open document.
 
         Raises:
             DocumentError: another document was opened since.

@@ -310,7 +310,7 @@ def _timed(call: Callable[[int], object], multiple: int, seconds: float) -> floa
         return time.perf_counter() - began
 
     end = time.perf_counter() + seconds
-    n = 2 * multiple  # noise comes in pairs
+    n = 2 * multiple  # noise is drawn for pairs of ticks
     taken(n)
     none = min(taken(0) for _ in range(REPEATS))
     while taken(n) < none + SHORTEST and n < 2**28:

@@ -17,7 +17,7 @@ SPARE = 16
 """Number of things that may be placed besides those of the layout; it fixes the size of the arrays."""
 
 ALWAYS = (0, 2**31 - 1)
-"""First period, and end, of a thing without windows."""
+"""The window of a thing without windows: first period of presence, and the first one after it."""
 
 BORDER = 4
 
