@@ -40,7 +40,7 @@ Spread = Callable[
 
 
 PROVENANCE = ("duration", "seed", "every", "accuracy", "record")
-"""Parts of a request that every record states; what else it states is known only after the run began."""
+"""Parts of a request that every record states; other entries are known only after the start."""
 
 
 def compute(
@@ -50,8 +50,9 @@ def compute(
     progress: Shown = None,
     spread: Spread | None = None,
 ) -> pieces.PieceResult:
-    """Compute a whole run of `simulate`, or one piece of it; if all its copies diverge, the error is returned
-    beside the record.
+    """Compute a whole run of `simulate`, or one piece of it.
+
+    If all copies diverge, the error is returned beside the record.
 
     `spread` runs pieces in worker processes.
     """
@@ -151,7 +152,7 @@ def compute(
                 raise
             store.fill()
             nothing = error
-    # start-up time: these import xarray, which takes 0.3 s; sessions do without
+    # start-up time: these import xarray, which takes 0.3 s; sessions do not need it
     from deodar.recording.diverged import marked
     from deodar.recording.record import dataset
 
@@ -180,7 +181,7 @@ def compute(
 
 
 def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tuple[int, int]:
-    """Points and trials that a piece lacks to be as wide as the others."""
+    """Return the number of points and trials that a piece lacks to be as wide as the others."""
     if width is None:
         return 0, 0
     dimension, length = width
@@ -239,7 +240,7 @@ def _cut(
 
 
 def require_workers(workers: Any) -> int:
-    """The number of workers, refused if it is none."""
+    """Return the number of workers; raise if it is not a positive whole number."""
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
         raise ParameterError(
             f"workers is {show(workers)}; it is a number of processes, at least 1",
@@ -249,7 +250,7 @@ def require_workers(workers: Any) -> int:
 
 
 class _Store:
-    """Arrays for everything that is recorded, filled during the run."""
+    """Arrays for all recorded values, filled during the run."""
 
     def __init__(self, program: Executable, ports: Sequence[Port], batch: Batch, count: int) -> None:
         self.lead = len(batch.shape)
@@ -266,7 +267,7 @@ class _Store:
         self.taken = k + n
 
     def fill(self) -> None:
-        """Put NaN everywhere: no copy is left."""
+        """Fill all arrays with NaN: every copy has diverged."""
         for array in self.arrays:
             array[...] = np.nan
         self.taken = self.count
@@ -306,7 +307,7 @@ def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
 
 
 def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, Sequence[int]]:
-    """Labels of the dimension (None where there is none), and trial numbers."""
+    """Return labels of the dimension (None without the dimension), and trial numbers."""
     if trials is None:
         return None, [0]
     if isinstance(trials, (int, np.integer)) and not isinstance(trials, bool) and 1 <= trials <= LARGEST_SEED:

@@ -1,4 +1,4 @@
-"""How many cores a program uses: said before JAX starts, because its pool of threads is made once."""
+"""The number of cores of a program, set before JAX starts, because it creates its thread pool once."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from deodar.parameters import show
 def use_cores(n: int) -> None:
     """Let every program of this process use n cores of the CPU.
 
-    Call it before the first run. XLA makes its pool of threads when it starts, and reads their number
-    (`NPROC` in the environment) then and never again; the number also decides how programs are compiled.
-    Without it, and without `NPROC`, XLA takes all cores that the process may use.
+    Call it before the first run. XLA creates its thread pool when it starts, and reads the number of threads
+    (`NPROC` in the environment) only then; the number also determines how programs are compiled. Without it,
+    and without `NPROC`, XLA takes all cores that the process may use.
 
     One core is right for most single runs, and the command line's default: work on fields below 50 x 50 x 30
-    samples ends no sooner on two cores (the difference lay within 15 %) and takes up to twice the CPU time. A
-    field of 50 x 50 x 30 was done in 0.7 of the time, for 1.15 times the CPU time (measured by `NPROC=1`
-    against `NPROC=2` on two otherwise idle cores). Trials and sweeps gain from `simulate(..., workers=n)`,
-    which runs processes of one core each.
+    samples is no faster on two cores (the difference was within 15 %) and takes up to twice the CPU time. A
+    field of 50 x 50 x 30 took 0.7 of the time, for 1.15 times the CPU time (measured by `NPROC=1` against
+    `NPROC=2` on two otherwise idle cores). Trials and sweeps gain from `simulate(..., workers=n)`, which runs
+    processes of one core each.
 
     Args:
         n: number of cores, at least 1.
 
     Raises:
-        ParameterError: n is not such a number.
+        ParameterError: n is not a whole number of at least 1.
         CoresError: JAX has started with another number.
     """
     if isinstance(n, bool) or not isinstance(n, int) or n < 1:
@@ -48,11 +48,11 @@ def use_cores(n: int) -> None:
 
 
 def settled() -> bool:
-    """Whether the number is settled: by the environment, or because JAX has started."""
+    """Return whether the number is fixed: by the environment, or because JAX has started."""
     return CORES in os.environ or started()
 
 
 def started() -> bool:
-    """Whether JAX has started a backend in this process; importing JAX does not."""
-    bridge: Any = sys.modules.get("jax._src.xla_bridge")  # JAX tells it nowhere else
+    """Return whether JAX has started a backend in this process; importing JAX does not start one."""
+    bridge: Any = sys.modules.get("jax._src.xla_bridge")  # JAX has no public function for this
     return bridge is not None and bool(bridge.backends_are_initialized())

@@ -1,4 +1,4 @@
-"""What a parameter path drives."""
+"""The leaves that a parameter path drives."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from deodar.model.document import Document
 
 
 def driven(doc: Document, path: str) -> list[Leaf]:
-    """The numbers of the compiled program that a parameter, or a parameter of the document, drives.
+    """Return the numbers of the compiled program that a parameter, or a document parameter, drives.
 
     Raises:
-        ParameterError: changing it makes another program, or it drives nothing.
+        ParameterError: changing the parameter needs another program, or it drives no number.
     """
     found = find.target(doc, path)
     if found.entry is None:

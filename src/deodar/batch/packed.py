@@ -1,6 +1,6 @@
-"""A model and its world packed for another process, as plain data.
+"""A model and its world as plain data, for another process.
 
-A worker imports deodar and nothing else, so what the script that started it has defined must be importable.
+A worker imports only deodar, so classes that the calling script defines must be importable.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from deodar.worlds._base import World
 
 @dc.dataclass(frozen=True)
 class PackedModel:
-    """A model and its world, packed.
+    """A packed model and its world.
 
     Attributes:
-        document: the model's document as JSON text, and its `arrays` as the content of their file.
+        document: the model's document as JSON text; `arrays` is the content of its array file.
         trusted: whether functions that the document names may be run.
-        kinds: the classes outside deodar that the document names, pickled: reading them imports their
-            modules, which registers them.
+        kinds: the classes outside deodar that the document names, pickled: reading them imports and registers
+            them.
         packed: the world, pickled.
     """
 
@@ -39,10 +39,10 @@ class PackedModel:
 
     @classmethod
     def of(cls, model: Model, world: World | None) -> PackedModel:
-        """Pack both.
+        """Pack a model and its world.
 
         Raises:
-            WorkerError: something of them cannot be handed to another process.
+            WorkerError: a part of them cannot be sent to another process.
         """
         data, arrays = files.to_data(model.document)
         outside = _outside(data)
@@ -58,11 +58,11 @@ class PackedModel:
 
     @property
     def model(self) -> Model:
-        """The model; the next piece of the same run finds the compiled programs that it keeps."""
+        """Return the model; later pieces of the same run use its compiled programs."""
         return _model(self.document, self.arrays, self.trusted, self.kinds)
 
     def world(self) -> World | None:
-        """The world, another one each time."""
+        """Return a new copy of the world at each call."""
         return pickle.loads(self.packed)
 
 
@@ -74,7 +74,7 @@ def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
 
 
 def _outside(data: Mapping[str, Any]) -> list[type]:
-    """Classes outside deodar that the document names."""
+    """Return the classes outside deodar that the document names."""
     used = {name: registry.kind(name) for name in kinds_in(data["elements"])}
     return [cls for _, cls in sorted(used.items()) if not cls.__module__.startswith("deodar.")]
 
@@ -91,7 +91,7 @@ def _require_module(classes: Sequence[type]) -> None:
 def _pickled(what: Any, name: str) -> bytes:
     try:
         return pickle.dumps(what)
-    except Exception as error:  # a class may refuse in any way
+    except Exception as error:  # a class may raise any exception
         raise WorkerError(
             f"{name} cannot be handed to other processes ({type(error).__name__}: {error})",
             fix="Run without workers",

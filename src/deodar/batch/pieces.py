@@ -1,6 +1,4 @@
-"""How a large batch is cut into pieces that run one after another, or in processes beside each other, and put
-together again.
-"""
+"""Cut a large batch into pieces that run in sequence or in parallel processes, and join their records."""
 
 from __future__ import annotations
 
@@ -22,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class PieceResult(NamedTuple):
-    """The record of a piece, whether it is complete, and the error of its first copy if all of its copies
+    """The record of a piece, whether it is complete, and the error of its first copy if all its copies
     diverged.
     """
 
@@ -32,14 +30,14 @@ class PieceResult(NamedTuple):
 
 
 BATCH_BYTES = 8 * 2**20
-"""Ports of all copies in one batch, in bytes: beyond it a step no longer stays in the processor's cache.
+"""Largest number of bytes of the ports of all copies in one batch, so that a step stays in the cache.
 
-`python benchmarks/batches.py` prints the time of a step for each copy over the size of the batch. On a
-processor with 1 MiB of cache for each core and 32 MiB for all, planes of 200 x 200 take no longer in batches
-up to 8 (6 MiB), 1.3 times as long in batches of 24 (19 MiB), 1.6 times in batches of 48; 20 lines with 20
-nodes are quickest at 100 to 200 (8 to 16 MiB) and take 2.5 times as long at 400 (31 MiB); single lines of 200
-gain up to 400, which are 2 MiB. Smaller pieces cost little: from 16 copies of a plane, and from 64 of a line,
-a step is within 10 % of the quickest.
+`python benchmarks/batches.py` prints the time of a step per copy over the size of the batch. On a processor
+with 1 MiB of cache per core and 32 MiB for all, planes of 200 x 200 take the same time in batches up to 8 (6
+MiB), 1.3 times as long in batches of 24 (19 MiB), 1.6 times in batches of 48; 20 lines with 20 nodes are
+fastest at 100 to 200 (8 to 16 MiB) and take 2.5 times as long at 400 (31 MiB); single lines of 200 gain up to
+400, which are 2 MiB. Smaller pieces cost little: from 16 copies of a plane, and from 64 of a line, a step is
+within 10 % of the fastest.
 """
 
 
@@ -48,11 +46,11 @@ class Pieces:
     """A run cut along one of its leading dimensions: the longest of `trial` and the entries of the sweep.
 
     Attributes:
-        dimension: which one; empty where there is none.
+        dimension: name of the dimension; empty if the run has none.
         total: its length.
-        length: how much of it one piece takes; the last piece may take less, and is filled up to it when it
-            is computed.
-        rest: copies in each slice of it.
+        length: length of one piece along it; the last piece may be shorter, and is filled up to this length
+            when it is computed.
+        rest: copies in each slice along it.
     """
 
     dimension: str
@@ -62,7 +60,7 @@ class Pieces:
 
     @property
     def batch(self) -> int:
-        """Copies of the model in one piece, the last perhaps excepted."""
+        """Number of copies of the model in one piece; the last piece may have fewer."""
         return self.length * self.rest
 
     @property
@@ -73,7 +71,7 @@ class Pieces:
     def requests(
         self, whole: SimulationRequest, trials: Sequence[int] | None, sweep: Mapping[str, Sequence[float]]
     ) -> list[SimulationRequest]:
-        """For each piece the request of the whole run, with the trials and the sweep of the piece."""
+        """Return for each piece the request of the whole run, with the trials and the sweep of the piece."""
         out: list[SimulationRequest] = []
         for first in range(0, self.total, self.length):
             part = slice(first, first + self.length)
@@ -96,12 +94,12 @@ class Pieces:
 
 
 def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: int | None = None) -> Pieces:
-    """Cut a run so that a piece stays in the cache, and so that all workers have the same to do.
+    """Cut a run so that a piece fits into the cache, and all workers have equal work.
 
     Args:
-        lengths: the leading dimensions of the run and how long they are.
-        bytes_a_copy: what one copy of the model holds in its ports; 0: no bound.
-        workers: processes that share the pieces.
+        lengths: the leading dimensions of the run and their lengths.
+        bytes_a_copy: bytes of the ports of one copy of the model; 0: no bound.
+        workers: number of processes that share the pieces.
         batch: copies in one piece; none: as many as fit into `BATCH_BYTES`, fewer where that gives every
             worker as many pieces.
     """
@@ -123,13 +121,15 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
 def joined(
     pieces: Pieces, parts: Sequence[PieceResult | None], settings: Mapping[str, Any]
 ) -> xarray.Dataset:
-    """One record from those of the pieces: of all that are complete; if none is, of those begun, up to a time
-    that keeps most of them.
+    """Join the records of the pieces into one.
+
+    All complete pieces are joined; without any, those begun, up to a time that keeps most of their values.
 
     Args:
-        pieces: how the run was cut.
-        parts: for each piece its record; None where it was not begun. If all are None the record is empty.
-        settings: what the record says of the whole run.
+        pieces: the pieces of the run.
+        parts: the record of each piece; None for a piece that was not begun. If all are None the record is
+            empty.
+        settings: settings of the whole run, for the record.
     """
     # start-up time: these bring xarray
     import xarray
@@ -165,7 +165,7 @@ def joined(
 
 
 def _abreast(records: Sequence[xarray.Dataset]) -> list[xarray.Dataset]:
-    """Records of different lengths cut to one, and those left out that are shorter, so that most is kept."""
+    """Return records cut to one length, without the shorter ones, so that most values are kept."""
     lengths = [data.sizes["time"] for data in records]
     most = max(lengths, key=lambda n: n * sum(other >= n for other in lengths), default=0)
     return [data.isel(time=slice(most)) for data, n in zip(records, lengths, strict=True) if n >= most]

@@ -17,7 +17,7 @@ from deodar.parameters import real, show
 
 
 class Points:
-    """The grid of a sweep: which leaves each entry drives, and its value at every point."""
+    """The grid of a sweep: the leaves that each entry drives, and its value at every point."""
 
     def __init__(self, doc: Document, sweep: Mapping[str, Sequence[float]]) -> None:
         self.doc = doc
@@ -37,27 +37,31 @@ class Points:
 
     @property
     def values(self) -> list[np.ndarray]:
-        """For each entry its value at every point; made when it is known that they fit into memory."""
+        """Return for each entry its value at every point; computed after the check that they fit into
+        memory.
+        """
         return [grid.ravel() for grid in np.meshgrid(*(np.array(v) for v in self.lists), indexing="ij")]
 
     def place(self, copy: tuple[int, ...], trials: bool) -> tuple[int, ...]:
-        """Place of a copy along the entries of the sweep, and of the trials where there are any."""
+        """Return the index of a copy along the entries of the sweep, and along the trials if it has any."""
         point = np.unravel_index(copy[0], [len(v) for v in self.lists]) if self.lists else ()
         return (*(int(k) for k in point), *copy[len(copy) - trials :])
 
     @property
     def by_path(self) -> dict[str, list[float]]:
-        """For each path the values it takes."""
+        """For each path its values."""
         return dict(zip(self.paths, self.lists, strict=True))
 
     def documents(self) -> Iterator[Document]:
-        """The document at each value of each entry (not each point): values are checked one by one."""
+        """Yield the document at each value of each entry (not at each point): values are checked one by
+        one.
+        """
         for path, values in zip(self.paths, self.lists, strict=True):
             for value in values:
                 yield edit.change(self.doc, path, value)
 
     def rebuilt(self) -> set[str]:
-        """Ids of the elements whose constants differ from point to point."""
+        """Return the ids of the elements whose constants differ from point to point."""
         by = self.doc.by_id()
         costs = {
             (i, path): cost(p)
@@ -68,7 +72,7 @@ class Points:
 
 
 def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequence[float]) -> None:
-    """Refuse values that switch something off among values that do not: they are not one program."""
+    """Refuse values that switch a term off among values that do not: they need different programs."""
     by = doc.by_id()
     for ident, inner in driven:
         declared = {leaf: p for leaf, _, p in leaves(by[ident].element)}[inner]

@@ -1,8 +1,10 @@
-"""A pool of worker processes that one thread drives: no threads of its own, so nothing of it outlives the
-call that uses it.
+"""A pool of worker processes that one thread drives.
+
+The pool has no threads of its own, so that no part of it outlives the call that uses it.
 
 Each worker has a pipe. It receives a task, sends the result back, and ends when its pipe is closed. The
-parent waits for pipes and for the end of processes at once; what it has not received it never reads later.
+parent waits for pipes and for the end of processes at the same time; a result that it has not received then
+is not read later.
 """
 
 from __future__ import annotations
@@ -29,12 +31,11 @@ Task = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
 class Pool:
-    """Worker processes of one core each, as a context: leaving it ends them, at once if an exception is
-    raised.
+    """Worker processes of one core each, as a context: leaving it ends them, immediately after an exception.
 
     Args:
         count: number of processes.
-        main: whether they import the main script, as functions that stand in it need.
+        main: whether they import the main script, as functions that it defines need.
     """
 
     def __init__(self, count: int, main: bool = False) -> None:
@@ -68,20 +69,20 @@ class Pool:
         return len(self._busy)
 
     def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any) -> None:
-        """Give a task to an idle worker; `wait` returns its result under the key."""
+        """Send a task to an idle worker; `wait` returns its result under the key."""
         process, pipe = self._idle.pop()
         self._busy[pipe] = process, key
         with contextlib.suppress(
             BrokenPipeError, ConnectionResetError
-        ):  # a worker that has died is reported by `wait`
+        ):  # `wait` reports a worker that has died
             pipe.send((function, arguments))
 
     def wait(self, seconds: float) -> list[tuple[Any, Any]]:
-        """Keys and results of the tasks that are done, after waiting for one of them at most so long.
+        """Return keys and results of completed tasks, after waiting at most `seconds` for one of them.
 
         Raises:
             WorkerError: a process has died, or a result cannot be sent between processes.
-            Exception: what a task has raised.
+            Exception: the exception that a task has raised.
         """
         ends = {process.sentinel: pipe for pipe, (process, _) in self._busy.items()}
         ready = multiprocessing.connection.wait([*self._busy, *ends], seconds)
@@ -108,13 +109,13 @@ def _started() -> tuple[SpawnProcess, Connection]:
     here, there = context.Pipe()
     process = context.Process(target=_serve, args=(there,))
     process.start()
-    there.close()  # so that the worker's end is the only one, and its death is seen
+    there.close()  # so that the worker's end is the only one, and its death is detected
     return process, here
 
 
 @contextlib.contextmanager
 def _quiet(main: bool) -> Generator[None]:
-    """Processes started meanwhile do not see Ctrl-C: the parent says when to stop.
+    """Start processes that ignore Ctrl-C: the parent stops them.
 
     Without `main` they do not import the main script either.
     """
@@ -137,9 +138,7 @@ def _quiet(main: bool) -> Generator[None]:
 
 
 def _serve(pipe: Connection) -> None:
-    """Carry out tasks until the pipe is closed: on one core, without Ctrl-C, and not longer than the parent
-    lives.
-    """
+    """Run tasks until the pipe is closed: on one core, without Ctrl-C, and at most until the parent ends."""
     os.environ["NPROC"] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -149,23 +148,23 @@ def _serve(pipe: Connection) -> None:
 
 
 def _done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
-    """Whether the task succeeded, and its result or error, pickled."""
+    """Return whether the task succeeded, and its result or error, pickled."""
     try:
         result = function(*arguments)
     except Exception as error:
-        if not isinstance(error, DeodarError):  # of ours the message says it all
+        if not isinstance(error, DeodarError):  # the messages of deodar's own errors are sufficient
             error.add_note(f"In a worker process:\n{traceback.format_exc()}")
         return _failed(error, f"the error {type(error).__name__} ({error})")
     try:
         return pickle.dumps((True, result))
-    except Exception as error:  # a class may refuse in any way
+    except Exception as error:  # a class may raise any exception
         return _failed(_unsendable("the result", error), "the result")
 
 
 def _failed(error: Exception, what: str) -> bytes:
     try:
         packed = pickle.dumps((False, error))
-        pickle.loads(packed)  # an error may need more to be made again than it kept
+        pickle.loads(packed)  # an error may need more arguments to be restored than it stores
     except Exception as reason:
         return pickle.dumps((False, _unsendable(what, reason)))
     return packed

@@ -1,4 +1,4 @@
-"""How a run shows its progress: a bar on a terminal, lines elsewhere."""
+"""The progress of a run: a bar on a terminal, lines elsewhere."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SHOW_AFTER = 1.0
 """Seconds after which a run shows a progress bar, if it writes to a terminal."""
 
 LINE_AFTER = 10.0
-"""Seconds after which a run that is asked to shows its progress as a line, where there is no terminal."""
+"""Seconds after which a run whose progress is requested prints it as a line, without a terminal."""
 
 Shown = bool | Callable[[int], None] | None
 """Whether to show a progress bar (None: on a terminal, after a second), or a function that is called with the
@@ -20,8 +20,10 @@ number of completed steps.
 
 
 def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
-    """Progress as lines, for files: at first after LINE_AFTER, then each time after twice as long, so that a
-    day makes about a dozen.
+    """Return a function that prints progress as lines, for files.
+
+    The first line follows after LINE_AFTER, each next one after twice the time, so that a day makes about a
+    dozen.
     """
     began = now()
     due = [began + LINE_AFTER]
@@ -41,7 +43,7 @@ def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
 
 @contextlib.contextmanager
 def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
-    """A progress bar that appears once the run takes longer than SHOW_AFTER."""
+    """Show a progress bar once the run takes longer than SHOW_AFTER."""
     if callable(progress):
         yield progress
         return

@@ -1,4 +1,4 @@
-"""A simulation that was asked for: how long, with which copies, and how it is computed."""
+"""The request of a simulation: its duration, its copies, and how it is computed."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from collections.abc import Mapping, Sequence
 
 @dc.dataclass(frozen=True)
 class SimulationRequest:
-    """A simulation that was asked for, as `deodar.simulate` gets it or as one piece of it. Worker processes
-    get it pickled, so it holds plain data: the model, its world and the progress bar are beside it.
+    """The request of a simulation, as passed to `deodar.simulate`, or of one piece of it.
+
+    Worker processes receive it pickled, so it contains plain data: the model, its world and the progress bar
+    are passed separately.
 
     Attributes:
         duration: document time; a whole number of steps.
@@ -20,13 +22,13 @@ class SimulationRequest:
         trials: number of trials, or a list of trial numbers; none: one run without a dimension `trial`.
         sweep: for each parameter path its values; none: no sweep.
         precision: float32 or float64.
-        workers: number of processes that share the copies; none: this process alone.
+        workers: number of processes that share the copies; none: only this process.
         batch: copies that run at once in one process; none: as many as fit into the cache.
         device: where it runs; none: the CPU.
         accuracy: default or exact.
         width: of a piece, a dimension and its length in the other pieces. The piece is filled up to it with
-            copies of its last one, whose results are not kept: the last digits in single precision depend on
-            how many copies are computed together.
+            copies of its last one, whose results are dropped: the last digits in single precision depend on
+            the number of copies that are computed together.
     """
 
     duration: float

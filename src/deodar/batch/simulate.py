@@ -1,5 +1,5 @@
-"""`simulate`: one call, one labelled record; trials and sweeps as one batched program, or as several beside
-each other.
+"""`simulate`: one call, one labelled record; trials and sweeps as one batched program, or as several in
+parallel.
 """
 
 from __future__ import annotations
@@ -24,10 +24,12 @@ if TYPE_CHECKING:
     import xarray
 
 TICKS = 2**32
-"""Steps that the counter of the noise tells apart."""
+"""Number of steps that the counter of the noise can distinguish."""
 
 LONG_STEPS = 10**9
-"""Steps from which on a run is announced: the fastest models take an hour for them, most a day."""
+"""Number of steps from which on a warning announces a run: the fastest models need an hour for them, most a
+day.
+"""
 
 
 def simulate(
@@ -47,54 +49,54 @@ def simulate(
     device: str | None = None,
     accuracy: str = "default",
 ) -> xarray.Dataset:
-    """Run a model and return what was recorded.
+    """Run a model and return its record.
 
-    Trials and points of a sweep are copies of the model in one batch. A batch that would outgrow the
+    Trials and points of a sweep are copies of the model in one batch. A batch that would exceed the
     processor's cache is cut into pieces, along the longest of these dimensions; `workers` runs the pieces in
-    processes of one core each. The noise is the same bits however it is cut, and float64 results agree to
-    1e-10. A worker takes one to two seconds to start, so a short run is done sooner without.
+    processes of one core each. The noise has the same bits for any cut, and float64 results agree to 1e-10. A
+    worker takes one to two seconds to start, so a short run is faster without.
 
-    In float32 the last digits of a copy depend on how many points and trials are computed together, because
-    the compiler orders sums by the size of arrays: results of other widths agree to 1e-4. Of the same width
-    all bits agree, whatever the place of a copy, the number of pieces, chunks, workers, restarts and the
-    order of declaration. All pieces of a run have the same width: `batch` in the record; the last one is
-    filled up. With `batch=1` each trial has the bits of a single run. `python benchmarks/bits.py` tests this
-    with random combinations.
+    In float32 the last digits of a copy depend on the number of points and trials that are computed together,
+    because the compiler orders sums by the size of arrays: results of other widths agree to 1e-4. At the same
+    width all bits agree, for any place of a copy, number of pieces, chunks, workers and restarts, and order
+    of declaration. All pieces of a run have the same width: `batch` in the record; the last one is filled up.
+    With `batch=1` each trial has the bits of a single run. `python benchmarks/bits.py` tests this with random
+    combinations.
 
     Args:
-        model: the model, as it now is.
+        model: the model in its present state.
         duration: document time; a whole number of steps.
         dt: Euler step; none: the document's own, else 1.
         seed: seed of all noise, 0 to 2^32 - 1.
         record: paths of ports; the path of a field alone means its activation. None: the activation of every
-            field and node, at one time, the end.
-        every: document time between records; none: dt. The first record is the initial state.
+            field and node, at the end only.
+        every: sampling interval in document time; none: dt. The first sample is the initial state.
         trials: number of trials (0 to n - 1 of the seed), or a list of trial numbers; trials differ in their
             noise.
         sweep: for each parameter path its values; several entries form a grid. All points share the noise.
         precision: float32 or float64.
-        world: what provides the sensors that the model names.
+        world: the world that provides the sensors of the model.
         progress: whether to show a progress bar; none: on a terminal, if the run takes longer than a second.
             A function is called with the number of completed steps. From 10^9 steps on a `RunWarning` states
             their number, and progress is shown unless this is False: without a terminal as lines.
-        workers: number of processes that share the copies; one for each core is best.
-        batch: copies that run at once in one process; none: as many as fit into the cache, all where there is
-            no cache to fit into.
-        device: where it runs: cpu, gpu, or one of several as gpu:1; none: the CPU.
-        accuracy: default (at most 1e-4 off in activation), or exact: every kernel by its matrix, however much
-            longer that takes. Double precision always is, and so are elements of which a width is swept.
+        workers: number of processes that share the copies; one per core is best.
+        batch: copies that run at once in one process; none: as many as fit into the cache, all on devices
+            other than the CPU.
+        device: device of the run: cpu, gpu, or one of several as gpu:1; none: the CPU.
+        accuracy: default (at most 1e-4 off in activation), or exact: every kernel by its matrix, even where
+            that is slower. Double precision is always exact, and so are elements of which a width is swept.
 
     Returns:
-        A Dataset with one variable for each path; dimensions: sweep paths, `trial` (where given), `time`,
-        axes. Of copies that diverge all values are NaN, at all times; the coordinate `diverged` gives the
-        reason of each, the attribute `diverged` counts them, and a `RunWarning` repeats it.
+        A Dataset with one variable for each path; dimensions: sweep paths, `trial` (if given), `time`, axes.
+        All values of copies that diverge are NaN, at all times; the coordinate `diverged` gives the reason of
+        each, the attribute `diverged` counts them, and a `RunWarning` repeats it.
 
     Raises:
-        NotFinite: a single run diverges, or all copies do.
-        Interrupted: on Ctrl-C; its `data` holds what was recorded until then; of a run in pieces those that
-            are complete, if there are any.
-        DeviceError: there is no such device.
-        WorkerError: something cannot be handed to another process, or a process has died.
+        NotFinite: a single run diverges, or all copies diverge.
+        Interrupted: on Ctrl-C; its `data` holds the samples recorded before; of a run in pieces the complete
+            pieces, if any.
+        DeviceError: the device does not exist.
+        WorkerError: a part of the model cannot be sent to another process, or a process has died.
     """
     require_model(model)
     steps = expected_steps(duration, model.document.step if dt is None else dt)
@@ -119,7 +121,7 @@ def simulate(
 
 
 def expected_steps(duration: Any, dt: Any) -> int:
-    """Steps of a run, 0 where it will be refused anyway."""
+    """Return the number of steps of a run; 0 if the run will be refused."""
     wanted, step = real(duration), real(dt)
     good = wanted is not None and step is not None and 0 < step < math.inf and 0 <= wanted < math.inf
     steps = wanted / step if good and wanted is not None and step is not None else 0.0

@@ -1,8 +1,8 @@
-"""Worker processes: one for each core, which run pieces of a large batch beside each other.
+"""Worker processes, one per core, which run pieces of a large batch in parallel.
 
-A worker imports deodar and nothing else. It gets the document as JSON text, so that the script that started
-it is not run again: no `if __name__ == "__main__"` is needed, and a notebook or `python -c` will do. Steps
-done and the wish to stop stand in one small file that all processes map.
+A worker imports only deodar. It receives the document as JSON text, so that the calling script is not run
+again: no `if __name__ == "__main__"` is needed, and a notebook or `python -c` works. One small file that all
+processes map holds the completed steps and the request to stop.
 """
 
 from __future__ import annotations
@@ -25,18 +25,19 @@ from deodar.session.interrupt import AtOnce
 from deodar.worlds._base import World
 
 LOOK_EVERY = 0.1
-"""Seconds between two looks at what the workers have done."""
+"""Seconds between two reads of the progress of the workers."""
 
 
 @dc.dataclass(frozen=True)
 class WorkerTask:
-    """One piece, as a worker gets it.
+    """One piece, as a worker receives it.
 
     Attributes:
         packed: the model and its world.
-        request: the simulation that the piece is.
-        board: the file that all processes map: for each piece the steps done, and at the end whether to stop.
-        number: which piece this is.
+        request: the simulation of the piece.
+        board: the file that all processes map: for each piece the completed steps, and at the end whether to
+            stop.
+        number: number of the piece.
     """
 
     packed: PackedModel
@@ -52,20 +53,21 @@ def run(
     workers: int,
     between: Callable[[int], None],
 ) -> list[PieceResult | None]:
-    """Run the pieces in `count` processes; return the record of each, or None if the run was stopped before
-    the piece began.
+    """Run the pieces in `workers` processes, and return their records.
+
+    The record is None if the run was stopped before the piece began.
 
     Args:
-        model: the model, as it now is.
-        world: what it senses; every worker has a copy of it.
-        pieces: the simulation that each piece is.
+        model: the model in its present state.
+        world: the world of its sensors; every worker has a copy of it.
+        pieces: the simulation of each piece.
         workers: number of processes.
-        between: called from time to time with the number of completed steps of all pieces; a
+        between: function that is called from time to time with the number of completed steps of all pieces; a
             KeyboardInterrupt that it raises stops all.
 
     Raises:
-        KeyboardInterrupt: on a second Ctrl-C; the processes are ended at once.
-        WorkerError: something cannot be handed to another process, or a process has died.
+        KeyboardInterrupt: on a second Ctrl-C; the processes end immediately.
+        WorkerError: a part of the model cannot be sent to another process, or a process has died.
     """
     packed = PackedModel.of(model, world)
     parts: list[PieceResult | None] = [None] * len(pieces)
@@ -81,7 +83,7 @@ def run(
                     between(sum(board.tolist()[:-1]))
                 except AtOnce:
                     raise
-                except KeyboardInterrupt:  # those that run say how far they have come
+                except KeyboardInterrupt:  # running pieces report how far they have come
                     board[-1] = 1
                     waiting.clear()
     return parts
@@ -98,7 +100,7 @@ def _board(size: int) -> Generator[tuple[str, memoryview]]:
 
 @contextlib.contextmanager
 def _mapped(path: str) -> Generator[memoryview]:
-    """The whole numbers of a file, which all processes that map it see change."""
+    """Map a file as whole numbers that all processes share."""
     with (
         open(path, "r+b") as file,
         mmap.mmap(file.fileno(), 0) as held,

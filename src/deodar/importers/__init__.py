@@ -1,1 +1,1 @@
-"""Files of other tools, made into models: one folder for each tool, found by what a file holds."""
+"""Importers of other tools' files: one folder per tool, recognised by the content of a file."""

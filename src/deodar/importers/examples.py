@@ -1,8 +1,7 @@
-"""The examples that come with deodar, found by name: `example:selection` stands wherever a file of a model
-does.
+"""The examples of deodar by name: `example:selection` is valid wherever the file of a model is.
 
 An example is a document in the folder `examples`, `NAME.json`, with its notes, or a script, `NAME.py`, with
-its docstring. `order.txt` there says which documents come first.
+its docstring. `order.txt` in the folder states the order of the first documents.
 """
 
 from __future__ import annotations
@@ -17,13 +16,13 @@ from deodar import codec
 from deodar.errors import UnknownName, did_you_mean
 
 PREFIX = "example:"
-"""Begins a name that stands for the file of an example."""
+"""Prefix of a name that means the file of an example."""
 
 LONGEST = 140
-"""Most characters of a sentence."""
+"""Largest number of characters of a sentence."""
 
 MAKERS = ("make", "pictures")
-"""Scripts of the folder that write the examples and their pictures."""
+"""Scripts of the folder that write the examples and their pictures, and are not examples."""
 
 
 def folder() -> Path:
@@ -34,7 +33,7 @@ def folder() -> Path:
 
 
 def names() -> list[str]:
-    """List the documents, in the order in which a reader is best shown them."""
+    """List the documents, in the order in which a reader should see them."""
     order = folder() / "order.txt"
     first = order.read_text(encoding="utf-8").split() if order.is_file() else []
     found = sorted(p.stem for p in folder().glob("*.json"))
@@ -50,7 +49,7 @@ def file(name: str) -> Path:
     """Return the document or the script of an example.
 
     Raises:
-        UnknownName: there is none of that name.
+        UnknownName: no example has that name.
     """
     if name in names():
         return folder() / f"{name}.json"
@@ -64,8 +63,8 @@ def file(name: str) -> Path:
 
 
 def parts(name: str) -> list[Path]:
-    """List the files that an example needs, its own first: the arrays of a document, the documents that a
-    script reads.
+    """List the files that an example needs, its own first: the arrays of a document, the documents of a
+    script.
     """
     own = file(name)
     text = own.read_text(encoding="utf-8")
@@ -77,10 +76,10 @@ def parts(name: str) -> list[Path]:
 
 
 def named(path: str | Path) -> Path:
-    """Return the path of a document; `example:NAME` stands for that of an example.
+    """Return the path of a document; `example:NAME` gives the document of an example.
 
     Raises:
-        UnknownName: there is no example of that name, or it is a script.
+        UnknownName: no example has that name, or it is a script.
     """
     text = str(path)
     if not text.startswith(PREFIX):
@@ -95,13 +94,13 @@ def named(path: str | Path) -> Path:
 
 
 def holds(path: Path) -> bool:
-    """Tell whether a path is the document of an example, where it stands."""
+    """Return whether a path is the document of an example in the folder of the examples."""
     return path.suffix == ".json" and path.parent == folder() and path.stem in names()
 
 
 def near(path: Path) -> str:
-    """Suggest what a missing file may have meant: an example, or a document in the same folder with a similar
-    name.
+    """Suggest the intended file for a missing one: an example, or a document in the same folder with a
+    similar name.
     """
     if path.stem in names() and path.suffix in ("", ".json"):
         return f"Did you mean '{PREFIX}{path.stem}'?"
@@ -126,15 +125,13 @@ def about(name: str) -> dict[str, Any]:
 
 
 def sentence(name: str) -> str:
-    """Return what an example shows, in one sentence."""
+    """Return one sentence on what an example shows."""
     found = about(name)
     return first_sentence(found["notes"], found["title"])
 
 
 def first_sentence(notes: str, title: str) -> str:
-    """Return the first sentence of notes, which may begin with the title; a long one is cut where it
-    pauses.
-    """
+    """Return the first sentence of notes, which may begin with the title; a long one is cut at a pause."""
     rest = " ".join(notes.split())
     if rest.lower().startswith(f"{title.lower()}."):
         rest = rest[len(title) + 1 :].strip()
@@ -146,6 +143,8 @@ def first_sentence(notes: str, title: str) -> str:
 
 
 def duration(name: str) -> float | None:
-    """Return how long an example is to be run, in its time unit: its notes end with it. None for a script."""
+    """Return the duration of an example in its time unit, which its notes state at the end. None for a
+    script.
+    """
     found = re.search(r"for (\d+) (?:ms|steps)\.$", about(name)["notes"].strip())
     return float(found[1]) if found and name in names() else None

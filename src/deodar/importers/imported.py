@@ -1,4 +1,4 @@
-"""What an importer gives."""
+"""The result of an importer."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from deodar.model.model import Model
 
 @dc.dataclass(frozen=True)
 class Imported:
-    """A model made from a file of another tool, and what became of everything in it."""
+    """A model made from a file of another tool, and the report of the conversion."""
 
     model: Model
     report: ImportReport

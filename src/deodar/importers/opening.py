@@ -1,4 +1,4 @@
-"""Opening a file, whosever it is: our own documents, and the files of other tools by what they hold."""
+"""Load a model from any supported file format: deodar's documents, and files of other tools."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from deodar.model.model import Model
 from deodar.plugins import Plugin
 
 HEAD = 65536
-"""Bytes by which a file is told."""
+"""Number of bytes by which the format of a file is recognised."""
 
 OWN = b'"deodar":'
-"""What our own documents begin with."""
+"""First bytes of deodar's documents."""
 
 
 def tools() -> dict[str, ModuleType]:
-    """The importers by name: every folder beside this file, and those of installed packages.
+    """Return the importers by name: every folder beside this file, and those of installed packages.
 
     Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs) -> Imported`.
     """
@@ -32,23 +32,23 @@ def tools() -> dict[str, ModuleType]:
 
 
 def own() -> dict[str, ModuleType]:
-    """The importers that come with deodar."""
+    """Return the importers that are part of deodar."""
     found = [importlib.import_module(name) for name in registry.modules("importers")]
     return {module.NAME: module for module in found if hasattr(module, "sniff")}
 
 
 def packaged() -> list[Plugin]:
-    """The importers that installed packages name, without importing them."""
+    """Return the importers that installed packages name, without importing them."""
     return plugins.found("importers", list(own()))
 
 
 def require(path: str | Path) -> Path:
-    """Return the path of a file that is to be opened; `example:NAME` stands for an example.
+    """Return the path of a file to open; `example:NAME` gives the document of an example.
 
     Raises:
-        DocumentError: there is no such file; an example or a document in its folder with a similar name is
-            suggested.
-        UnknownName: there is no example of that name.
+        DocumentError: the file does not exist; the error suggests an example or a document in the same folder
+            with a similar name.
+        UnknownName: no example has that name.
     """
     path = examples.named(path)
     try:
@@ -63,9 +63,7 @@ def require(path: str | Path) -> Path:
 
 
 def tool_of(path: str | Path) -> ModuleType | None:
-    """The importer that knows a file, by what it holds; None for our own documents and for what nobody
-    knows.
-    """
+    """Return the importer for the content of a file; None for deodar's documents and unknown formats."""
     if not isinstance(path, (str, Path)):
         return None
     try:
@@ -78,7 +76,7 @@ def tool_of(path: str | Path) -> ModuleType | None:
 
 
 def tool_for(content: bytes) -> ModuleType | None:
-    """The importer that knows a file by its content, or by the beginning of it."""
+    """Return the importer for the content of a file, or for the beginning of the content."""
     head = content[:HEAD]
     if OWN in head[:200]:
         return None
@@ -86,14 +84,14 @@ def tool_for(content: bytes) -> ModuleType | None:
 
 
 def read(path: str | Path, bugs: bool = False) -> Imported:
-    """A file of another tool as a model, with a report.
+    """Convert a file of another tool to a model, with a report.
 
     Args:
         path: the file.
-        bugs: whether known errors of the tool are reproduced instead of corrected.
+        bugs: whether to reproduce known errors of the tool instead of correcting them.
 
     Raises:
-        DocumentError: if no importer knows the file, or if it is broken; nothing is half-read.
+        DocumentError: no importer recognises the file, or it is broken; no partial model is returned.
     """
     path = require(path)
     try:
@@ -118,16 +116,15 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:
-    """Read a document, or a file of another tool (cosivina); what could not be carried stands in the model's
-    notes.
+    """Read a document, or a file of another tool (cosivina); the model's notes list what was not converted.
 
     Args:
-        path: the file, or `example:NAME` for an example that comes with deodar.
+        path: the file, or `example:NAME` for an example of deodar.
         trust: whether a document may import and run the functions it names.
-        bugs: whether known errors of the other tool are reproduced instead of corrected.
+        bugs: whether to reproduce known errors of the other tool instead of correcting them.
 
     Raises:
-        DocumentError: with every problem found, each with its path.
+        DocumentError: the file has problems; the error lists all, each with its path.
     """
     if isinstance(path, (str, Path)):
         path = require(path)

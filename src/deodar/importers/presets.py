@@ -1,4 +1,4 @@
-"""The values of one file applied to a model that is open: what cosivina calls a preset."""
+"""Apply the parameter values of one file to an open model (a preset in cosivina)."""
 
 from __future__ import annotations
 
@@ -18,31 +18,32 @@ from deodar.numerics.convolution import boundaries
 from deodar.parameters import Part, parameters
 
 STRUCTURE = ("name", "axes")
-"""What a preset does not change."""
+"""Properties that a preset does not change."""
 
 ENDS = "boundary"
-"""Nor what lies beyond the ends: whether the axes themselves wrap is read from a whole file, and a preset may
-be a part of one.
+"""Nor the boundaries: whether the axes themselves wrap is read from a whole file, and a preset may be a part
+of one.
 """
 
 
 def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> ImportReport:
-    """Give the elements of a model the values that elements of the same label and class have in a file;
-    connections stay.
+    """Set the parameters of a model to the values that elements of the same label and class have in a file.
 
-    The change is one step of the model's history. A session takes it over by `model.document`.
+    Connections do not change.
+
+    The change is one step of the model's history. A session applies it by `model.document`.
 
     Args:
         model: an open model.
-        path: a file of another tool, or a document of our own.
-        bugs: whether known errors of the other tool are reproduced instead of corrected.
+        path: a file of another tool, or a document of deodar.
+        bugs: whether to reproduce known errors of the other tool instead of correcting them.
 
     Returns:
-        A report: every parameter that was changed is `carried`; `dropped` is what did not match, on either
-        side.
+        A report: every changed parameter is `carried`; elements and parameters without a match, on either
+        side, are `dropped`.
 
     Raises:
-        DocumentError: if the file cannot be read; the model then stays as it is.
+        DocumentError: the file cannot be read; the model is then unchanged.
     """
     tool = tool_of(path)
     doc, lines = applied(model.document, load(path, bugs=bugs).document)
@@ -51,7 +52,7 @@ def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> ImportRe
 
 
 def applied(doc: Document, preset: Document) -> tuple[Document, list[Line]]:
-    """A document with the values of another one, and what became of each."""
+    """Return a document with the values of another one, and a line about each value."""
     lines: list[Line] = []
     by = {e.names: e for e in preset.entries}
     for entry in doc.entries:
@@ -80,7 +81,7 @@ def applied(doc: Document, preset: Document) -> tuple[Document, list[Line]]:
 
 
 def _differs(here: Entry, there: Entry) -> str:
-    """Why one cannot take the values of the other; "" where it can."""
+    """Return why one element cannot take the values of the other; "" if it can."""
     if type(here.element) is not type(there.element):
         return f"is {type(there.element).__name__} in the file and {type(here.element).__name__} here"
     ours, theirs = _axes(here), _axes(there)
@@ -94,7 +95,7 @@ def _axes(entry: Entry) -> Axes:
 
 
 def _ends(entry: Entry, given: Any) -> Any:
-    """What lies beyond the ends, where an element has axes of its own to say it."""
+    """Return the boundaries, if an element has axes of its own that can state them."""
     own = _axes(entry)
     return boundaries(given, own) if own else given
 
@@ -122,7 +123,7 @@ def _values(doc: Document, here: Entry, there: Entry) -> tuple[Document, list[Li
                 continue
             try:
                 doc = edit.put(doc, here.id, path, value)
-            except DeodarError as error:  # driven by a parameter of the document
+            except DeodarError as error:  # a document parameter drives it
                 lines.append(Line(here.path, "parameter", path, "dropped", error.problems[0].what))
             else:
                 lines.append(Line(here.path, "parameter", path, "carried"))
@@ -130,7 +131,7 @@ def _values(doc: Document, here: Entry, there: Entry) -> tuple[Document, list[Li
 
 
 def _leaves(old: Any, new: Any, path: str) -> list[tuple[str, Any]]:
-    """The smallest values that differ: inside parts of the same kind, else the whole."""
+    """Return the smallest values that differ: inside parts of the same kind, else the whole."""
     if (
         isinstance(old, tuple)
         and isinstance(new, tuple)

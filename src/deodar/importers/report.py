@@ -1,4 +1,4 @@
-"""What became of a file of another tool: a verdict for each element, parameter and connection."""
+"""The report of an import: a verdict for each element, parameter and connection of a file."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ VERDICTS: tuple[Verdict, ...] = ("carried", "approximated", "dropped")
 
 @dc.dataclass(frozen=True)
 class Line:
-    """One thing of the file and what became of it.
+    """One item of the file and its verdict.
 
     Attributes:
         where: label of the element in the file; "" for the file itself.
-        part: `element`, `parameter`, `connection`, `component` (of an element, where it is not read by the
-            same name), `key` (of a JSON object, where it occurs more than once) or `file`.
+        part: `element`, `parameter`, `connection`, `component` (of an element, if the model has it under
+            another name), `key` (of a JSON object, if it occurs more than once) or `file`.
         what: the class, the name of the parameter or component, the source, or the key.
-        verdict: `carried` (the model does what the file says), `approximated`, or `dropped`.
-        why: how it was approximated or why it was dropped; for what was carried, into what.
+        verdict: `carried` (the model does what the file states), `approximated`, or `dropped`.
+        why: how it was approximated or why it was dropped; for a carried item, its counterpart.
     """
 
     where: str
@@ -37,12 +37,12 @@ class Line:
 
 @dc.dataclass(frozen=True)
 class ImportReport:
-    """The lines of one file, and the known errors of the other tool that were met in it.
+    """The lines of one file, and the known errors of the other tool that the file touches.
 
     Attributes:
         tool: name of the tool.
         file: name of the file, without its folder.
-        lines: one for each element, parameter and connection.
+        lines: one line for each element, parameter and connection.
         bugs: known errors of the tool that this file touches, and whether they were corrected or reproduced.
     """
 
@@ -52,21 +52,21 @@ class ImportReport:
     bugs: Sequence[str] = ()
 
     def count(self, verdict: Verdict) -> int:
-        """How many lines have a verdict."""
+        """Return the number of lines with a verdict."""
         return sum(line.verdict == verdict for line in self.lines)
 
     @property
     def faithful(self) -> bool:
-        """Whether everything was carried."""
+        """Whether every item was carried."""
         return self.count("carried") == len(self.lines)
 
     @property
     def losses(self) -> list[Line]:
-        """The lines that are not carried."""
+        """The lines whose verdict is not `carried`."""
         return [line for line in self.lines if line.verdict != "carried"]
 
     def summary(self) -> str:
-        """One sentence."""
+        """Return the report as one sentence."""
         parts = Counter(
             line.part for line in self.lines if line.part in ("element", "parameter", "connection")
         )
@@ -74,8 +74,8 @@ class ImportReport:
         return f"{counted}; " + ", ".join(f"{self.count(v)} {v}" for v in VERDICTS)
 
     def text(self) -> str:
-        """The report as a document's notes keep it: what was not carried, what each element became, and where
-        its components are read.
+        """Return the report for a document's notes: the losses, the counterpart of each element, and the
+        ports of its components.
         """
         out = [f"Imported from {self.file} ({self.tool}): {self.summary()}."]
         if self.losses:
@@ -98,7 +98,7 @@ class ImportReport:
         return "\n".join(out)
 
     def data(self) -> dict[str, Any]:
-        """Plain data, for JSON."""
+        """Return plain data, for JSON."""
         counts = {v: self.count(v) for v in VERDICTS}
         return {
             "tool": self.tool,

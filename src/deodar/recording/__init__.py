@@ -1,1 +1,1 @@
-"""Records: labelled arrays with what made them, files, repetition."""
+"""Records: labelled arrays with their provenance, files, repetition."""

@@ -10,34 +10,35 @@ import numpy as np
 import xarray
 
 REASON = "diverged"
-"""The coordinate that gives the reason for each copy ("" where there is none), and the attribute that counts
-them.
+"""Name of the coordinate with the reason for each copy ("" for a copy that did not diverge), and of the
+attribute that counts them.
 """
 
 
 def marked(
     data: xarray.Dataset, dimensions: Sequence[str], reasons: Mapping[tuple[int, ...], str]
 ) -> xarray.Dataset:
-    """The record with the copies that diverged made NaN, from the start: reductions such as `max` skip single
-    missing values.
+    """Return the record with all values of the copies that diverged set to NaN.
+
+    All, from the start, because reductions such as `max` skip single missing values.
 
     Args:
         data: the record.
-        dimensions: those of the copies.
-        reasons: for the place of a copy along these dimensions why it diverged.
+        dimensions: the dimensions of the copies.
+        reasons: for the index of a copy along these dimensions, why it diverged.
     """
     if not reasons:
         return data
     texts = np.full([data.sizes[d] for d in dimensions], "", object)
     for place, reason in reasons.items():
         texts[place] = reason
-        for variable in data.data_vars.values():  # of which these are the first dimensions
+        for variable in data.data_vars.values():  # their first dimensions are those of the copies
             variable.values[place] = np.nan
     return counted(data.assign_coords({_name(data): (list(dimensions), texts.astype(str))}))
 
 
 def alike(records: Sequence[xarray.Dataset], dimensions: Sequence[str]) -> list[xarray.Dataset]:
-    """Records of which all have the coordinate, if any has."""
+    """Return records that all have the coordinate, if any has it."""
     if not any(_name(data) in data.coords for data in records):
         return list(records)
 
@@ -50,7 +51,7 @@ def alike(records: Sequence[xarray.Dataset], dimensions: Sequence[str]) -> list[
 
 
 def counted(data: xarray.Dataset) -> xarray.Dataset:
-    """The record with a sentence about its copies that diverged among its attributes, where there are any."""
+    """Return the record with an attribute that counts its diverged copies in a sentence, if any."""
     name = _name(data)
     if name not in data.coords:
         return data
@@ -63,4 +64,4 @@ def counted(data: xarray.Dataset) -> xarray.Dataset:
 def _name(data: xarray.Dataset) -> str:
     return (
         REASON if REASON not in data.sizes else f"{REASON}.reason"
-    )  # a document parameter that is swept may have that name
+    )  # a swept document parameter may have that name

@@ -1,6 +1,6 @@
 """Records as files: Zarr and NetCDF, which are read back exactly, and CSV for other programs.
 
-Writing goes beside the final place and is renamed: a record is there whole, or not at all.
+A record is written beside its final path and renamed, so it is complete or absent.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from deodar.recording import places, portable, table
 from deodar.recording.provenance import KEY
 
 SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
-"""Formats and the ends of their file names."""
+"""Formats and their file name endings."""
 
 LARGEST_NETCDF = 2**32 - 8
-"""Bytes of one array in NetCDF 3."""
+"""Largest number of bytes of one array in NetCDF 3."""
 
 SHARE = 0.8
 """Share of the free memory that a record may fill when it is read."""
@@ -37,15 +37,15 @@ def save_record(
 
     Args:
         data: the record, as `simulate` returns it.
-        path: where to; its folder must exist.
+        path: the file; its folder must exist.
         format: zarr (a folder, version 3), netcdf (NetCDF 3) or csv (one row for each time, trial, sweep
-            point and sample, its metadata in NAME.csv-metadata.json; not read back). None: what the name ends
-            in: .zarr, .nc or .csv.
-        force: replace a record that stands there.
+            point and sample, its metadata in NAME.csv-metadata.json; not read back). None: given by the
+            ending of the name: .zarr, .nc or .csv.
+        force: whether to replace an existing record.
 
     Raises:
-        OutputExists: something stands there; with `force`: something that is no record.
-        OutputError: it cannot be written.
+        OutputExists: the path exists; with `force`: it exists and is not a record.
+        OutputError: the record cannot be written.
     """
     path = Path(path)
     kind = format_of(path, format)
@@ -66,7 +66,7 @@ def save_record(
 
 
 def format_of(path: Path, format: str | None = None) -> str:
-    """The format that is asked for, by name or by the end of the file name."""
+    """Return the requested format, given by name or by the ending of the file name."""
     if format is not None:
         if format not in SUFFIXES:
             raise RecordError(f"there is no format {format!r}", fix=did_you_mean(format, SUFFIXES))
@@ -82,7 +82,7 @@ def format_of(path: Path, format: str | None = None) -> str:
 
 
 def claim(path: Path, format: str, force: bool = False) -> None:
-    """Refuse a place that may not be written to; with `force` a record that stands there may be replaced."""
+    """Refuse a path that may not be written; with `force` an existing record may be replaced."""
     if format != "zarr":
         output.claim(path, force)
         if format == "csv":
@@ -97,8 +97,8 @@ def load_record(path: str | Path) -> xarray.Dataset:
     """Read a record: a Zarr folder, a NetCDF file, or a folder that `deodar run` wrote.
 
     Raises:
-        RecordError: there is none, or it is damaged, or it was not written by deodar.
-        TooLarge: it would not fit into memory.
+        RecordError: the record does not exist, is damaged, or was not written by deodar.
+        TooLarge: the record does not fit into memory.
     """
     path = Path(path)
     try:
@@ -109,7 +109,7 @@ def load_record(path: str | Path) -> xarray.Dataset:
         raise type(error)(problems) from None
     except MemoryError:
         raise TooLarge("does not fit into memory", where=str(path)) from None
-    except Exception as error:  # readers of foreign bytes raise whatever they stumble over
+    except Exception as error:  # libraries that read untrusted bytes may raise any exception
         text = " ".join(str(error).split())[:200]
         raise RecordError(
             f"cannot be read as a record, it may be damaged ({type(error).__name__}: {text})", where=str(path)
@@ -127,7 +127,7 @@ def load_record(path: str | Path) -> xarray.Dataset:
 
 
 def locate(path: Path) -> tuple[Path, str]:
-    """Where the record stands that a path names, and its format."""
+    """Return the path of the record that a path names, and its format."""
     try:
         mode = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
@@ -167,7 +167,7 @@ def locate(path: Path) -> tuple[Path, str]:
 
 
 def is_record(path: Path) -> bool:
-    """Whether a path looks like a record that can be read, without reading it."""
+    """Return whether a path looks like a readable record, without reading it."""
     try:
         locate(path)
         return True
@@ -176,7 +176,7 @@ def is_record(path: Path) -> bool:
 
 
 def is_zarr(path: Path) -> bool:
-    """Whether a folder is a Zarr record of deodar."""
+    """Return whether a folder is a Zarr record of deodar."""
     try:
         text = (path / "zarr.json").read_text()
         return f'"{portable.KEY}"' in text or f'"{KEY}"' in text
@@ -189,7 +189,7 @@ def is_zarr(path: Path) -> bool:
 
 def _write_zarr(data: xarray.Dataset, path: Path) -> None:
     with warnings.catch_warnings():
-        # other programs open a record at once, and without a warning, where its metadata stand in one place
+        # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
         portable.pack(data, narrow=False).to_zarr(path, mode="w", zarr_format=3, consolidated=True)
 

@@ -17,12 +17,12 @@ MODEL = "model.json"
 
 
 def record_name(format: str) -> str:
-    """Name of the record inside a run's folder."""
+    """Return the name of the record inside a run's folder."""
     return f"record{files.SUFFIXES[format]}"
 
 
 def claim(path: Path, format: str, force: bool = False) -> None:
-    """Refuse, before a long run, a folder that could not be written after it."""
+    """Refuse, before a long run, a folder that cannot be written after it."""
     if path.is_symlink() or not path.is_dir():
         places.claim_folder(path)
         return
@@ -38,9 +38,9 @@ def claim(path: Path, format: str, force: bool = False) -> None:
 
 
 def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: bool = False) -> Path:
-    """Write record and model; a new folder appears whole.
+    """Write record and model; a new folder is complete when it appears.
 
-    In one that exists only these two are replaced. Returns the record's path.
+    In an existing folder only these two are replaced. Returns the record's path.
     """
     name = record_name(format)
 
@@ -59,8 +59,8 @@ def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: b
 
 
 def _drop_others(path: Path, format: str) -> None:
-    """Take the replaced run's record in another format away: it does not belong to the model that now stands
-    beside it.
+    """Remove the replaced run's record in another format: it does not belong to the new model in the
+    folder.
     """
     for other in files.SUFFIXES:
         old = path / record_name(other)

@@ -1,4 +1,4 @@
-"""Worlds as they are named on the command line, in the studio and in records; those made of records are read
+"""Worlds by their names on the command line, in the studio and in records; records in an argument are read
 first.
 """
 
@@ -16,21 +16,21 @@ from deodar.worlds.recording import Recording
 
 
 def opened(kind: type[World], argument: str) -> World:
-    """A world of a kind, from what stands after the colon of `--world KIND:ARGUMENT`."""
+    """Return a world of a kind, from the argument after the colon of `--world KIND:ARGUMENT`."""
     if issubclass(kind, Recording):
         return kind(files.load_record(Path(argument)), argument)
     return kind.open(argument)
 
 
 def again(kind: type[World], described: Mapping[str, Any]) -> World:
-    """The world that a record says it was made with."""
+    """Return the world that a record describes."""
     return (
         opened(kind, str(described.get("file", ""))) if issubclass(kind, Recording) else kind.again(described)
     )
 
 
 def named(text: str, where: str) -> World:
-    """The world that `KIND:ARGUMENT` names; `where`: how messages call the place where it stands."""
+    """Return the world that `KIND:ARGUMENT` names; messages call the place of this text `where`."""
     name, _, argument = text.partition(":")
     kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
     found = kinds.get(name.casefold())

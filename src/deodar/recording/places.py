@@ -1,4 +1,4 @@
-"""Places to write to: whole folders that appear at once, and names that are free."""
+"""Output paths: whole folders that appear complete, and unused names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MOST_NUMBERED = 100_000
 
 
 def claim_folder(path: Path, force: bool = False) -> Path:
-    """The path, if a folder may be written there: free, or a folder that `force` allows to be replaced."""
+    """Return the path if a folder may be written there: a new one, or with `force` an existing one."""
     if path.is_symlink() or path.exists():
         if path.is_symlink() or not path.is_dir():
             raise OutputExists("exists and is not a folder", where=str(path), fix="Choose another name")
@@ -31,7 +31,7 @@ def claim_folder(path: Path, force: bool = False) -> Path:
 
 
 def require_parent(path: Path) -> None:
-    """Refuse a path whose folder is missing or cannot be written to."""
+    """Refuse a path whose parent folder is missing or cannot be written."""
     parent = path.parent
     if not parent.is_dir():
         raise OutputError(f"there is no folder {str(parent)!r} to write into", where=str(path))
@@ -40,9 +40,7 @@ def require_parent(path: Path) -> None:
 
 
 def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False) -> None:
-    """Fill a folder beside its final place, wait until all of it is on the disk, and rename it: it is there
-    whole, or not at all.
-    """
+    """Fill a folder beside its final path, flush it to the disk, and rename it: it is complete or absent."""
     beside = old = None
     try:
         beside = Path(tempfile.mkdtemp(prefix=f".{path.name[:40]}.", dir=path.parent))
@@ -75,7 +73,7 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
 
 
 def free(parent: Path, name: str, suffix: str = "") -> Path:
-    """The first of NAME-001, NAME-002, ... that does not exist; characters that a file name cannot have
+    """Return the first of NAME-001, NAME-002, ... that does not exist; invalid characters of file names
     become `_`.
     """
     plain = re.sub(r"[^\w.+-]+", "_", name).strip("._")[:80] or "record"

@@ -1,8 +1,8 @@
-"""A record in a form that every file format can hold, and back without a loss.
+"""Convert a record to a form that every file format can store, and back without loss.
 
 Formats differ in the names, types and attributes they allow. Arrays are stored under plain ASCII names, in
-types that the format has; what was changed is written down in one attribute, as JSON, with a hash of every
-array. Other programs can read the file as it is; deodar restores it exactly and notices damage.
+types that the format supports; one attribute lists the changes as JSON, with a hash of every array. Other
+programs can read the file directly; deodar restores it exactly and detects damage.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from deodar import codec
 from deodar.errors import RecordError
 
 KEY = "deodar_layout"
-"""Name of the attribute that holds what was changed."""
+"""Name of the attribute that lists the changes."""
 
 LONGEST = 100
 RESERVED = frozenset(
@@ -46,8 +46,9 @@ EXACT_INTEGERS = 2**53
 
 
 def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
-    """A Dataset that a file can hold; `narrow`: of 8, 16 and 32 bit integers and floats only, as in NetCDF
-    3.
+    """Return a Dataset that a file can store.
+
+    With `narrow`, of 8, 16 and 32 bit integers and floats only, as in NetCDF 3.
     """
     names = _names([*data.variables, *data.dims])
     kept: dict[str, Any] = {
@@ -77,10 +78,10 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
 
 
 def unpack(stored: xarray.Dataset) -> xarray.Dataset:
-    """The Dataset as it was before `pack`; one that was written by other means is returned as it stands.
+    """Return the Dataset as it was before `pack`; a Dataset of another program is returned unchanged.
 
     Raises:
-        RecordError: an array is not the one that was written.
+        RecordError: an array differs from the one that was written.
     """
     text = stored.attrs.get(KEY)
     if text is None:
@@ -178,7 +179,7 @@ def _digest(array: np.ndarray) -> str:
 
 
 def _names(names: list[Hashable]) -> dict[Hashable, str]:
-    """A plain name for each name; no two differ in case only, since on some disks these are one file."""
+    """Return a plain name for each name; no two differ in case only, since some disks ignore case."""
     out: dict[Hashable, str] = {}
     taken: set[str] = set()
     for name in dict.fromkeys(names):
@@ -209,7 +210,7 @@ def _json(value: Any) -> Any:
 
 
 def _simple(value: Any) -> bool:
-    """Whether every format holds it as an attribute."""
+    """Return whether every format can store the value as an attribute."""
     if isinstance(value, bool):
         return False
     return (

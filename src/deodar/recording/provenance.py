@@ -1,4 +1,4 @@
-"""What made a record: the document, the run, the versions and the machine."""
+"""The provenance of a record: the document, the run, the versions and the machine."""
 
 from __future__ import annotations
 
@@ -14,13 +14,11 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 
 KEY = "deodar"
-"""Name of the attribute under which a record carries it, as JSON text."""
+"""Name of the attribute of a record that holds its provenance, as JSON text."""
 
 
 def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[str, Any]:
-    """Everything that repeating a run needs, and everything that decides whether its bits will be the
-    same.
-    """
+    """Return everything that is needed to repeat a run, and everything that determines its bits."""
     data, arrays = files.to_data(doc)
     packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
     return {
@@ -35,7 +33,7 @@ def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[s
 
 
 def made_by(device: Any) -> dict[str, str]:
-    """Versions, device and machine; and the cores, because a program for several adds in another order."""
+    """Return versions, device and machine, and the cores, because their number changes the order of sums."""
     versions = {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
     where = {"device": f"{device.platform} {device.device_kind}"} | (
         {"cores": str(cores())} if device.platform == "cpu" else {}
@@ -44,13 +42,13 @@ def made_by(device: Any) -> dict[str, str]:
 
 
 def cores_of(about: Mapping[str, Any]) -> int:
-    """Cores that a record was made with; 1 where it does not say."""
+    """Return the number of cores that a record was made with; 1 if it states none."""
     told = str((about.get("made_by") or {}).get("cores", ""))
     return max(1, int(told)) if told.isdecimal() else 1
 
 
 def machine() -> str:
-    """System and processor."""
+    """Return system and processor."""
     return f"{platform.system()} {platform.machine()} {_processor()}".strip()
 
 
@@ -66,6 +64,6 @@ def _processor() -> str:
 
 
 def document(about: Mapping[str, Any]) -> Document:
-    """The document of a record."""
+    """Return the document of a record."""
     arrays = files.unpack(base64.b64decode(about["arrays"]), "the record") if about.get("arrays") else {}
     return files.from_data(about["document"], arrays)

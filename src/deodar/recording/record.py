@@ -1,4 +1,4 @@
-"""From recorded arrays to an `xarray.Dataset` with axes, units and provenance."""
+"""Convert recorded arrays to an `xarray.Dataset` with axes, units and provenance."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ def dataset(
     sweep: Mapping[str, Sequence[float]],
     about: Mapping[str, Any],
 ) -> xarray.Dataset:
-    """The record of a run.
+    """Return the record of a run.
 
-    Variables are named by path. Dimensions are sweep paths, `trial` (where trials were asked for), `time`,
-    and axes by name; an axis whose name is taken by another sampling, or that occurs twice, becomes
-    `PATH.axis`, PATH being the path of the port.
+    Variables are named by path. Dimensions are sweep paths, `trial` (if trials were requested), `time`, and
+    axes by name; an axis whose name belongs to another sampling, or that occurs twice, becomes `PATH.axis`,
+    PATH being the path of the port.
     """
     lead = [*sweep, *(["trial"] if trials is not None else []), "time"]
     coords: dict[str, Any] = {path: (path, np.asarray(values, float)) for path, values in sweep.items()}
@@ -62,7 +62,7 @@ def dataset(
 
 
 def about(data: xarray.Dataset) -> dict[str, Any]:
-    """What made a record, as plain data; empty for a Dataset of other origin."""
+    """Return the provenance of a record, as plain data; empty for a Dataset of other origin."""
     text = data.attrs.get(KEY)
     return codec.parse(text) if isinstance(text, str) else {}
 

@@ -1,4 +1,4 @@
-"""Run a record again from what it says about itself, and compare."""
+"""Run a record again from its provenance, and compare."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from deodar.recording.record import about
 from deodar.worlds._base import World
 
 Simulate = Callable[..., xarray.Dataset]
-"""What runs a model: `deodar.batch.simulate.simulate`."""
+"""A function that runs a model: `deodar.batch.simulate.simulate`."""
 
 
 @dc.dataclass(frozen=True)
 class Difference:
-    """Something that is not as it was when the record was made."""
+    """A setting that differs from that of the record."""
 
     what: str
     then: str
@@ -36,15 +36,15 @@ class Difference:
 
 @dc.dataclass(frozen=True)
 class Repetition:
-    """A record made again.
+    """The comparison of a record with its repetition.
 
     Attributes:
         data: the new record.
-        differences: versions, device, machine and world that are not as they were.
-        largest: for each variable the largest difference of a value from the old record; infinite where it
+        differences: versions, device, machine and world that differ from those of the record.
+        largest: for each variable the largest difference of a value from the old record; infinite if it
             cannot be compared.
-        same_bits: whether every value is the same to the last bit.
-        compared: number of times that were compared; fewer than recorded now, if the old record is
+        same_bits: whether every value is equal to the last bit.
+        compared: number of times that were compared; fewer than in the new record if the old record is
             incomplete.
     """
 
@@ -56,7 +56,7 @@ class Repetition:
 
     @property
     def faithful(self) -> bool:
-        """Whether the promise is kept: the same bits wherever versions, machine and world are the same."""
+        """Whether the guarantee holds: the same bits if versions, machine and world are the same."""
         return self.same_bits or bool(self.differences)
 
     def __str__(self) -> str:
@@ -90,14 +90,14 @@ def repeat(
 
     Args:
         data: the record.
-        simulate: what runs it.
-        world: the world to run it in; None: the one it was made with, opened again.
+        simulate: the function that runs it.
+        world: the world to run it in; None: the world of the record, opened again.
         trust: whether functions that its document names may be imported and run.
         progress: show a bar.
-        device: where to run it; None: where the record was made.
+        device: the device to run it on; None: the device of the record.
 
     Raises:
-        RecordError: the record does not say what made it.
+        RecordError: the record has no provenance.
         Untrusted: its document names a function, and `trust` is not given.
     """
     made = _made(data)
@@ -119,9 +119,7 @@ def repeat(
 
 
 def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:
-    """The ports that were recorded; versions of the document before 3 meant another one by the path of a
-    field alone.
-    """
+    """Return the ports that were recorded; before document version 3 a field's path meant another port."""
     record: list[str] | None = made["record"]
     if record is None or made["document"].get("deodar", 0) >= 3:
         return record
@@ -129,17 +127,17 @@ def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:
 
 
 def world_of(data: xarray.Dataset) -> World | None:
-    """The world that a record was made in, opened again; None: it had none.
+    """Open the world of a record again; None if it had no world.
 
     Raises:
-        RecordError: the record does not say what made it.
-        WorldError: the world is not there any more, or is another one.
+        RecordError: the record has no provenance.
+        WorldError: the world no longer exists, or is a different one.
     """
     return _world(_made(data).get("world"))
 
 
 def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
-    """What differs between two records of one run; an incomplete one is compared as far as it goes."""
+    """Return the differences between two records of one run; an incomplete one is compared up to its end."""
     before, after = _made(old), _made(new)
     times = min(old.sizes.get("time", 0), new.sizes.get("time", 0))
     whole = before.get("complete", True) and after.get("complete", True)
@@ -156,7 +154,7 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
 
 
 def _common(old: xarray.Dataset, new: xarray.Dataset) -> tuple[xarray.Dataset, xarray.Dataset]:
-    """What both have come to: the times, and the trials or points of a sweep."""
+    """Return both records cut to their common times, and trials or points of a sweep."""
     for dim in [d for d in old.sizes if d in new.sizes and d in old.coords and d in new.coords]:
         shared = np.intersect1d(old[dim].values, new[dim].values)
         old, new = (data.isel({dim: np.isin(data[dim].values, shared)}) for data in (old, new))
@@ -198,7 +196,7 @@ def _largest(a: xarray.DataArray | None, b: xarray.DataArray | None) -> float:
     if not a.size:
         return 0.0
     gap = np.abs(a.values.astype(np.float64) - b.values.astype(np.float64))
-    gap[np.isnan(a.values) & np.isnan(b.values)] = 0.0  # copies that diverged both times
+    gap[np.isnan(a.values) & np.isnan(b.values)] = 0.0  # copies that diverged in both records
     return float("inf") if np.isnan(gap).any() else float(gap.max())
 
 
@@ -206,7 +204,7 @@ def _largest(a: xarray.DataArray | None, b: xarray.DataArray | None) -> float:
 
 
 def _world(described: Mapping[str, Any] | None) -> World | None:
-    """The world that a record was made with, opened again from the file it names."""
+    """Return the world of a record, opened again from the file it names."""
     if described is None:
         return None
     kind = str(described.get("world"))
@@ -236,7 +234,7 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
 
 
 def _identity(described: Any) -> Any:
-    """What makes it the same world: everything but where its file lies."""
+    """Return the identity of the world: its description without the path of its file."""
     return {k: v for k, v in described.items() if k != "file"} if isinstance(described, dict) else described
 
 

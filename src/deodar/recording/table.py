@@ -1,9 +1,10 @@
-"""A record as one long table in CSV, for other programs: one row for each sweep point, trial, time and
-sample.
+"""A record as one long table in CSV, for other programs.
 
-The table is a line of names and the rows, and nothing else: `pandas.read_csv(path)` reads it. What belongs to
-it (title, units, what made the record) stands beside it in `NAME.csv-metadata.json`, in the form of the W3C's
-Metadata Vocabulary for Tabular Data (2015), section 5.
+The table has one row for each sweep point, trial, time and sample.
+
+It consists of a line of names and the rows: `pandas.read_csv(path)` reads it. Its metadata (title, units,
+provenance) are in `NAME.csv-metadata.json`, in the form of the W3C's Metadata Vocabulary for Tabular Data
+(2015), section 5.
 """
 
 from __future__ import annotations
@@ -18,13 +19,13 @@ import xarray
 from deodar import codec
 
 ROWS = 100_000
-"""Rows that are made at a time: memory does not grow with the record."""
+"""Number of rows that are made at a time, so that memory does not grow with the record."""
 
 
 def write(data: xarray.Dataset, path: Path) -> None:
     """Write the table.
 
-    Variables over the same dimensions share rows; a row leaves the columns empty that do not belong to it.
+    Variables over the same dimensions share rows; columns that do not belong to a row are empty.
     """
     blocks = _blocks(data)
     columns = _columns(blocks)
@@ -48,13 +49,13 @@ def write(data: xarray.Dataset, path: Path) -> None:
 
 
 def beside(path: Path) -> Path:
-    """Return the place of a table's metadata, where readers of such metadata look for it."""
+    """Return the path of a table's metadata, where programs expect such metadata."""
     return path.with_name(f"{path.name}-metadata.json")
 
 
 def metadata(data: xarray.Dataset, name: str) -> str:
-    """Return what belongs to the table of that file name, as JSON: its title, its columns with units, and in
-    the notes what made the record.
+    """Return the metadata of the table of that file name, as JSON: title, columns with units, and the
+    provenance as notes.
     """
     columns: list[dict[str, str]] = []
     for column in _columns(_blocks(data)):
@@ -81,7 +82,7 @@ def metadata(data: xarray.Dataset, name: str) -> str:
 
 
 def _blocks(data: xarray.Dataset) -> dict[tuple[str, ...], list[str]]:
-    """The names of the variables, by their dimensions."""
+    """Return the names of the variables, by their dimensions."""
     blocks: dict[tuple[str, ...], list[str]] = {}
     for name, variable in data.data_vars.items():
         blocks.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
@@ -94,12 +95,12 @@ def _columns(blocks: dict[tuple[str, ...], list[str]]) -> list[str]:
 
 
 def _datatype(kind: np.dtype[Any]) -> str:
-    """The name that the vocabulary has for a type of numbers."""
+    """Return the vocabulary's name of a type of numbers."""
     if kind == np.float32:
         return "float"
     return {"f": "double", "i": "integer", "u": "integer", "b": "boolean"}.get(kind.kind, "string")
 
 
 def _text(array: np.ndarray) -> list[str]:
-    """The shortest text that gives the same number again in the array's own precision."""
+    """Return the shortest text that gives the same number in the array's own precision."""
     return array.astype(str).tolist()

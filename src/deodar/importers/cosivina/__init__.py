@@ -8,7 +8,7 @@ NAME = "cosivina"
 
 
 def sniff(head: bytes) -> bool:
-    """Whether a file begins like one of cosivina: an object with a `simulator`, or with its lists."""
+    """Return whether a file begins like a cosivina file: an object with a `simulator`, or with its lists."""
     text = head.replace(b"\0", b"")  # two bytes a character
     return b'"deodar"' not in text[:1000] and any(key in text for key in (b'"simulator"', b'"elementLabels"'))
 

@@ -1,7 +1,6 @@
-"""The components that each class of cosivina offers to other elements, to plots and to scripts, in the order
-in which cosivina lists them.
+"""The components that each class of cosivina offers to elements, plots and scripts, in cosivina's order.
 
-Classes that are not listed have one, `output`.
+A class that is not listed has one component, `output`.
 """
 
 from __future__ import annotations
@@ -64,5 +63,5 @@ COMPONENTS: Mapping[str, tuple[str, ...]] = {
 
 
 def components(kind: str) -> tuple[str, ...]:
-    """The components of a class."""
+    """Return the components of a class."""
     return COMPONENTS.get(kind, ("output",))

@@ -1,12 +1,12 @@
-"""Connections, with what the order of the file means.
+"""Connections, by the order of the elements in the file.
 
-cosivina computes its elements in the order of the list and in place: an element reads what those before it
-have made in this step, and what those after it made in the step before; all but stimuli, fields and filled
-borders begin with zero. Here a step leads from t to t + dt, so that
+cosivina computes its elements in the order of the list and in place: an element reads the values of this step
+from the elements before it, and those of the previous step from the elements after it; all but stimuli,
+fields and filled borders begin with zero. Here a step leads from t to t + dt, so that
 
 * a state that comes before its reader is read as `current`, one that comes after it (or is the reader itself)
   as `previous`;
-* a coupling or a timed stimulus that comes before its reader is read as it is, one that comes after it as
+* a coupling or a timed stimulus that comes before its reader is read directly, one that comes after it as
   `delayed`, from zero.
 """
 
@@ -35,7 +35,7 @@ SourceWire = tuple[str, str, str, str, str]
 
 
 class SourceWiring:
-    """The connections of a file, and the elements that only they need."""
+    """The connections of a file, and the elements that they need."""
 
     def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], names: FreeNames) -> None:
         self.elements = simulator.elements
@@ -54,7 +54,7 @@ class SourceWiring:
         self.rings = self._rings()
 
     def connect_all(self) -> None:
-        """Every connection, in the order of the file."""
+        """Connect all inputs, in the order of the file."""
         for e in self.elements:
             piece = self.pieces[e.label]
             self.connections += [
@@ -72,7 +72,7 @@ class SourceWiring:
     def connect(
         self, e: Foreign, k: int, s: Source, arriving: dict[Inlet, list[tuple[Outlet, str, str]]]
     ) -> None:
-        """One input of the file: which outlet goes to which inlets, as the report has it."""
+        """Connect one input of the file to its targets, and report it."""
         piece, what = self.pieces[e.label], f"{s.label}.{s.component}" if s.component else s.label
         inlets = (
             piece.inlets[0 if piece.sums else k]
@@ -112,7 +112,7 @@ class SourceWiring:
         self.lines.append(Line(e.label, "connection", what, "carried"))
 
     def reads(self, outlet: Outlet, source: str, target: str) -> str:
-        """What a connection reads, by the places of its ends."""
+        """Return `reads` of a connection, from the order of its ends."""
         before = self.place[source] < self.place[target]
         if outlet.state:
             return "current" if before else "previous"
@@ -121,7 +121,7 @@ class SourceWiring:
         return "delayed"
 
     def join(self, e: Foreign, inlet: Inlet, found: list[tuple[Outlet, str, str]]) -> None:
-        """What arrives at one inlet, each with the axes it needs; nothing at all is a zero."""
+        """Join the sources of one inlet, each with the axes it needs; without a source the input is zero."""
         if not found:
             name = self.names.new(f"nothing to {inlet.name}")
             self.extra.append(Boost(name, axes(inlet.dims), 0.0))
@@ -159,8 +159,10 @@ class SourceWiring:
             self.connections.append((name, port, inlet.name, inlet.port, reads))
 
     def delay(self, outlet: Outlet) -> str:
-        """A register of its own: where a loop of couplings is closed, whose axes must be stated, and where it
-        does not begin with zero.
+        """Return a register that delays an outlet by one step.
+
+        It is needed where it closes a loop of couplings, whose axes must be stated, and where it does not
+        begin with zero.
         """
         key = (outlet.name, outlet.port)
         if key not in self.delays:
@@ -170,9 +172,7 @@ class SourceWiring:
         return self.delays[key]
 
     def _rings(self) -> dict[str, int]:
-        """For each element that follows its inputs in the same instant a number, shared by those that lie in
-        one loop of such elements.
-        """
+        """Return a number for each element that follows its inputs in the same instant; a loop shares one."""
         followers = [
             e for e in self.elements if not any(o.state for o in self.pieces[e.label].outlets.values())
         ]
@@ -186,12 +186,14 @@ class SourceWiring:
         return {label: int(found[k]) for label, k in number.items()}
 
     def drop(self, e: Foreign, what: str, why: str) -> None:
-        """A line about a connection that is not made."""
+        """Report a connection that is not made."""
         self.lines.append(Line(e.label, "connection", what, "dropped", why))
 
     def _noisy(self) -> set[str]:
-        """Elements made of noise alone, all of whose readers come before them: whether they read the noise of
-        this step or of the last is the same to everybody, and needs no register.
+        """Return elements of noise alone, all of whose readers come before them.
+
+        Noise of this step and noise of the last step are equivalent for their readers, so they need no
+        register.
         """
         found: set[str] = set()
         for e in self.elements:
@@ -211,7 +213,7 @@ class SourceWiring:
 
 
 def _compatible(given: Dims, wanted: Dims) -> bool:
-    """Whether one size can be expanded to another, dimension by dimension."""
+    """Return whether one size can be expanded to another, dimension by dimension."""
     longer = max(len(given), len(wanted))
     pairs = zip(
         given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True
@@ -220,5 +222,5 @@ def _compatible(given: Dims, wanted: Dims) -> bool:
 
 
 def _fits(given: Dims, wanted: Dims) -> tuple[Axis | None, ...]:
-    """The axes that those of one size have in another."""
+    """Return the axes of one size among those of another."""
     return tuple(b for a, b in zip(given, wanted, strict=False) if a is not None)

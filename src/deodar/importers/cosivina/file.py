@@ -1,6 +1,4 @@
-"""The file of a cosivina simulator as plain data: labels, classes, parameters and inputs, in the file's
-order.
-"""
+"""The file of a cosivina simulator as plain data: labels, classes, parameters and inputs."""
 
 from __future__ import annotations
 
@@ -19,10 +17,10 @@ from deodar.importers.report import Line
 from deodar.parameters import show
 
 MOST_ELEMENTS = 4000
-"""More elements are taken for a broken file (a guess: ten times the largest that is published)."""
+"""Largest number of elements; more are refused (a guess: ten times the largest published)."""
 
 MOST_INPUTS = 20000
-"""The same for connections."""
+"""Largest number of connections, by the same rule."""
 
 WORDS = {
     "_Inf_": math.inf,
@@ -36,9 +34,7 @@ WORDS = {
 
 @dc.dataclass(frozen=True)
 class Source:
-    """One input of an element: the label of its source and the source's component; "" where the file names
-    none.
-    """
+    """One input of an element: the label of its source, and the source's component or ""."""
 
     label: str
     component: str = ""
@@ -46,8 +42,8 @@ class Source:
 
 @dc.dataclass(frozen=True)
 class Foreign:
-    """One element of the file: its place in the list, its label and class, its parameters as they stand
-    there, and its inputs in order.
+    """One element of the file: its index in the list, its label and class, its parameters unconverted, and
+    its inputs in order.
     """
 
     place: int
@@ -59,8 +55,8 @@ class Foreign:
 
 @dc.dataclass(frozen=True)
 class Simulator:
-    """The file: the step, the time at the start, the elements in their order, and what is to be said about
-    reading it.
+    """The content of a file: the step, the time at the start, the elements in order, and the report lines of
+    reading.
     """
 
     step: float
@@ -70,15 +66,15 @@ class Simulator:
 
     @functools.cached_property
     def by_label(self) -> Mapping[str, Foreign]:
-        """The elements by their labels."""
+        """Return the elements by their labels."""
         return {e.label: e for e in self.elements}
 
 
 def parse(content: bytes) -> Simulator:
-    """The simulator that a file holds.
+    """Parse the content of a file of a simulator.
 
     Raises:
-        DocumentError: where it is no JSON, nested too deeply, or holds no simulator.
+        DocumentError: the content is not JSON, is nested too deeply, or does not describe a simulator.
     """
     data = codec.foreign(content)
     root = cast("dict[str, Any]", data) if isinstance(data, dict) else {}
@@ -117,9 +113,7 @@ def parse(content: bytes) -> Simulator:
 
 
 def array(value: Any) -> np.ndarray | None:
-    """The numbers that a value holds, in any of the ways of writing them; None where it holds something else,
-    or lists of unequal length.
-    """
+    """Return the numbers of a value in any notation; None without numbers, and for ragged lists."""
     try:
         found = np.array(_plain(value), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
@@ -128,7 +122,7 @@ def array(value: Any) -> np.ndarray | None:
 
 
 def empty(value: Any) -> bool:
-    """Whether a value is one of the ways of writing nothing."""
+    """Return whether a value is one of the notations of an empty value."""
     if value is None or value == [] or value == {} or value == "":
         return True
     found = array(value) if isinstance(value, (dict, list)) else None
@@ -139,8 +133,8 @@ def empty(value: Any) -> bool:
 
 
 def _repeated(data: Any, found: Repeated) -> Line:
-    """What became of a key that occurs more than once: where it is inside an element, the element's label
-    says so.
+    """Return the report line of a key that occurs more than once; inside an element it has the element's
+    label.
     """
     label, path = "", list[Any]()
     for step in found.path:
@@ -172,7 +166,7 @@ def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> 
 
 
 def _counted(body: dict[str, Any]) -> int | None:
-    """How many elements there are by nElements; None where it does not say."""
+    """Return the number of elements that nElements states; None if it states none."""
     numbers = array(body.get("nElements"))
     return (
         int(numbers.reshape(-1)[0])
@@ -182,7 +176,7 @@ def _counted(body: dict[str, Any]) -> int | None:
 
 
 def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[Line]:
-    """Where the list of elements disagrees with nElements and elementLabels: the rest of it may be lost."""
+    """Report where the list of elements, possibly incomplete, disagrees with nElements and elementLabels."""
     lines: list[Line] = []
     if "nElements" in body and count != len(found):
         why = f"it is {show(body['nElements'])}, and the list of elements holds {len(found)}"
@@ -207,7 +201,7 @@ def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[L
 
 
 def _entries(value: Any) -> list[Any]:
-    """The elements as one list: an object alone, lists inside lists."""
+    """Return the elements as one list, from a single object or nested lists."""
     if isinstance(value, dict) and "class" in value:
         return [cast(Any, value)]
     if not isinstance(value, list):
@@ -249,7 +243,7 @@ def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
 
 
 def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
-    """The inputs in any of the shapes in which they are written."""
+    """Return the inputs from any of their notations."""
     if empty(value):
         return []
     if isinstance(value, list):
@@ -274,7 +268,7 @@ def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
 
 
 def _unique(elements: tuple[Foreign, ...], lines: list[Line]) -> tuple[Foreign, ...]:
-    """Every label once: what cosivina refuses gets a number."""
+    """Make every label unique: a label that cosivina would refuse gets a number."""
     taken, out = {e.label for e in elements}, list[Foreign]()
     seen: set[str] = set()
     numbers: dict[str, int] = {}
@@ -301,7 +295,7 @@ def _unique(elements: tuple[Foreign, ...], lines: list[Line]) -> tuple[Foreign, 
 
 
 def _text(value: Any) -> str:
-    """A label as text that can be written: halves of characters and control characters are replaced."""
+    """Return a label as valid text: unpaired surrogates and control characters are replaced."""
     if isinstance(value, bool) or not isinstance(value, (str, int, float)):
         return ""
     text = str(value)[:500].encode("utf-8", "replace").decode()
@@ -312,7 +306,7 @@ def _text(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """A value without what JSON cannot say and JSONLab writes as text or as an object."""
+    """Decode the text and objects by which JSONLab writes what JSON cannot express."""
     if isinstance(value, bool):
         return float(value)
     if isinstance(value, str):

@@ -1,4 +1,4 @@
-"""Names of the elements that a file becomes."""
+"""Names of the elements of an imported file."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 
 class FreeNames:
-    """The names that are taken; each further one gets a number of its own."""
+    """The names in use; a repeated name gets a number."""
 
     def __init__(self, taken: Iterable[str]) -> None:
         self._taken = set(taken)
         self._numbers: dict[str, int] = {}
 
     def new(self, base: str) -> str:
-        """A name that nothing has yet: `base`, else `base 2`, `base 3`, ..."""
+        """Return an unused name: `base`, else `base 2`, `base 3`, ..."""
         name, n = base, self._numbers.get(base, 1)
         while name in self._taken:
             n += 1

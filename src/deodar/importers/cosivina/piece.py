@@ -1,5 +1,5 @@
-"""What an element of the file becomes: elements of ours, where its inputs go, and where its components are
-read.
+"""The translation of one element of a file: deodar elements, the targets of its inputs, and the ports of its
+components.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from deodar.numerics.axes import Axis
 
 @dc.dataclass(frozen=True)
 class Inlet:
-    """Where an input goes: an element of ours and its port, the dimensions that may arrive, whether all of
-    them must, and, where it is not the one that the file names, the component that is read.
+    """The target of an input: a deodar element and its port, the valid dimensions, whether the input must
+    have all of them, and the component to read if it differs from the file's.
     """
 
     name: str
@@ -32,16 +32,16 @@ class Inlet:
 
 @dc.dataclass(frozen=True)
 class Outlet:
-    """Where a component is read.
+    """The port that shows a component.
 
     Attributes:
-        name: an element of ours.
+        name: name of a deodar element.
         port: its output port.
-        dims: dimensions of what it gives.
+        dims: dimensions of the port.
         state: whether it shows a state; otherwise it follows its inputs in the same instant.
-        still: whether cosivina sets it when it is initialised, and never again.
-        noise: whether it is made of noise alone.
-        initial: what cosivina sets it to when it is initialised.
+        still: whether cosivina sets it at the start only.
+        noise: whether it consists of noise alone.
+        initial: value that cosivina sets at the start.
     """
 
     name: str
@@ -55,17 +55,17 @@ class Outlet:
 
 @dc.dataclass
 class Piece:
-    """The counterpart of one element.
+    """The translation of one element.
 
     Attributes:
-        elements: ours, the one that carries the label first.
-        inlets: for each input of the file, where it goes; with `sums`, all go to the first.
-        outlets: by component; the first is the default.
+        elements: deodar elements; the first has the label.
+        inlets: for each input of the file its target; with `sums`, all inputs go to the first.
+        outlets: ports by component; the first is the default.
         inner: connections among `elements`, by name: (source, target) or (source, target, port).
-        sums: whether any number of inputs is added up.
-        elsewhere: where components are found that no outlet gives, in words.
-        needs: how many inputs it cannot do without.
-        verdict, why: what the report says of the element itself.
+        sums: whether the element adds up any number of inputs.
+        elsewhere: descriptions of where to find components without an outlet.
+        needs: smallest number of inputs.
+        verdict, why: verdict and reason of the element itself in the report.
     """
 
     elements: list[Element] = dc.field(default_factory=list[Element])
@@ -80,8 +80,8 @@ class Piece:
 
 
 class SourceElement:
-    """What translating one element needs to know: its parameters, the axes, the step, who reads it, and what
-    was said on the way.
+    """The context of the translation of one element: its parameters, the axes, the step, its readers, and the
+    report lines so far.
     """
 
     def __init__(
@@ -105,17 +105,15 @@ class SourceElement:
         self._names = names
 
     def dims(self, component: str = "") -> Dims:
-        """Dimensions of an output."""
+        """Return the dimensions of an output."""
         return self._dims.of(output_size(self.element, component))
 
     def of(self, counts: Sequence[int]) -> Dims:
-        """The dimensions of a size."""
+        """Return the dimensions of a size."""
         return self._dims.of(counts)
 
     def source(self, k: int) -> Dims | None:
-        """Dimensions of what an input brings, as its source declares them; None where there is no such
-        input.
-        """
+        """Return the dimensions of an input, as its source declares them; None without this input."""
         if k >= len(self.element.sources):
             return None
         s = self.element.sources[k]
@@ -127,37 +125,37 @@ class SourceElement:
             and len(found.sources) > 1
             and found.label not in passed
         ):
-            passed.add(found.label)  # its size is that of its second input, and not in the file
+            passed.add(found.label)  # its size is that of its second input, and is not in the file
             s = found.sources[1]
             found = self.simulator.by_label.get(s.label)
         return None if found is None else self._dims.of(output_size(found, s.component))
 
     def named(self, what: str) -> str:
-        """A name of its own for a further element of ours: the label and what it is."""
+        """Return a name for a further deodar element: the label and what it is."""
         return self._names.new(f"{self.label} {what}")
 
     def bug(self, what: str) -> bool:
-        """Whether a known error of cosivina, which this element touches, is to be reproduced."""
+        """Return whether to reproduce a known error of cosivina that this element touches."""
         self.met.append(f"{self.label}: {what}; {'reproduced' if self.reproduce else 'corrected'}")
         return self.reproduce
 
 
 def axes(dims: Dims) -> tuple[Axis, ...]:
-    """The axes among the dimensions."""
+    """Return the axes among the dimensions."""
     return tuple(a for a in dims if a is not None)
 
 
 def projection(
     name: str, source: Sequence[Axis], target: Dims, places: Sequence[Axis | None], reduce: str = "sum"
 ) -> Project:
-    """A projection in which each axis of the source becomes the axis of the same place, or is added up where
+    """Return a projection in which each axis of the source becomes the axis at its index, or is summed if
     that is None.
     """
     here = axes(target)
     names = {
         a.name: b.name for a, b in zip(source, places, strict=True) if b is not None and a.name != b.name
     }
-    # an axis that is added up must not be taken for one of the target's
+    # the name of a summed axis must differ from those of the target's axes
     names |= {
         a.name: f"{a.name} added up"
         for a, b in zip(source, places, strict=True)
@@ -167,4 +165,4 @@ def projection(
 
 
 class Unfit(ValueError):
-    """Raised where an element cannot be translated; says why."""
+    """Raised if an element cannot be translated; the message is the reason."""

@@ -1,8 +1,8 @@
-"""Sizes of outputs as cosivina declares them, and the axes that stand for them.
+"""Sizes of outputs as cosivina declares them, and the corresponding axes.
 
 Dimension 1 is called y, dimension 2 x, as in cosivina's own parameters (`sigmaY`, `positionX`), further ones
-z and w. A dimension of one sample is no axis: a row is one axis, a single number none. Samples lie at 1, 2,
-..., as positions are counted there, so that the step is 1.
+z and w. A dimension of one sample has no axis: a row has one axis, a single number none. Samples are at 1, 2,
+..., the positions of cosivina, so that the step is 1.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from deodar.numerics.axes import MOST_SAMPLES, Axis
 NAMES = ("y", "x", "z", "w")
 
 MOST_CELLS = 10_000_000
-"""Larger arrays are taken for a broken file (a guess; one would take 80 MB)."""
+"""Largest number of samples; a larger array is probably an error (a guess; it would take 80 MB)."""
 
 
 class SizeLimit(ValueError):
-    """Raised where a size is too large to be meant."""
+    """Raised if a size is implausibly large."""
 
 
 Dims = tuple[Axis | None, ...]
@@ -31,7 +31,7 @@ SIZES = ("size", "inputSize", "outputSize", "stimulusSize")
 
 
 def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:
-    """Size of an output, from the parameters."""
+    """Return the size of an output, from the parameters."""
     own = size(e.values.get("size"))
     rows, columns = own[0], own[1]
     match e.kind, component:
@@ -81,12 +81,12 @@ class Dimensions:
         self.common = [max(used, key=lambda n: (used[n], n), default=0) for used in self.used]
 
     def of(self, counts: Sequence[int]) -> Dims:
-        """The axes of a size.
+        """Return the axes of a size.
 
-        All of one length wrap, or none: what most kernels and stimuli over this length do.
+        All dimensions of one length wrap, or none: as most kernels and stimuli of this length do.
 
         Raises:
-            TooLarge: where a size is too large to be meant.
+            TooLarge: a size is implausibly large.
         """
         total = 1
         for count in counts:
@@ -96,7 +96,7 @@ class Dimensions:
         return tuple(self.axis(d, n) if n > 1 else None for d, n in enumerate(counts))
 
     def axis(self, d: int, count: int) -> Axis:
-        """The axis of one dimension."""
+        """Return the axis of one dimension."""
         common = self.common[d]
         name = NAMES[d] if count == common or not self.used[d][common] else f"{NAMES[d]}{count}"
         periodic = self.wraps[count] > 0
@@ -104,7 +104,7 @@ class Dimensions:
 
 
 def _circular(e: Foreign, own: tuple[int, ...]) -> dict[int, bool]:
-    """Which dimensions an element says to be circular, or not."""
+    """Return for the dimensions of an element whether it declares them circular."""
     out: dict[int, bool] = {}
     for d, letter in enumerate("YXZ"):
         found = array(e.values.get(f"circular{letter}"))

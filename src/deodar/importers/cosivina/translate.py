@@ -1,6 +1,4 @@
-"""From a file of cosivina to a model: pieces for the elements, connections in the order of the file, a
-report.
-"""
+"""Translate a file of cosivina to a model: elements, connections in the order of the file, and a report."""
 
 from __future__ import annotations
 
@@ -27,12 +25,12 @@ from deodar.model.paths import display
 
 
 def read(content: bytes, name: str, bugs: bool = False) -> Imported:
-    """The model that the content of a file describes, and the report.
+    """Return the model that the content of a file describes, and the report.
 
     Args:
-        content: the file.
-        name: what the file is called, for the model's name and the report.
-        bugs: whether known errors of cosivina are reproduced instead of corrected.
+        content: the content of the file.
+        name: name of the file, for the model's name and the report.
+        bugs: whether to reproduce known errors of cosivina instead of correcting them.
     """
     simulator = file.parse(content)
     translation = Translation(simulator, bugs)
@@ -56,7 +54,7 @@ def read(content: bytes, name: str, bugs: bool = False) -> Imported:
 
 
 class Translation:
-    """The pieces of a file by label, their wiring, and what is to be said."""
+    """The translations of a file's elements by label, their connections, and the report lines."""
 
     def __init__(self, simulator: Simulator, bugs: bool) -> None:
         self.simulator = simulator
@@ -74,8 +72,8 @@ class Translation:
         self.wiring.connect_all()
 
     def piece(self, e: Foreign) -> Piece:
-        """The counterpart of one element; a placeholder where there is none, or where its parameters do not
-        go together.
+        """Return the translation of one element, or a placeholder if it has none or its parameters contradict
+        each other.
         """
         source = SourceElement(
             self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.names, self.bugs
@@ -105,13 +103,14 @@ class Translation:
         return found
 
     def lines(self) -> list[Line]:
-        """All lines of the report."""
+        """Return all lines of the report."""
         return [*self.simulator.lines, *self.said, *self.wiring.lines]
 
 
 def _shown(e: Foreign, piece: Piece) -> list[Line]:
-    """Where the components of an element are read, which scripts and plots of cosivina ask for by name; those
-    of the same name are left out.
+    """Report the ports of an element's components, which scripts and plots of cosivina read by name.
+
+    Components with the same name in deodar are left out.
     """
     lines: list[Line] = []
     for component in components(e.kind):

@@ -1,4 +1,4 @@
-"""The parameters of one element, read with their defaults; each reading leaves a line in the report."""
+"""The parameters of one element, read with their defaults; each reading adds a line to the report."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.parameters import show
 
 LARGEST = 1e30
-"""Larger numbers overflow in single precision once they are squared or multiplied."""
+"""Largest number; larger ones overflow in single precision when they are squared or multiplied."""
 
 
 class Values:
-    """What an element's parameters say."""
+    """The parameter values of an element."""
 
     def __init__(self, element: Foreign) -> None:
         self.element = element
         self.lines: dict[str, Line] = {}
 
     def number(self, name: str, default: float, lower: float = -LARGEST, upper: float = LARGEST) -> float:
-        """One number; what is none, or lies out of bounds, is replaced and reported."""
+        """Return one number; a value that is not a number or out of bounds is replaced and reported."""
         if name not in self.element.values:
             return default
         found = array(self.element.values[name])
@@ -40,17 +40,18 @@ class Values:
         return inside
 
     def width(self, name: str, default: float = 1.0) -> float:
-        """The width of a Gaussian in samples; 0 means a single sample, which a width far below the step
-        is.
+        """Return the width of a Gaussian in samples.
+
+        0 means a single sample, which a width far below the step gives.
         """
         return max(self.number(name, default, 0.0), NARROWEST)
 
     def flag(self, name: str, default: bool) -> bool:
-        """A switch, written as 0 or 1."""
+        """Return a switch, written as 0 or 1."""
         return self.number(name, float(default)) != 0
 
     def numbers(self, name: str, default: Sequence[float], count: int) -> list[float]:
-        """So many numbers; a single one stands for all."""
+        """Return `count` numbers; a single number is repeated."""
         if name not in self.element.values:
             return list(default)
         found = array(self.element.values[name])
@@ -66,13 +67,13 @@ class Values:
         return [float(v) for v in np.broadcast_to(found.reshape(-1), (count,))]
 
     def size(self, name: str = "size", default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
-        """A size: whole numbers, at least two of them; one number is a row."""
+        """Return a size: whole numbers, at least two of them; one number is a row."""
         if name in self.element.values:
             self.say(name)
         return size(self.element.values.get(name), default)
 
     def matrix(self, name: str) -> np.ndarray | None:
-        """An array of finite numbers; None where there is none."""
+        """Return an array of finite numbers; None without one."""
         found = array(self.element.values.get(name))
         if found is None or found.size == 0 or not np.isfinite(found).all() or np.abs(found).max() > LARGEST:
             return None
@@ -80,7 +81,7 @@ class Values:
         return found
 
     def periods(self, name: str = "onTimes") -> list[tuple[float, float]]:
-        """Pairs of first and last moment; they may be infinite."""
+        """Return pairs of first and last time; they may be infinite."""
         if name not in self.element.values:
             return []
         found = array(self.element.values[name])
@@ -94,11 +95,11 @@ class Values:
         return [(float(a), float(b)) for a, b in found.reshape(-1, 2)]
 
     def say(self, name: str, verdict: Verdict = "carried", why: str = "") -> None:
-        """What became of a parameter."""
+        """Add a report line about a parameter."""
         self.lines[name] = Line(self.element.label, "parameter", name, verdict, why)
 
     def rest(self) -> list[Line]:
-        """All lines; what nobody read was dropped."""
+        """Return all report lines; a parameter that was not read is `dropped`."""
         for name in self.element.values:
             if name not in self.lines:
                 self.say(
@@ -112,8 +113,8 @@ class Values:
 
 
 def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
-    """A size as cosivina means it: at least two whole numbers, one number is a row, ones at the end do not
-    count.
+    """Return a size by cosivina's rules: at least two whole numbers, one number is a row, trailing ones are
+    dropped.
     """
     found = array(value)
     if found is None or found.size == 0 or found.size > 4 or not np.isfinite(found).all():
@@ -126,10 +127,10 @@ def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
 
 
 def ticks(periods: Sequence[tuple[float, float]], start: float, step: float) -> list[tuple[int, int]]:
-    """The steps in which moments lie that belong to closed periods: first and last, counted from 1; periods
-    without a step are left out.
+    """Return the steps of closed periods, first and last, counted from 1; periods without a step are left
+    out.
 
-    A step belongs to a period if its moment does, to a millionth of a step.
+    A step belongs to a period if its time does, to a millionth of a step.
     """
     out: list[tuple[int, int]] = []
     for first, last in periods:

@@ -1,4 +1,4 @@
-"""How each class of cosivina is translated, by families."""
+"""The translation of each class of cosivina, by families."""
 
 from __future__ import annotations
 

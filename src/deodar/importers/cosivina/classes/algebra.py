@@ -13,7 +13,7 @@ from deodar.numerics.sigmoids.semilinear import SemiLinear
 
 
 def sum_inputs(b: SourceElement) -> Piece:
-    """SumInputs."""
+    """Translate SumInputs."""
     b.values.size()
     dims = b.dims()
     inlet = Inlet(b.label, dims, whole=True)
@@ -23,23 +23,23 @@ def sum_inputs(b: SourceElement) -> Piece:
 
 
 def scale_input(b: SourceElement) -> Piece:
-    """ScaleInput."""
+    """Translate ScaleInput."""
     return _one(b, Gain(b.values.number("amplitude", 0), name=b.label))
 
 
 def half_wave(b: SourceElement) -> Piece:
-    """HalfWaveRectification."""
+    """Translate HalfWaveRectification."""
     return _one(b, Sigmoid(SemiLinear(1.0, 0.0), name=b.label))
 
 
 def sigmoid(b: SourceElement) -> Piece:
-    """Sigmoid."""
+    """Translate Sigmoid."""
     logistic = Logistic(b.values.number("beta", 1, 1e-6, STEEPEST), b.values.number("threshold", 0))
     return _one(b, Sigmoid(logistic, name=b.label))
 
 
 def product(b: SourceElement) -> Piece:
-    """PointwiseProduct of two inputs, of which one may be smaller."""
+    """Translate PointwiseProduct of two inputs, one of which may be smaller."""
     b.values.size()
     dims = b.dims()
     ports = [[Inlet(b.label, dims, whole=True)], [Inlet(b.label, dims, "factor")]]

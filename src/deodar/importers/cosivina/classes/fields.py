@@ -25,11 +25,11 @@ from deodar.numerics.windows import FOR_EVER
 STEEPEST = 1e6
 
 MOST_COUNTED = 1_000_000
-"""Steps up to which cosivina's own counting of time is followed, with its rounding."""
+"""Number of steps up to which cosivina's counting of time is reproduced, with its rounding."""
 
 
 def neural_field(b: SourceElement) -> Piece:
-    """NeuralField: kernels and noise stay elements of their own, as in the file."""
+    """Translate NeuralField: kernels and noise remain separate elements, as in the file."""
     b.values.size()
     dims = b.dims()
     sigmoid = Logistic(b.values.number("beta", 4, 1e-6, STEEPEST))
@@ -48,7 +48,7 @@ def neural_field(b: SourceElement) -> Piece:
 
 
 def single_node(b: SourceElement) -> Piece:
-    """SingleNodeDynamics, without the samples of its phase plot."""
+    """Translate SingleNodeDynamics, without the samples of its phase plot."""
     for name in ("range", "resolution"):
         if name in b.element.values:
             b.values.say(name, "carried", "of the phase plot only: dd.phase takes its own")
@@ -74,8 +74,9 @@ def _level(b: SourceElement) -> str:
 
 
 def memory_trace(b: SourceElement) -> Piece:
-    """MemoryTrace; its rates are per step, whatever the step is, so that time constants are those of the file
-    times its step.
+    """Translate MemoryTrace.
+
+    Its rates are per step for any step, so that time constants are those of the file times its step.
     """
     b.values.size()
     dims = b.dims()
@@ -92,7 +93,7 @@ def memory_trace(b: SourceElement) -> Piece:
 
 
 def dynamic_variable(b: SourceElement) -> Piece:
-    """DynamicVariable, a pure integrator."""
+    """Translate DynamicVariable, an integrator."""
     b.values.size()
     dims = b.dims()
     tau = b.values.number("tau", 10)
@@ -118,7 +119,7 @@ def dynamic_variable(b: SourceElement) -> Piece:
 
 
 def running_history(b: SourceElement) -> Piece:
-    """RunningHistory: the newest row first."""
+    """Translate RunningHistory: the newest row first."""
     dims = b.of(b.values.size())
     slots, shown = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
     history = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6), _empty(b))
@@ -126,7 +127,7 @@ def running_history(b: SourceElement) -> Piece:
 
 
 def history(b: SourceElement) -> Piece:
-    """History: a row for each moment that is listed."""
+    """Translate History: a row for each listed time."""
     dims = b.of(b.values.size())
     given = b.values.matrix("storingTimes")
     if given is None:
@@ -137,9 +138,9 @@ def history(b: SourceElement) -> Piece:
 
 
 def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
-    """The moments at which cosivina stores: those that a step reaches.
+    """Return the times at which cosivina stores: those that a step reaches.
 
-    The others are moved to where no run comes.
+    The others are replaced by a time that no run reaches.
     """
     start, step = b.simulator.start, b.step
     ticks = np.round((times - start) / step)
@@ -168,14 +169,15 @@ def _slots(b: SourceElement, dims: Dims, count: int) -> tuple[Axis, Dims]:
     """The axis of what is stored, and the dimensions of the whole as cosivina has them."""
     kept = b.dims()
     slots = Axis("slot", 0, max(count - 1, 1), count, periodic=count == 1)
-    if b.asked:  # who reads it takes the moments for rows
+    if b.asked:  # an element that reads it takes the times for rows
         slots = kept[0 if dims[0] is None else -1] or slots
     return slots, kept if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
 
 
 def _empty(b: SourceElement) -> str:
-    """What cosivina shows where nothing is stored yet; where elements read it, it would make them undefined
-    for ever.
+    """Return what cosivina shows for a slot without a stored value.
+
+    Where elements read it, this value would make them undefined permanently.
     """
     return "zero" if b.asked else "nan"
 
@@ -199,7 +201,7 @@ def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, sho
 
 
 def _tau(b: SourceElement, name: str, default: float) -> float:
-    """A time constant; one below the step diverges or is refused."""
+    """Return a time constant; one below the step diverges or is refused."""
     return b.values.number(name, default, b.step)
 
 

@@ -23,16 +23,16 @@ WHOLE = 1e6
 """A cutoff beyond the length of any axis."""
 
 ALIKE = 0.1
-"""Up to this share of a ring a Gaussian on it and the sum of its images agree to 1e-6."""
+"""Largest width, as a share of a ring, at which a Gaussian and the sum of its images agree to 1e-6."""
 
 PADDED = 4.0
-"""Widths of padding from which a transform that wraps does not show."""
+"""Padding, in widths, from which the wrapping of a transform has no effect."""
 
 
 @dc.dataclass(frozen=True)
 class KernelForm:
-    """What the kernels of one element share: its dimensions, their boundaries, whether amplitudes are
-    integrals, and where they end.
+    """The common properties of an element's kernels: dimensions, boundaries, whether amplitudes are
+    integrals, and the cutoff.
     """
 
     dims: Dims
@@ -41,7 +41,7 @@ class KernelForm:
     cutoff: float
 
     def gaussian(self, amplitude: float, sigmas: Sequence[float], least: float = 0.0) -> TruncatedGaussian:
-        """A kernel of this form; widths of dimensions without an axis do not matter."""
+        """Return a kernel of this form; widths of dimensions without an axis are ignored."""
         own = [s for s, a in zip(sigmas, self.dims, strict=True) if a is not None]
         same = own[0] if own and len(set(own)) == 1 else own or 1.0
         return TruncatedGaussian(
@@ -55,14 +55,14 @@ class KernelForm:
 
 
 def kernel_1d(b: SourceElement) -> Piece:
-    """GaussKernel1D."""
+    """Translate GaussKernel1D."""
     form = _form(b)
     kernel = form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))
     return _convolve(b, form, [kernel])
 
 
 def kernel_nd(b: SourceElement) -> Piece:
-    """GaussKernel2D and 3D, whose amplitude stands on one axis: the same product."""
+    """Translate GaussKernel2D and 3D; the amplitude is applied on one axis, which gives the same product."""
     form = _form(b)
     mixed = b.element.kind == "GaussKernel3D" and len(form.ends) == 3 and form.ends[0] != form.ends[1]
     if mixed and b.bug("GaussKernel3D looks at circularY where it convolves along x"):
@@ -71,14 +71,15 @@ def kernel_nd(b: SourceElement) -> Piece:
 
 
 def difference(b: SourceElement) -> Piece:
-    """MexicanHatKernel and LateralInteractions, of one, two and three dimensions, shifted or not: two
-    Gaussians, perhaps a constant.
+    """Translate MexicanHatKernel and LateralInteractions of one to three dimensions, shifted or not.
+
+    Each is two Gaussians, with or without a constant.
     """
     form = _form(b)
     up, down = b.values.number("amplitudeExc", 0), b.values.number("amplitudeInh", 0)
     wide, wider = _widths(b, "sigmaExc", form), _widths(b, "sigmaInh", form)
     least = 0.0
-    if "1D" in b.element.kind:  # one reach for both: that of the wider one that is there
+    if "1D" in b.element.kind:  # one cutoff for both: that of the wider one with an amplitude
         least = form.cutoff * max((up != 0) * max(wide[-1], 0.0), (down != 0) * max(wider[-1], 0.0))
     kernels: list[Kernel] = [form.gaussian(up, wide, least), form.gaussian(-down, wider, least)]
     if b.element.kind == "LateralInteractionsShifted1D":
@@ -91,7 +92,7 @@ def difference(b: SourceElement) -> Piece:
 
 
 def discrete(b: SourceElement) -> Piece:
-    """LateralInteractionsDiscrete: every place by itself, and all together."""
+    """Translate LateralInteractionsDiscrete: self-excitation of every position, and global inhibition."""
     b.values.size()
     dims = b.dims()
     own = KernelForm(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
@@ -102,7 +103,7 @@ def discrete(b: SourceElement) -> Piece:
 
 
 def kernel_fft(b: SourceElement) -> Piece:
-    """KernelFFT, and the inverse half of it: kernels over the whole ring, or over an input padded with
+    """Translate KernelFFT, and its inverse half: kernels over the whole ring, or over an input padded with
     zeros.
     """
     b.values.size()
@@ -149,7 +150,7 @@ def kernel_fft(b: SourceElement) -> Piece:
 
 
 def fourier(b: SourceElement) -> Piece:
-    """FastFourierTransform: only KernelInverseFFT can read what it gives, so that it hands its input on."""
+    """Translate FastFourierTransform: only KernelInverseFFT can read its output, so it passes its input."""
     b.values.size()
     dims = b.dims()
     return Piece(
@@ -162,9 +163,9 @@ def fourier(b: SourceElement) -> Piece:
 
 
 def sums(b: SourceElement) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
-    """The sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`.
+    """Return the sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`.
 
-    Those that nobody reads cost nothing in a step.
+    Sums without a reader cost nothing in a step.
     """
     own = b.values.size()
     dims = b.of(own) if b.element.kind == "SumAllDimensions" else b.dims()
@@ -226,7 +227,7 @@ def _interaction(b: SourceElement, dims: Dims, element: Interaction) -> Piece:
 
 
 def _constants(b: SourceElement) -> dict[str, str]:
-    """Components that show what cosivina computes from parameters alone."""
+    """Return the components that cosivina computes from parameters alone."""
     out: dict[str, str] = {}
     for component in components(b.element.kind):
         if component.startswith("kernel"):

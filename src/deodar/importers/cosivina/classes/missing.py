@@ -1,4 +1,6 @@
-"""Classes without a counterpart: they keep their place and their connections, and say what is missing."""
+"""Classes without a counterpart: a placeholder keeps their place and connections, and states what is
+missing.
+"""
 
 from __future__ import annotations
 
@@ -19,11 +21,11 @@ MISSING = {
     "LFP": "records the mean input of a field",
     "MobileRobotArena": "simulates a vehicle among targets",
 }
-"""What classes would do that are not translated."""
+"""The function of each class that is not translated."""
 
 
 def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str = "") -> Piece:
-    """A placeholder for an element, with the reason."""
+    """Return a placeholder for an element, with the reason."""
     what = why or MISSING.get(e.kind, "")
     if not what:
         hint = did_you_mean(e.kind, known)

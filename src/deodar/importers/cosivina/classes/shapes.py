@@ -24,7 +24,7 @@ from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 
 
 def transpose(b: SourceElement) -> Piece:
-    """Transpose: its size is that of the output."""
+    """Translate Transpose: its size is that of the output."""
     b.values.size()
     dims = b.dims()
     if len(dims) != 2:
@@ -42,7 +42,7 @@ def transpose(b: SourceElement) -> Piece:
 
 
 def sum_dimension(b: SourceElement) -> Piece:
-    """SumDimension: a projection that adds up, then a gain."""
+    """Translate SumDimension: a projection that sums, then a gain."""
     b.values.size()
     dims = b.dims()
     listed = b.values.matrix("sumDimensions")
@@ -76,14 +76,14 @@ def sum_dimension(b: SourceElement) -> Piece:
 
 
 def sum_all(b: SourceElement) -> Piece:
-    """SumAllDimensions: one projection for each sum that somebody reads."""
+    """Translate SumAllDimensions: one projection for each sum that has a reader."""
     elements, inlets, outlets = sums(b)
     first = {"fullSum": outlets["fullSum"]}
     return Piece(list(reversed(elements)), [inlets], first | outlets, needs=1, why="Project")
 
 
 def expand_2d(b: SourceElement) -> Piece:
-    """ExpandDimension2D: a row or column, whichever way it comes, along one dimension of a plane."""
+    """Translate ExpandDimension2D: a row or column of any orientation, along one dimension of a plane."""
     b.values.size()
     dims = b.dims()
     along = int(b.values.number("expandDimension", 1, 1, 2)) - 1
@@ -93,7 +93,7 @@ def expand_2d(b: SourceElement) -> Piece:
 
 
 def expand(b: SourceElement) -> Piece:
-    """ExpandDimension: each dimension of the input goes where the mapping says, the others are filled with
+    """Translate ExpandDimension: the mapping assigns each dimension of the input; the others are filled with
     copies.
     """
     own, out = b.values.size("inputSize"), b.values.size("outputSize")
@@ -112,7 +112,7 @@ def expand(b: SourceElement) -> Piece:
 
 
 def diagonal_sum(b: SourceElement) -> Piece:
-    """DiagonalSum: a sum along diagonals, then a gain."""
+    """Translate DiagonalSum: a sum along diagonals, then a gain."""
     side = b.values.size("inputSize")[-1]
     came, dims = b.of((side, side)), b.dims()
     amplitude = b.values.number("amplitude", 0)
@@ -138,7 +138,7 @@ def diagonal_sum(b: SourceElement) -> Piece:
 
 
 def diagonal_expansion(b: SourceElement) -> Piece:
-    """DiagonalExpansion. cosivina never applies its amplitude; 0, where nobody gave one, stands for 1."""
+    """Translate DiagonalExpansion. cosivina never applies its amplitude; 0, if none was given, means 1."""
     came, dims = b.of(b.values.size("inputSize")), b.dims()
     amplitude = _unused_amplitude(b)
     if None in dims:
@@ -163,8 +163,9 @@ def diagonal_expansion(b: SourceElement) -> Piece:
 
 
 def shift_input(b: SourceElement) -> Piece:
-    """ShiftInput: a kernel of one sample, moved. cosivina never applies its amplitude; 0, where nobody gave
-    one, stands for 1.
+    """Translate ShiftInput: a shifted kernel of one sample.
+
+    cosivina never applies its amplitude; 0, if none was given, means 1.
     """
     b.values.size()
     dims = b.dims()
@@ -232,7 +233,7 @@ def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) ->
 
 
 def _unused_amplitude(b: SourceElement) -> float:
-    """An amplitude that cosivina stores and never applies."""
+    """Return an amplitude that cosivina stores and never applies."""
     amplitude = b.values.number("amplitude", 1)
     if amplitude in (0, 1):
         if amplitude == 0 and "amplitude" in b.element.values:

@@ -28,7 +28,7 @@ LETTERS = "YXZ"
 
 
 def gauss_stimulus(b: SourceElement) -> Piece:
-    """GaussStimulus1D, 2D and 3D, and their timed forms."""
+    """Translate GaussStimulus1D, 2D and 3D, and their timed forms."""
     b.values.size()
     dims = b.dims()
     many = not b.element.kind.endswith("1D")
@@ -61,13 +61,13 @@ def gauss_stimulus(b: SourceElement) -> Piece:
 
 
 def boost(b: SourceElement) -> Piece:
-    """BoostStimulus."""
+    """Translate BoostStimulus."""
     element = Boost(b.label, (), b.values.number("amplitude", 0))
     return Piece([element], [], {"output": Outlet(b.label, (None, None), still=True)}, why="Boost")
 
 
 def timed_boost(b: SourceElement) -> Piece:
-    """TimedBoost; with an amplitude for each period one Boost for each, and their sum."""
+    """Translate TimedBoost; with an amplitude per period, one Boost for each, and their sum."""
     periods = b.values.periods()
     given = b.values.matrix("amplitude")
     amplitudes = (
@@ -97,7 +97,7 @@ def timed_boost(b: SourceElement) -> Piece:
 
 
 def custom_stimulus(b: SourceElement) -> Piece:
-    """CustomStimulus and TimedCustomStimulus: any pattern."""
+    """Translate CustomStimulus and TimedCustomStimulus: any pattern."""
     own = b.values.size()
     dims = b.dims()
     given = next(
@@ -118,7 +118,7 @@ def custom_stimulus(b: SourceElement) -> Piece:
 
 
 def sequence(b: SourceElement) -> Piece:
-    """CustomStimulusSequence: one pattern after the other, nothing before the first."""
+    """Translate CustomStimulusSequence: one pattern after another, and zero before the first."""
     given = b.values.matrix("stimulusPatterns")
     if given is None or given.ndim > 3:
         raise Unfit("its stimulusPatterns are no patterns")
@@ -158,7 +158,7 @@ def sequence(b: SourceElement) -> Piece:
 
 
 def scalar_to_gaussian(b: SourceElement) -> Piece:
-    """ScalarToGaussian: a peak at the place that a number names."""
+    """Translate ScalarToGaussian: a peak at the position that a number gives."""
     columns = b.values.size()[1]
     dims = b.of((1, columns))
     if columns == 1:
@@ -197,7 +197,7 @@ def scalar_to_gaussian(b: SourceElement) -> Piece:
 
 
 def timed_switch(b: SourceElement) -> Piece:
-    """TimedSwitch: a product with a factor that is 1 while the switch is on."""
+    """Translate TimedSwitch: a product with a factor that is 1 while the switch is on."""
     b.values.size()
     dims = b.dims()
     gate = Boost(b.named("on"), (), 1.0, windows=windows(b))
@@ -213,7 +213,7 @@ def timed_switch(b: SourceElement) -> Piece:
 
 
 def noise(b: SourceElement) -> Piece:
-    """NormalNoise: the step of 1 makes its strength the same here."""
+    """Translate NormalNoise: the step of 1 makes its strength the same here."""
     b.values.size()
     dims = b.dims()
     amplitude = b.values.number("amplitude", 0)
@@ -226,14 +226,15 @@ def noise(b: SourceElement) -> Piece:
 
 
 def windows(b: SourceElement) -> list[Window]:
-    """The windows of closed periods: cosivina counts the time first, so that what belongs to t is used in the
-    step that leads to t.
+    """Return the windows of closed periods.
+
+    cosivina advances the time first, so that the value for t is used in the step that leads to t.
     """
     return _windows(b, ticks(b.values.periods(), b.simulator.start, b.step))
 
 
 def boundary(dims: Dims, ends: list[str]) -> list[str] | None:
-    """Boundaries where they are not those of the axes."""
+    """Return boundaries that differ from those of the axes, else None."""
     own = ["periodic" if a.periodic else "zero" for a in axes(dims)]
     return None if ends == own else ends
 
@@ -248,7 +249,7 @@ def _windows(b: SourceElement, spans: list[tuple[int, int]]) -> list[Window]:
 
 
 def _without(spans: list[tuple[int, int]], taken: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Spans of steps without those of others."""
+    """Yield spans of steps without those of others."""
     for a, z in taken:
         spans = [
             part for s, e in spans for part in ((s, min(e, a - 1)), (max(s, z + 1), e)) if part[0] <= part[1]

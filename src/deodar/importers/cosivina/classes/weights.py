@@ -17,7 +17,7 @@ from deodar.numerics.axes import shape
 
 
 def weight_matrix(b: SourceElement) -> Piece:
-    """WeightMatrix: a row times a matrix."""
+    """Translate WeightMatrix: a row times a matrix."""
     rows, columns = b.values.size()[:2]
     weights = b.values.matrix("weights")
     if weights is not None and "size" not in b.element.values and weights.ndim == 2:
@@ -37,8 +37,9 @@ def weight_matrix(b: SourceElement) -> Piece:
 
 
 def adaptive_weight_matrix(b: SourceElement) -> Piece:
-    """AdaptiveWeightMatrix: its rate is per step, and its weights are not in the file; they begin at 0, as in
-    cosivina.
+    """Translate AdaptiveWeightMatrix.
+
+    Its rate is per step, and its weights are not in the file; they begin at 0, as in cosivina.
     """
     rows, columns = b.values.size()[:2]
     came, dims = b.of((1, rows)), b.of((1, columns))
@@ -65,16 +66,16 @@ def adaptive_weight_matrix(b: SourceElement) -> Piece:
 
 
 REWARDED = 0.9
-"""What a reward must exceed in cosivina."""
+"""Threshold of a reward in cosivina."""
 
 
 def hebbian(b: SourceElement) -> Piece:
-    """HebbianConnection.
+    """Translate HebbianConnection.
 
-    Its files hold two of its parameters at most; the others are cosivina's defaults, each of them named.
+    A file has at most two of its parameters; the others are cosivina's defaults, and the report lists each.
 
-    cosivina calls `instar` what moves weights from active sources towards the target, and the other rule
-    where it is 0.
+    cosivina calls `instar` the rule that moves weights from active sources towards the target; 0 selects the
+    other rule.
     """
     came, dims = b.source(0), b.source(1)
     if came is None or dims is None:
@@ -135,7 +136,7 @@ T = TypeVar("T", float, str)
 
 
 def _default(b: SourceElement, name: str, value: T) -> T:
-    """A parameter of the file, or cosivina's default, which the report then names."""
+    """Return a parameter of the file, or cosivina's default, which the report then lists."""
     if name not in b.element.values:
         b.values.say(name, "approximated", f"it is not in the file; cosivina's default {value} is taken")
         return value
@@ -147,7 +148,7 @@ def _default(b: SourceElement, name: str, value: T) -> T:
 
 
 def _duration(b: SourceElement, gated: bool) -> float:
-    """How long a reward opens learning; 0: as long as it lasts."""
+    """Return how long a reward enables learning; 0: while it lasts."""
     if "rewardDuration" not in b.element.values:
         b.values.say(
             "rewardDuration",
