@@ -1,12 +1,12 @@
-"""Everything that is drawn with matplotlib, in one style: records, regimes, arenas, runs of papers.
+"""Figures with matplotlib, in one style: records, regimes, arenas, runs of papers.
 
-`COLOR` says what each colour means, and `RC` holds sizes of type and lines, for figures of one's own:
+`COLOR` defines the meaning of each colour, and `RC` the sizes of type and lines, for your own figures:
 `matplotlib.rc_context(dd.figures.RC)`.
 
 A kind of figure of a recorded variable is a module with `ACROSS` (whether time runs across),
 `suits(variable)`, `size(view)`, `fill(place, view)`, and a function named as the module that returns a
-`matplotlib.figure.Figure`: `dd.space_time`, `dd.time_course` and so on. Nothing here uses pyplot, so that
-figures are objects and not global state.
+`matplotlib.figure.Figure`: `dd.space_time`, `dd.time_course` and so on. No module uses pyplot, so figures
+are objects without global state.
 """
 
 from deodar.figures._files import save_figure

@@ -1,4 +1,4 @@
-"""Colours of maps: one scale for all panels that are compared."""
+"""Colour scales of maps, shared by all panels of a comparison."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ NEARLY_FLAT = 1e-9
 
 
 def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
-    """The colour scale of some arrays.
+    """Return the colour scale of some arrays.
 
-    Activation gets a diverging map: white at the threshold, blue below, red above, equal steps of activation
-    being equal steps of colour on both sides of it. The threshold is always part of it, or the noise of a
-    silent field would look like peaks. Everything else gets a sequential map.
+    Activation has a diverging map: white at the threshold, blue below, red above, with equal steps of colour
+    for equal steps of activation on both sides. The scale always contains the threshold; otherwise the noise
+    of an inactive field would look like peaks. Other values have a sequential map.
     """
     every = [np.asarray(a, float) for a in arrays]
     low, high = min(float(np.nanmin(a)) for a in every), max(float(np.nanmax(a)) for a in every)
@@ -40,7 +40,7 @@ def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
 def bar(
     place: FigureBase, colors: ScalarMappable, axes: Any, label: str, threshold: float | None = None
 ) -> None:
-    """The colour bar beside axes, with a line at the threshold."""
+    """Draw the colour bar beside axes, with a line at the threshold."""
     made = place.colorbar(colors, ax=axes, label=label, pad=0.02, aspect=18 if isinstance(axes, Axes) else 22)
     made.outline.set_linewidth(0.6)  # pyright: ignore[reportCallIssue]
     low, high = colors.get_clim()
@@ -49,7 +49,7 @@ def bar(
 
 
 def _part(name: str, low: float, high: float) -> Colormap:
-    """A piece of a diverging map; -1 and 1 are its ends, 0 its middle."""
+    """Return a part of a diverging map, whose ends are -1 and 1 and whose middle is 0."""
     # start-up time: matplotlib is needed for figures only
     import matplotlib
 

@@ -1,4 +1,4 @@
-"""One figure of one variable: what every kind does to draw itself alone."""
+"""One figure of one variable, of any kind."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def alone(
     variable: xarray.DataArray,
     view: Mapping[str, Any],
 ) -> Figure:
-    """A figure of the size that a kind asks for, filled by it."""
+    """Return a figure in the size of a kind, filled by the kind."""
     looked = View(variable, **view)
     with _style.style():
         figure = _style.figure(*size(looked))

@@ -1,4 +1,4 @@
-"""Figures as files: SVG, PDF or PNG, written beside and renamed."""
+"""Figures as files: SVG, PDF or PNG, written to a temporary file and renamed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FORMATS = ("png", "svg", "pdf")
 
 
 def claim(path: Path, force: bool = False) -> str:
-    """The format that a file name ends in; refuses what cannot be drawn or written."""
+    """Return the format of a file name; raise an error if it cannot be drawn or written."""
     format = path.suffix.lower().removeprefix(".")
     if format not in FORMATS:
         what = f"the name ends in {path.suffix!r}" if path.suffix else "the name has no ending"
@@ -27,7 +27,7 @@ def claim(path: Path, force: bool = False) -> str:
 
 
 def save_figure(figure: Figure, path: Path, force: bool = False, dots: float = _style.DOTS) -> None:
-    """Write a figure, with `dots` an inch; the same figure gives the same bytes."""
+    """Write a figure, with `dots` per inch; equal figures give equal bytes."""
     format = claim(path, force)
     about: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[format]
 

@@ -14,7 +14,7 @@ from deodar.figures import _style
 from deodar.figures._view import TRIAL, View
 
 MOST_TRIALS = 50
-"""Trials drawn as lines of their own; the mean is that of all."""
+"""Most trials drawn as single lines; the mean is that of all trials."""
 
 MOST_CURVES = 12
 
@@ -27,10 +27,10 @@ def curves(
     view: View,
     labels: dict[str, Any] | None = None,
 ) -> None:
-    """One curve over the dimension `across` for each remaining point of `v`; trials are thin lines with their
-    mean.
+    """Draw one curve over the dimension `across` for each remaining point of `v`; trials are thin lines with
+    their mean.
 
-    `labels` names the points of dimensions that are neither trial nor `across` (places of a field).
+    `labels` names the points of dimensions that are neither trial nor `across` (positions in a field).
     """
     others = [str(d) for d in v.dims if d not in (TRIAL, across)]
     flat = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across).values
@@ -68,14 +68,14 @@ def curves(
 
 
 def level(ax: Axes, view: View, across: bool = True) -> None:
-    """A line at the threshold, where there is one and the values come near it."""
+    """Draw a line at the threshold, if the variable has one and its values come near it."""
     if view.threshold is not None:
         draw = ax.axhline if across else ax.axvline
         draw(view.threshold, **_style.THRESHOLD_LINE)
 
 
 def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...]) -> list[Any]:
-    """A row of values gets colours in their order, places and mixtures get colours that differ."""
+    """Return colours: ordered ones for values of one dimension, distinct ones for positions and mixtures."""
     n = int(np.prod(grid))
     if len(others) == 1 and n > 2 and v[others[0]].dtype.kind in "iuf" and others[0] in v.coords:
         return list(matplotlib.colormaps[_style.SEQUENTIAL](np.linspace(0.0, 0.85, n)))

@@ -1,4 +1,4 @@
-"""A plane of values as a map of colours."""
+"""A two-dimensional array as a colour map."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LARGEST_ASPECT = 3.0
 
 
 def paint(ax: Axes, values: Any, view: View, across: str, up: str, colors: ScalarMappable) -> None:
-    """The values, an array (across, up), with the labels of both axes."""
+    """Draw the values, an array (across, up), with the labels of both axes."""
     x, y = view.extent(across), view.extent(up)
     norm: Any = colors.norm
     ax.imshow(
@@ -31,14 +31,14 @@ def paint(ax: Axes, values: Any, view: View, across: str, up: str, colors: Scala
 
 
 def square(view: View, across: str, up: str) -> bool:
-    """Whether both axes are drawn to one scale: of one unit, and neither much longer."""
+    """Return whether both axes have one scale: of the same unit, and neither much longer."""
     units = [view.variable[d].attrs.get("units") if d in view.variable.coords else None for d in (across, up)]
     (a, b), (c, d) = view.extent(across), view.extent(up)
     return units[0] == units[1] and 1 / LARGEST_ASPECT <= (b - a) / (d - c) <= LARGEST_ASPECT
 
 
 def shape(view: View, across: str, up: str) -> float:
-    """Height over width of the map."""
+    """Return height over width of the map."""
     if not square(view, across, up):
         return 0.8
     (a, b), (c, d) = view.extent(across), view.extent(up)

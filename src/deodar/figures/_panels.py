@@ -1,4 +1,4 @@
-"""The kinds of figures, the one that suits a variable, and several variables as panels of one figure."""
+"""The kinds of figures, the choice of a kind for a variable, and several variables in one figure."""
 
 from __future__ import annotations
 
@@ -21,34 +21,34 @@ MOST_PANELS = 12
 
 
 def kinds() -> dict[str, ModuleType]:
-    """Every kind of figure of a variable by name: the files of the folder that have a function `suits`."""
+    """Return every kind of figure of a variable by name: the modules with a function `suits`."""
     names = sorted(m.name for m in pkgutil.iter_modules(figures.__path__) if not m.name.startswith("_"))
     found = {name: importlib.import_module(f"deodar.figures.{name}") for name in names}
     return {name: module for name, module in found.items() if hasattr(module, "suits")}
 
 
 REQUIRED = ("ACROSS", "size", "fill")
-"""What the module of a kind has; where ACROSS is true, `paint` too."""
+"""The required members of a kind's module; `paint` too if ACROSS is true."""
 
 
 def _problem(plugin: Plugin, found: object) -> str:
-    """What is wrong with what a package names as a kind of figure."""
+    """Return the problem with a kind of figure from a package."""
     needed = [*REQUIRED, *(["paint"] if getattr(found, "ACROSS", False) else [])]
     missing = [name for name in needed if not hasattr(found, name)]
     return f"has no {', '.join(missing)}" if missing else ""
 
 
 KINDS: Extensions[ModuleType] = Extensions("figures", "kind of figure", kinds, _problem)
-"""The kinds of figures, those of installed packages included.
+"""The kinds of figures, including those of installed packages.
 
-A figure of a package is drawn on request alone: which kind suits a variable does not depend on what is
-installed.
+A figure of a package is drawn only on request, so the default kind of a variable does not depend on the
+installed packages.
 """
 
 
 def choose(view: View) -> str:
-    """The kind that suits a variable: exactly one says so, unless times, places or axes were asked for that
-    settle it.
+    """Return the default kind for a variable: that of the requested times, positions or axes, else the only
+    kind that suits it.
     """
     if view.axes is not None:
         return "projection"
@@ -60,14 +60,14 @@ def choose(view: View) -> str:
 
 
 def kind(view: View, name: str | None = None) -> ModuleType:
-    """The kind that was asked for, or the one that suits."""
+    """Return the requested kind, or the default kind."""
     return KINDS[(name or choose(view)).replace("-", "_")]
 
 
 def draw(views: Sequence[View], name: str | None = None) -> Figure:
-    """One figure of one or several variables, one panel each, one above the other.
+    """Draw one figure of one or several variables, one panel each, one above the other.
 
-    Where time runs across in all of them, they share it.
+    If the horizontal axis of all panels is time, they share it.
     """
     if not views:
         raise RecordError("there is no variable to draw")

@@ -1,6 +1,6 @@
 """The style of all figures: widths of a journal's columns, sizes of type and lines, meanings of colours.
 
-docs/drawing.md holds the same convention as a table.
+docs/drawing.md has the same convention as a table.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from matplotlib.rcsetup import cycler
 
 SINGLE = 3.5
 DOUBLE = 7.2
-"""Widths of one and two columns, in inches."""
+"""Widths of figures over one and two columns, in inches."""
 
 PANEL = 2.1
 """Height of a panel across one column, in inches."""
@@ -26,7 +26,7 @@ DOTS = 300
 """Dots per inch of a PNG."""
 
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-"""Colours of lines: Okabe and Ito's set, which colour-blind readers tell apart."""
+"""Colours of lines: Okabe and Ito's set, which colour-blind readers can distinguish."""
 
 BLUE, VERMILION, GREEN, _PURPLE, ORANGE, _SKY, BLACK = COLORS
 GREY = "#999999"
@@ -37,14 +37,14 @@ class Palette:
     """The meaning of colours, in all figures.
 
     Attributes:
-        activation, output, input: of a field or node, as a line; `input` also shades the times of an input.
-        excitation, inhibition, mixed: signs of couplings, as in pictures of models, and of what they add.
-        falling: a branch or state that is reached from above, where `activation` is reached from below.
+        activation, output, input: lines of a field or node; `input` also shades the times of an input.
+        excitation, inhibition, mixed: signs of couplings, as in pictures of models, and of their inputs.
+        falling: a branch or state that is reached from above; `activation` is reached from below.
         threshold: the line at the threshold, and reference lines.
-        wall, obstacle, obstacle_edge, start, goal: of an arena.
-        window: times at which something is there, as shading.
+        wall, obstacle, obstacle_edge, start, goal: parts of an arena.
+        window: shading of a time window.
         moment: a line at one time.
-        claim, baseline, interval: a method that is tested, those it is compared with, 95 % intervals.
+        claim, baseline, interval: the tested method, the baselines, 95 % intervals.
     """
 
     activation: str = BLUE
@@ -70,13 +70,13 @@ class Palette:
 COLOR = Palette()
 
 ROUTES = (GREEN, BLUE, VERMILION, GREY)
-"""Colours of alternatives that runs choose from; the last one: none of them."""
+"""Colours of alternatives of which a run takes one; the last colour: none of them."""
 
 THIN, MEDIUM, THICK = 0.5, 0.8, 1.1
-"""Widths of lines in points: one of many trials, one of several, a mean or the only one."""
+"""Widths of lines in points: one of many trials, one of several lines, a mean or single line."""
 
 DOT, CROSS = 2.5, 6.0
-"""Sizes of a start and a goal, in points."""
+"""Sizes of the marks of a start and a goal, in points."""
 
 SMALL = 6.5
 """Size of type inside a panel, in points."""
@@ -97,7 +97,7 @@ OUTLINE: dict[str, Any] = {
     "linestyle": "--",
     "zorder": 2,
 }
-"""The outline of a thing that comes and goes."""
+"""The outline of an obstacle that appears and disappears."""
 
 SEQUENTIAL = "viridis"
 DIVERGING = "RdBu_r"
@@ -127,28 +127,28 @@ RC: dict[str, Any] = {
     "ytick.major.size": 2.5,
     "image.interpolation": "nearest",
     "image.origin": "lower",
-    "svg.fonttype": "none",  # real text, which a journal or a reader can edit and search
-    "svg.hashsalt": "deodar",  # the same figure gives the same file
+    "svg.fonttype": "none",  # text as text, so that it can be edited and searched
+    "svg.hashsalt": "deodar",  # equal figures give equal files
     "pdf.fonttype": 42,
     "figure.facecolor": "white",
     "savefig.facecolor": "white",
 }
-"""Type, lines and frames, for figures of users too."""
+"""Type, lines and frames, also for figures of users."""
 
 TIGHT: dict[str, Any] = {**RC, "axes.xmargin": 0.0, "text.parse_math": False}
-"""The same, with time and space from edge to edge, and names as they are, with all their signs."""
+"""`RC` without margins, and with names as plain text instead of mathematical notation."""
 
 
 @contextmanager
 def style() -> Generator[None]:
-    """The look, for as long as it is needed; the user's own settings are left alone."""
+    """Apply the style inside a block; the user's settings are restored after it."""
     with matplotlib.rc_context(cast(Any, TIGHT)), warnings.catch_warnings():
         warnings.filterwarnings(
             "ignore", message="Glyph .* missing"
-        )  # a name in a script that the font lacks: boxes, not a failure
+        )  # characters that the font lacks are drawn as boxes, without a warning
         yield
 
 
 def figure(width: float, height: float) -> Figure:
-    """An empty figure of that many inches, laid out so that nothing overlaps."""
+    """Return an empty figure, with width and height in inches and a layout without overlaps."""
     return Figure(figsize=(width, height), dpi=150, layout="constrained")

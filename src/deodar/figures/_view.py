@@ -1,4 +1,4 @@
-"""What of a variable is looked at: which trial, which point of a sweep, which times, places and axes."""
+"""The selected part of a variable: trial, point of a sweep, times, positions and axes."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ NEAR = 1e-9
 
 @dc.dataclass(frozen=True)
 class View:
-    """A variable and what of it is looked at.
+    """A variable and the part of it that a figure shows.
 
     Args:
         variable: a variable of a record; its dimensions are sweep paths, trial, time and axes.
-        at: times, in the record's unit; the nearest recorded ones are taken. None: what suits the kind.
-        trial: number of the trial. None: all of them where lines are drawn, else the first.
-        where: for each sweep path the value to look at. None: all of them where lines are drawn, else the
+        at: times, in the record's unit; the nearest recorded times are used. None: the default of the kind.
+        trial: number of the trial. None: all trials in figures with lines, else the first.
+        where: for each sweep path the selected value. None: all values in figures with lines, else the
             first.
         axes: names of the axes to keep in a projection.
-        places: for time courses of fields: positions, one number for each axis. None: where the field is most
-            active.
-        reduce: how a projection treats the other axes: maximum or integral.
+        places: for time courses of fields: positions, one number for each axis. None: the position of the
+            largest value.
+        reduce: contraction over the other axes in a projection: maximum or integral.
     """
 
     variable: xarray.DataArray
@@ -78,7 +78,7 @@ class View:
                     fix=f"Recorded are times from {self.times[0]:g} to {self.times[-1]:g}",
                 )
 
-    # ------------------------------------------------------------------------------------------ what there is
+    # ------------------------------------------------------------------------------------------- the variable
 
     @property
     def name(self) -> str:
@@ -87,7 +87,7 @@ class View:
 
     @property
     def space(self) -> list[str]:
-        """Dimensions that are axes of the field: those that carry bounds, and those without a coordinate."""
+        """Dimensions that are axes of the field: those with bounds, and those without a coordinate."""
         v = self.variable
         return [
             str(d) for d in v.dims if d not in (TIME, TRIAL) and (d not in v.coords or "lower" in v[d].attrs)
@@ -110,25 +110,25 @@ class View:
 
     @property
     def margin(self) -> float:
-        """Half a gap between records: a time this close to one is taken for it."""
+        """Half the interval between records: the tolerance with which a time selects a record."""
         t = self.times
         return 0.5 * float(np.diff(t).min()) if len(t) > 1 else NEAR * max(1.0, abs(float(t[0])))
 
     @property
     def threshold(self) -> float | None:
-        """Activation of half output, where the variable is an activation."""
+        """The activation at which the output is half of its maximum, if the variable is an activation."""
         value = self.variable.attrs.get("threshold")
         return float(value) if value is not None else None
 
     @property
     def trials(self) -> int:
-        """How many trials are looked at."""
+        """The number of selected trials."""
         return self.variable.sizes.get(TRIAL, 1) if self.trial is None else 1
 
-    # -------------------------------------------------------------------------------------- what is looked at
+    # ------------------------------------------------------------------------------------------ the selection
 
     def chosen(self) -> xarray.DataArray:
-        """The variable at the trial and sweep values that were asked for; other dimensions stay."""
+        """The variable at the selected trial and sweep values; other dimensions are kept."""
         v = self.variable
         if self.trial is not None and TRIAL in v.dims:
             v = v.sel({TRIAL: self.trial})
@@ -151,7 +151,7 @@ class View:
         return v.transpose(TIME, *self.space)
 
     def note(self) -> str:
-        """Which trial and sweep point `one` takes, in words; empty where there is only one."""
+        """The trial and sweep point of `one`, in words; empty if the record has only one."""
         v, parts = self.chosen(), []
         for path in self.sweeps:
             if self.variable.sizes[path] > 1:
@@ -162,13 +162,13 @@ class View:
         return ", ".join(parts)
 
     def steps(self, default: Sequence[int]) -> list[int]:
-        """Indices of the times asked for, or of the default ones."""
+        """Return the indices of the selected times, or of the default times."""
         if self.at is None:
             return [int(k) % len(self.times) for k in default]
         return [int(np.abs(self.times - t).argmin()) for t in self.at]
 
     def instant(self) -> int:
-        """Index of the one time that is looked at: the last, where none is asked for."""
+        """Return the index of the selected time, by default the last."""
         if self.at is not None and len(self.at) != 1:
             raise RecordError(
                 f"{len(self.at)} times were given, and one is drawn",
@@ -180,7 +180,7 @@ class View:
     # -------------------------------------------------------------------------------------------------- words
 
     def label(self) -> str:
-        """What the variable is, for an axis or a colour bar."""
+        """Return the label of the variable for an axis or a colour bar."""
         return _with_unit(
             str(self.variable.attrs.get("long_name") or self.name), self.variable.attrs.get("units")
         )

@@ -17,12 +17,12 @@ from deodar.figures import _style
 def shares_figure(
     panels: Mapping[str, Sequence[tuple[int, int]]], labels: Sequence[str], ours: int, what: str
 ) -> Figure:
-    """Shares as bars with 95 % intervals.
+    """Draw shares as bars with 95 % intervals.
 
     Args:
         panels: for each panel its title and (hits, n) of each condition.
         labels: names of the conditions.
-        ours: number of conditions, the first ones, of the method that is tested; the others are baselines.
+        ours: number of leading conditions that belong to the tested method; the others are baselines.
         what: label of the vertical axis.
     """
     with _style.style():
@@ -47,8 +47,8 @@ def shares_figure(
 def boxes_figure(
     panels: Mapping[str, Sequence[np.ndarray]], labels: Sequence[str], reference: float, what: str
 ) -> Figure:
-    """Distributions as boxes on a logarithmic axis: median, quartiles, whiskers of 1.5 quartile distances,
-    points beyond.
+    """Draw distributions as boxes on a logarithmic axis: median, quartiles, whiskers of 1.5 interquartile
+    ranges, points beyond.
 
     Args:
         panels: for each panel its title and the values of each condition.

@@ -26,7 +26,7 @@ EXPLAINED = (
     " person\ndotted lines: spatial peak"
 )
 LOWEST, HIGHEST = -6.0, 4.0
-"""Activation at the ends of the colour scale, the same in all pictures, so that they can be compared."""
+"""Activation at the ends of the colour scale, equal in all pictures, for comparison."""
 
 
 class DrawnCue(Protocol):
@@ -121,7 +121,7 @@ def cues_figure(result: DrawnResult) -> Figure:
 
 
 def overview(results: Sequence[DrawnScenes], columns: int = 4) -> Figure:
-    """All photographs with what the cues of present colours selected: marked region, peaks, end of the motor
+    """All photographs with the selections by cues of present colours: marked region, peaks, end of the motor
     variable.
     """
     shown = [(r, o) for r in results for o in r.outcomes if o.cue.expect != "absent"]

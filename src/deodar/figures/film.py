@@ -20,20 +20,20 @@ BETWEEN = 10
 """Steps between two frames."""
 
 SHOWN_MS = 80
-"""How long a frame is shown: eight times faster than the robot."""
+"""Duration of a frame, ms: the video is eight times faster than the robot."""
 
 TONES = 64
 """Colours of a frame: fewer make a smaller file."""
 
 FULL = 8.0
-"""Activation from which a colour is full."""
+"""Activation at which a colour is fully saturated."""
 
 FLOOR, WALL, OBSTACLE, ROBOT = (250, 250, 248), (70, 70, 74), (215, 185, 135), (20, 20, 20)
 
 
 def film(result: DrawnRun, file: str | Path) -> Path:
-    """Write a GIF: each place in the colours of the behaviours that are motivated there, the path, the robot,
-    walls and goal.
+    """Write a GIF: each position in the colours of the behaviours that are motivated there, with the path,
+    the robot, walls and goal.
     """
     path = output.claim(file)
     last = len(result.path)
@@ -51,7 +51,7 @@ def _frame(r: DrawnRun, k: int) -> Image.Image:
     x, y = r.record["x"].values, r.record["y"].values
     fields = np.stack([r.record[f"{name}.motivation.activation"].values[k] for name in DIRECTIONS])
     colours = np.array([_rgb(COLOUR[name]) for name in DIRECTIONS], float)
-    parts = np.clip(fields, 0.0, FULL) ** 2  # where two are motivated alike, their colours mix
+    parts = np.clip(fields, 0.0, FULL) ** 2  # the colours of equally motivated behaviours mix
     mixed = np.einsum("nij,nc->ijc", parts, colours) / np.maximum(parts.sum(axis=0), 1e-6)[..., None]
     share = np.clip(fields.max(axis=0) / FULL, 0.0, 1.0)[..., None] * 0.8
     cells = (1 - share) * np.array(FLOOR) + share * mixed

@@ -1,4 +1,4 @@
-"""Where a vehicle went: an arena from above with the paths in it, as a figure or as a GIF."""
+"""Paths of a vehicle in an arena, seen from above, as a figure or as a GIF."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from deodar.worlds.arena.view import FLOOR
 ACROSS = False
 MOST_FRAMES = 600
 FINER = 3
-"""Pixels drawn for one shown, along each side, so that edges look smooth."""
+"""Number of drawn pixels per shown pixel along each side, for smooth edges."""
 
 
 def path_figure(variable: xarray.DataArray, arena: World | None = None, **view: Any) -> Figure:
-    """A figure of paths: x across, y upwards, one line for each trial and each point of a sweep.
+    """Draw paths: x across, y upwards, one line for each trial and each point of a sweep.
 
     Args:
-        variable: what a sensor `place` or `pose` showed, over time: x and y, or x, y and heading.
-        arena: the arena it was recorded in, to draw what stands there now; none: the path alone.
+        variable: recorded reading of a sensor `place` or `pose`: x and y, or x, y and heading.
+        arena: the arena of the record, whose present walls and obstacles are drawn; none: the path alone.
         view: see `dd.figures.View`: trial, where.
     """
     looked = View(variable, **view)
@@ -45,8 +45,8 @@ def path_figure(variable: xarray.DataArray, arena: World | None = None, **view: 
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked: never, since nothing says that two samples
-    are a place.
+    """Return whether this is the default kind for a variable: never, as two samples need not be a
+    position.
     """
     return False
 
@@ -74,14 +74,14 @@ def animate_path(
     """Write a GIF of paths as they grow.
 
     Args:
-        variable: what a sensor `place` or `pose` showed, over time; a `dd.figures.View` of it draws one
+        variable: recorded reading of a sensor `place` or `pose`; a `dd.figures.View` of it draws one
             trial, or one point of a sweep.
-        file: where to; it ends in .gif.
-        arena: the arena it was recorded in.
-        width: in pixels.
+        file: path of the GIF; it ends in .gif.
+        arena: the arena of the record.
+        width: width in pixels.
         stride: number of records from one frame to the next.
-        speed: time of the record over time of the film.
-        force: whether a file of that name is replaced.
+        speed: time of the record divided by time of the video.
+        force: whether to replace an existing file.
     """
     # start-up time
     from PIL import Image, ImageDraw
@@ -190,7 +190,7 @@ def _ground(ax: Axes, arena: Arena) -> None:
 
 
 def _lines(view: View) -> list[np.ndarray]:
-    """Paths (times, 2 or 3), one for each trial and point of a sweep that is looked at."""
+    """Return paths (times, 2 or 3), one for each selected trial and point of a sweep."""
     v = view.chosen()
     if len(view.space) != 1 or v.sizes[view.space[0]] not in (2, 3) or "time" not in v.dims:
         raise RecordError(

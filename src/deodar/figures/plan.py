@@ -30,14 +30,14 @@ from deodar.worlds.arena.arena import Arena
 
 COLOUR = dict(zip(DIRECTIONS, COLORS, strict=False))
 BEFORE = 20
-"""Steps before it is on the southern route at which its second plan is shown."""
+"""Number of steps before the robot is on the southern route at which the second plan is shown."""
 
 RANGE = 10.0
-"""Activation at both ends of the colour scale; inhibition by walls goes beyond."""
+"""Activation at both ends of the colour scale; inhibition by walls exceeds it."""
 
 
 class DrawnRun(Protocol):
-    """A run of the planner, and what happened when, in steps; None: it did not happen."""
+    """A run of the planner, and the steps of its events; None: the event did not occur."""
 
     @property
     def record(self) -> xarray.Dataset: ...
@@ -62,8 +62,8 @@ class DrawnRun(Protocol):
 
 
 def plan_figure(result: DrawnRun) -> Figure:
-    """Path (as figure 11 of the paper), motivation fields at two moments (figure 12), and at four places over
-    time (figure 10).
+    """Draw the path (as figure 11 of the paper), motivation fields at two times (figure 12), and motivation
+    at four positions over time (figure 10).
     """
     r, changed = result, result.obstacle_at is not None
     with style():

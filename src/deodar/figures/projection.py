@@ -1,6 +1,4 @@
-"""A field of several dimensions, seen along some of them: the maximum or the integral onto one or two
-axes.
-"""
+"""The projection of a field of several dimensions onto one or two axes: maximum or integral."""
 
 from __future__ import annotations
 
@@ -21,9 +19,9 @@ ACROSS = False
 
 
 def projection(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of a field of two or more dimensions at one time, projected onto axes.
+    """Draw a field of two or more dimensions at one time, projected onto axes.
 
-    Without `axes`, every pair of axes gets a panel.
+    Without `axes`, every pair of axes has a panel.
 
     Args:
         variable: a variable of a record.
@@ -33,7 +31,7 @@ def projection(variable: xarray.DataArray, **view: Any) -> Figure:
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked."""
+    """Return whether this is the default kind for a variable."""
     return len(view.space) > 2
 
 

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
 
 def regimes_figure(found: Regimes) -> Figure:
-    """Two panels: the hysteresis of the field over its input, and its patterns (of a node: its phase
-    plots).
-    """
+    """Draw the hysteresis of a field over its input, and its patterns (for a node: its phase plots)."""
     with _style.style():
         figure = _style.figure(_style.DOUBLE, 2.9)
         left, right = figure.subplots(1, 2)
@@ -32,7 +30,7 @@ def regimes_figure(found: Regimes) -> Figure:
 
 
 def phase_figure(shown: Phase, time_unit: str = "ms") -> Figure:
-    """The phase plot of a node."""
+    """Draw the phase plot of a node."""
     with _style.style():
         figure = _style.figure(_style.SINGLE, 2.8)
         _phase_axes(figure.subplots(), [(shown, COLOR.activation, f"input {shown.input:.3g}")], time_unit)
@@ -67,7 +65,7 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
         if near and up is not None and down is not None and up != down:
             align = "left" if label == "detection" else "right"
         elif value < swept.values[0] + 0.2 * np.ptp(swept.values):
-            align = "left"  # centred there it would cover the labels of the axis
+            align = "left"  # a centred label would cover the labels of the axis
         axes.axvline(value, color=color, linewidth=0.7, linestyle=":")
         axes.annotate(
             f"{label}\n{value:.3g}",
@@ -110,7 +108,7 @@ def _profiles(axes: Any, found: Regimes) -> None:
 
 
 def _profile(axes: Any, found: Regimes, pattern: np.ndarray, color: str, style: str, label: str) -> None:
-    """The pattern along the first axis, through the centre of the input on the others."""
+    """Draw the pattern along the first axis, through the centre of the input on the others."""
     cut = pattern[(slice(None), *(a.samples // 2 for a in found.isolated.axes[1:]))]
     axes.plot(found.isolated.axes[0].points, cut, style, color=color, label=label)
 

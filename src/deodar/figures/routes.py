@@ -1,4 +1,4 @@
-"""Many runs through a maze: their paths, speeds, and what decided between routes."""
+"""Many runs through a maze: their paths, speeds, and chosen routes."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ FLOATS = list[tuple[float, ...]]
 
 @dataclass(frozen=True)
 class Course:
-    """A path and how it is drawn.
+    """A path and its line style.
 
     Attributes:
         path: x and y over time, (steps, 2), in the unit of the arena.
-        colour: of the line.
+        colour: colour of the line.
         dashed: whether the line is dashed.
         goal: x and y of a goal to mark, with the start; None: neither is marked.
     """
@@ -40,9 +40,9 @@ class Panel:
     """Paths in one picture of the maze.
 
     Attributes:
-        title: above the panel.
+        title: title above the panel.
         courses: the paths.
-        obstacle: x and y of the middle, width and height of an obstacle; None: there is none.
+        obstacle: x and y of the middle, width and height of an obstacle; None: no obstacle.
     """
 
     title: str
@@ -55,9 +55,9 @@ class Speeds:
     """Speeds over time in one panel.
 
     Attributes:
-        title: above the panel.
+        title: title above the panel.
         curves: for each run the steps, its speeds, a colour, and whether the line is dashed.
-        shaded: from which step to which the obstacle was there; None: not shown.
+        shaded: first and last step with the obstacle; None: not shown.
     """
 
     title: str
@@ -66,7 +66,7 @@ class Speeds:
 
 
 def paths_figure(arena: Arena, courses: Sequence[Course]) -> Figure:
-    """A few paths in one maze, with start and goal."""
+    """Draw several paths in one maze, with start and goal."""
     with _style.style():
         figure = _style.figure(_style.SINGLE, _style.SINGLE)
         _paint(figure.subplots(), arena, courses, _style.MEDIUM, 1.0)
@@ -74,7 +74,7 @@ def paths_figure(arena: Arena, courses: Sequence[Course]) -> Figure:
 
 
 def routes_figure(arena: Arena, panels: Sequence[Panel]) -> Figure:
-    """Many paths in the same maze, two panels in a row."""
+    """Draw many paths in the same maze, two panels in a row."""
     rows = -(-len(panels) // 2)
     with _style.style():
         figure = _style.figure(_style.DOUBLE, _style.DOUBLE * rows / 2)
@@ -90,12 +90,12 @@ def routes_figure(arena: Arena, panels: Sequence[Panel]) -> Figure:
 
 
 def speeds_figure(panels: Sequence[Speeds], unit: str, step: str) -> Figure:
-    """Speeds over time, two panels in a row.
+    """Draw speeds over time, two panels in a row.
 
     Args:
         panels: the panels.
-        unit: label of speeds.
-        step: what a step is.
+        unit: label of the speeds.
+        step: label of the steps.
     """
     rows = -(-len(panels) // 2)
     with _style.style():
@@ -117,12 +117,12 @@ def speeds_figure(panels: Sequence[Speeds], unit: str, step: str) -> Figure:
 def choice_figure(
     groups: Mapping[str, tuple[str, FLOATS]], limits: tuple[float, float], labels: tuple[str, str]
 ) -> Figure:
-    """Points of runs in colours of the routes that they took.
+    """Draw runs as points in the colours of their routes.
 
     Args:
         groups: for each route its colour, and x, y and size of each run.
         limits: ends of both axes.
-        labels: of both axes.
+        labels: labels of both axes.
     """
     with _style.style():
         figure = _style.figure(_style.SINGLE, 2.8)

@@ -18,10 +18,10 @@ ACROSS = False
 
 
 def snapshot(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of one variable at one time, by default the last.
+    """Draw one variable at one time, by default the last.
 
-    A value of a node is drawn over the swept parameter or the trials, a field of one dimension as a curve, of
-    two as a map.
+    A value of a node is drawn over the swept parameter or the trials, a field of one dimension as a curve, a
+    field of two dimensions as a map.
 
     Args:
         variable: a variable of a record, of up to two dimensions.
@@ -31,7 +31,7 @@ def snapshot(variable: xarray.DataArray, **view: Any) -> Figure:
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked."""
+    """Return whether this is the default kind for a variable."""
     return len(view.space) <= 2 and len(view.times) == 1
 
 
@@ -79,8 +79,8 @@ def _plane(ax: Axes, view: View, k: int) -> None:
 
 
 def _values(ax: Axes, view: View, k: int) -> None:
-    """A value for each point of a sweep, each trial a dot, with their mean; without a sweep over the
-    trials.
+    """Draw the values over the points of a sweep, each trial as a dot, with their mean; without a sweep, over
+    the trials.
     """
     v = view.chosen()
     v = v.isel({TIME: k}) if TIME in v.dims else v
@@ -114,7 +114,7 @@ def _values(ax: Axes, view: View, k: int) -> None:
 
 
 def _title(ax: Axes, text: str) -> None:
-    """One short line above: what the axes cannot say."""
+    """Write a short title with information that the axes do not show."""
     if text:
         ax.set_title(", ".join(t for t in (ax.get_title(), text) if t))
 

@@ -15,15 +15,15 @@ from deodar.figures._view import View
 
 ACROSS = False
 MOST = 4
-"""Times drawn where none are asked for."""
+"""Default number of times."""
 
 MOST_ASKED = 24
 ROW = 6
 
 
 def snapshots(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of a field of one or two dimensions at several times, by default four from the first record to
-    the last.
+    """Draw a field of one or two dimensions at several times, by default four from the first record to the
+    last.
 
     Args:
         variable: a variable of a record.
@@ -33,7 +33,7 @@ def snapshots(variable: xarray.DataArray, **view: Any) -> Figure:
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked."""
+    """Return whether this is the default kind for a variable."""
     return len(view.space) == 2 and len(view.times) > 1
 
 

@@ -18,7 +18,7 @@ ACROSS = True
 
 
 def space_time(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of a field of one dimension: time across, the dimension upwards, the value as colour.
+    """Draw a field of one dimension: time across, the dimension upwards, the value as colour.
 
     Args:
         variable: a variable of a record.
@@ -28,7 +28,7 @@ def space_time(variable: xarray.DataArray, **view: Any) -> Figure:
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked."""
+    """Return whether this is the default kind for a variable."""
     return len(view.space) == 1 and len(view.times) > 1
 
 

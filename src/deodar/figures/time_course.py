@@ -1,4 +1,4 @@
-"""Values over time: a node, a motor variable, or a field at chosen places."""
+"""Values over time: a node, a motor variable, or a field at selected positions."""
 
 from __future__ import annotations
 
@@ -19,8 +19,7 @@ PLACE = "place"
 
 
 def time_course(variable: xarray.DataArray, **view: Any) -> Figure:
-    """A figure of one variable over time; several trials are thin lines with their mean, sweep points are
-    colours.
+    """Draw one variable over time; several trials are thin lines with their mean, sweep points are colours.
 
     Args:
         variable: a variable of a record.
@@ -30,7 +29,7 @@ def time_course(variable: xarray.DataArray, **view: Any) -> Figure:
 
 
 def suits(view: View) -> bool:
-    """Whether this is how one would look at the variable unasked."""
+    """Return whether this is the default kind for a variable."""
     return not view.space and len(view.times) > 1
 
 
@@ -57,7 +56,7 @@ def paint(ax: Axes, view: View) -> None:
 
 
 def _at_places(v: xarray.DataArray, view: View) -> tuple[xarray.DataArray, dict[str, Any]]:
-    """The field at the places asked for, or at the place of its largest value, as a dimension of places."""
+    """Return the field at the selected positions, by default that of its largest value, as a dimension."""
     space = view.space
     if view.places is None:
         others = [d for d in v.dims if d not in space]
