@@ -13,30 +13,30 @@ from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
 from deodar.parameters import is_text, real, show
 
 MOST_SAMPLES = 1_000_000
-"""More samples on one axis are taken for a slip of the pen (a guess; a field this long would run at 0.01 of
-real time).
+"""Most samples on one axis; more are probably a typo (a guess; a field this long would run at 0.01 of real
+time).
 """
 
 FARTHEST = 1e30
-"""Bounds beyond this overflow in single precision once they are squared or multiplied."""
+"""Largest absolute bound; larger values overflow in single precision when they are squared or multiplied."""
 
 FINEST = 1e-6
-"""A range below this share of the bounds is no more than the rounding of single precision."""
+"""Smallest range relative to the bounds; smaller ranges are within the rounding of single precision."""
 
 
 @dataclass(frozen=True)
 class Axis:
     """A metric dimension with its sampling.
 
-    Samples stand at `lower + i * step`. On a periodic axis `step = (upper - lower) / samples` (upper is lower
-    again), on others `step = (upper - lower) / (samples - 1)` (upper is a sample).
+    Samples are at `lower + i * step`. On a periodic axis `step = (upper - lower) / samples` (upper is the
+    same position as lower), on others `step = (upper - lower) / (samples - 1)` (upper is a sample).
 
     Args:
-        name: what connections match by.
+        name: name of the dimension, by which connections match axes.
         lower: first value, in `unit`.
         upper: last value, in `unit`; greater than lower.
         samples: number of samples; at least 2, or 1 on a periodic axis.
-        periodic: whether the end meets the beginning.
+        periodic: whether upper and lower are the same position.
         unit: unit of the values, for labels and for matching.
     """
 
@@ -63,7 +63,7 @@ class Axis:
         return super().__new__(cls)
 
     def __reduce__(self) -> tuple[type[Self], tuple[Any, ...]]:
-        """Copy and pickle by the values, which are checked again when they are read."""
+        """Copy and pickle by the values, which are checked again on reading."""
         return type(self), (self.name, self.lower, self.upper, self.samples, self.periodic, self.unit)
 
     def __post_init__(self) -> None:
@@ -106,21 +106,21 @@ class Axis:
 
     @property
     def range(self) -> float:
-        """Upper minus lower; the period of a periodic axis."""
+        """The range, upper minus lower; the period of a periodic axis."""
         return self.upper - self.lower
 
     @property
     def step(self) -> float:
-        """Distance between neighbouring samples: the cell for which one sample stands."""
+        """The distance between neighbouring samples, equal to the size of a sample's cell."""
         return self.range / (self.samples if self.periodic else self.samples - 1)
 
     @property
     def points(self) -> np.ndarray:
-        """Values at the samples, float64."""
+        """The values at the samples, float64."""
         return self.lower + self.step * np.arange(self.samples)
 
     def fits(self, other: Axis) -> bool:
-        """Whether a connection may match the two: equal bounds (to 1e-9 of the range), unit and
+        """Return whether a connection may match both axes: equal bounds (to 1e-9 of the range), unit and
         periodicity.
         """
         near = 1e-9 * max(self.range, other.range)
@@ -143,15 +143,15 @@ Axes = tuple[Axis, ...]
 
 
 def shape(axes: Sequence[Axis]) -> tuple[int, ...]:
-    """Array shape of a field over the axes; () for a node."""
+    """Return the array shape of a field over the axes; () for a node."""
     return tuple(a.samples for a in axes)
 
 
 def cell(axes: Sequence[Axis]) -> float:
-    """Volume for which one sample stands: the product of the grid steps; 1 for a node."""
+    """Return the volume of a sample's cell: the product of the grid steps; 1 for a node."""
     return math.prod(a.step for a in axes)
 
 
 def describe(axes: Sequence[Axis]) -> str:
-    """The axes in one line, for messages: `[x 0..100, 101 samples]`."""
+    """Return the axes in one line, for messages: `[x 0..100, 101 samples]`."""
     return "[" + "; ".join(str(a) for a in axes) + "]"

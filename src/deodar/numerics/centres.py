@@ -1,4 +1,4 @@
-"""Where input along an axis has its centre."""
+"""The centre of an input along an axis."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from deodar.numerics.axes import Axis
 from deodar.numerics.scalar import Scalar
 
 LEAST_DIRECTED = 1e-3
-"""On a ring, the share of the input that must point somewhere: the direction of homogeneous input is only
-rounding.
+"""Smallest length of the mean vector on a periodic axis, as a share of the input; the direction of
+homogeneous input is only rounding.
 """
 
 
 def centre(axis: Axis, f: Array, least: Scalar) -> tuple[Array, Array, Array]:
-    """The mean of an axis weighted by what stands on it; on a ring the direction of the sum of vectors.
+    """Return the mean of an axis weighted by an input; on a periodic axis the direction of the vector sum.
 
     Args:
         axis: the axis.
-        f: one value for each of its samples, grid step included.
-        least: sum of f up to which there is nothing.
+        f: one value for each of its samples, times the grid step.
+        least: sum of f up to which the input has no centre.
 
     Returns:
-        The place in axis units, whether there is one, and the sum of f. Where there is none, the place is
+        The centre in axis units, whether it exists, and the sum of f. If it does not exist, the number is
         finite and without meaning.
     """
     x = jnp.asarray(axis.points, f.dtype)

@@ -1,8 +1,8 @@
-"""Which way of convolving is cheapest for a grid and a set of Gaussian kernels.
+"""The choice of the cheapest convolution strategy for a grid and a set of Gaussian kernels.
 
-Costs were measured on one core of a server (AVX-512, 2.7 GHz); the ways differ by factors, so that the model
-only has to rank them. Everything here is decided before compiling, from a bound on the widths (`bucket`):
-widths may change inside it without compiling anew.
+Costs were measured on one core of a server (AVX-512, 2.7 GHz); they differ by factors, so the cost model only
+needs to rank them. The choice is made before compiling, from bounds on the widths (`bucket`): widths may
+change inside a bucket without recompiling.
 """
 
 from __future__ import annotations
@@ -20,41 +20,39 @@ from deodar.numerics.waves import Waves
 
 BUCKETS_PER_OCTAVE = 4
 LEFT_OUT = 3e-5
-"""Gain of the fastest wave that is left out, relative to the kernel's integral."""
+"""Largest gain of an omitted spectral mode, relative to the kernel's integral."""
 
 REACH = 5.0
-"""Widths after which a Gaussian counts as nothing (4e-6 of its centre)."""
+"""Number of widths after which a Gaussian counts as 0 (4e-6 of its value at the centre)."""
 
 PRODUCT_NS = 0.016
-"""A multiplication and addition in a product of matrices."""
+"""Time of a multiplication and addition in a product of matrices, ns."""
 
 LINE_NS = {False: 0.035, True: 0.01}
-"""The same in a product with the samples of one axis: of one copy (bound by memory), of many at once."""
+"""The same time in a product with the samples of one axis: for one copy (memory-bound), for many copies."""
 
 TAP_NS = 0.04
 CALL_NS = 800.0
 FOURIER_NS = 0.3
 FOURIER_CALL_NS = 5000.0
 LONGEST = 4
-"""Rings longer than so many times the axis are not taken: so wide a kernel is nearly flat, and hardly a
-convolution.
-"""
+"""Largest length of a ring relative to the axis; a kernel that needs a longer ring is nearly homogeneous."""
 
 SMALLEST = 128
-"""Below so many samples a field over one axis always takes its matrix: a choice would cost more than it
-brings.
+"""Number of samples below which a field over one axis always uses its matrix, as other strategies save too
+little.
 """
 
 MANY = 6
-"""Copies (rows of a group, trials, points of a sweep) from which products of matrices are worth their
-preparation.
+"""Number of copies (rows of a group, trials, points of a sweep) from which products of matrices are faster
+including their preparation.
 """
 
 
 @dataclass(frozen=True)
 class Choice:
-    """How a sum of kernels is applied: `matrices`, `taps` (with their reach), `waves` or `fourier` (with the
-    waves of each axis), at what cost.
+    """The strategy for a sum of kernels, and its cost: `matrices`, `taps` (with their reach), `waves` or
+    `fourier` (with the spectral modes of each axis).
     """
 
     way: str
@@ -64,12 +62,12 @@ class Choice:
 
 
 def bucket(width: float) -> int:
-    """The bucket of a width: its bounds differ by a quarter of an octave."""
+    """Return the bucket of a width, whose bounds differ by a quarter of an octave."""
     return math.floor(BUCKETS_PER_OCTAVE * math.log2(width) + 1e-9)
 
 
 def bounds(number: int) -> tuple[float, float]:
-    """Narrowest and widest of a bucket."""
+    """Return the smallest and largest width of a bucket."""
     return 2 ** (number / BUCKETS_PER_OCTAVE), 2 ** ((number + 1) / BUCKETS_PER_OCTAVE)
 
 
@@ -81,8 +79,8 @@ def choose(
     terms: int,
     copies: int = 1,
 ) -> Choice:
-    """The cheapest way for `terms` kernels whose widths (in axis units) lie between the given bounds on each
-    axis, for each of so many copies.
+    """Return the cheapest strategy for `terms` kernels and `copies` copies, from bounds on the widths (in
+    axis units) along each axis.
     """
     return min(candidates(axes, boundaries, widths, terms, copies), key=lambda c: c.nanoseconds)
 
@@ -94,7 +92,7 @@ def candidates(
     terms: int,
     copies: int = 1,
 ) -> list[Choice]:
-    """All ways that are open, each with what it should cost a copy."""
+    """Return all possible strategies, each with its estimated cost per copy."""
     few = _few(axes, boundaries, widths)
     if len(axes) == 1:
         return _on_a_line(axes[0], few[0], widths[0][1], copies)
@@ -109,8 +107,8 @@ def candidates(
 def together(
     axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], copies: int
 ) -> Choice:
-    """The waves in which kernels between these widths can be added up, at the cost of transforming one of so
-    many copies there and back.
+    """Return the spectral modes in which kernels between these widths are summed, with the cost of both
+    transforms per copy.
     """
     few = _few(axes, boundaries, widths)
     if len(axes) == 1:
@@ -121,14 +119,14 @@ def together(
 
 
 def by_matrices(axes: Axes, terms: int, copies: int = 1) -> Choice:
-    """The exact way."""
+    """Return the exact strategy: one matrix for each axis and kernel."""
     if len(axes) == 1:
         return Choice("matrices", (), 0, LINE_NS[copies >= MANY] * axes[0].samples ** 2)
     return Choice("matrices", (), 0, _matrices(axes, terms))
 
 
 def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Choice]:
-    """One axis: all kernels are one matrix, or one row of taps."""
+    """Return the strategy for one axis, on which all kernels are one matrix or one row of taps."""
     n = axis.samples
     found = [by_matrices((axis,), 1, copies)]
     if n >= SMALLEST and _fit([waves]):
@@ -151,7 +149,7 @@ def _fit(waves: Sequence[Waves]) -> bool:
 
 
 def _waves(samples: int, boundary: str, narrow: float, wide: float) -> Waves:
-    """The waves that kernels between two widths (in samples) need."""
+    """Return the spectral modes that kernels between two widths (in samples) need."""
     length = samples
     if boundary == "reflect":
         length = 2 * samples

@@ -1,4 +1,4 @@
-"""Pictures as hues: what colour a pixel has, and which pixels lie in which cell of a coarser grid."""
+"""Hues of pictures, and the assignment of pixels to the cells of a coarser grid."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ CHANNELS = 3
 
 
 def hue_saturation_value(picture: Array) -> tuple[Array, Array, Array]:
-    """Hue (as a share of a turn, red 0), saturation and value of pixels with channels on the last axis."""
+    """Return hue (as a share of a turn, red 0), saturation and value of pixels with channels on the last
+    axis.
+    """
     red, green, blue = picture[..., 0], picture[..., 1], picture[..., 2]
     value = jnp.maximum(jnp.maximum(red, green), blue)
     spread = value - jnp.minimum(jnp.minimum(red, green), blue)
@@ -30,16 +32,16 @@ def hue_saturation_value(picture: Array) -> tuple[Array, Array, Array]:
 
 
 def from_hues(axis: Axis, turn: Array, dtype: DTypeLike) -> Array:
-    """How far the samples of a hue axis are from hues (as shares of a turn), the shorter way round: one axis
-    more, at the end.
+    """Return the distances of the samples of a hue axis from hues (as shares of a turn), as an additional
+    last axis; of both distances on the circle the shorter one.
     """
     distance = jnp.asarray(axis.points, dtype) - axis.lower - turn[..., None] * axis.range
     return distance - axis.range * jnp.round(distance / axis.range)
 
 
 def cells(fine: Axis, coarse: Axis, dtype: DTypeLike) -> Array:
-    """Weights of the mean over the pixels whose middle lies in a cell; a cell without a pixel takes the
-    nearest: shape (cells, pixels).
+    """Return the weights of the mean over the pixels whose middle is in a cell, shape (cells, pixels); a cell
+    without a pixel uses the nearest one.
     """
     member = resampling.weights(coarse, fine.points, "nearest", dtype).T
     count = jnp.sum(member, axis=1, keepdims=True)
@@ -48,7 +50,7 @@ def cells(fine: Axis, coarse: Axis, dtype: DTypeLike) -> Array:
 
 
 def same_side(fine: Axis, coarse: Axis) -> bool:
-    """Whether two axes are the same side of a picture: name and unit alike, ends at most a grid step
+    """Return whether two axes are the same side of a picture: equal name and unit, ends at most a grid step
     apart.
     """
     apart = max(abs(fine.lower - coarse.lower), abs(fine.upper - coarse.upper))

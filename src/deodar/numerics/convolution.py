@@ -1,11 +1,11 @@
-"""Convolution of a field's output with interaction kernels, at any width and any boundary.
+"""Convolution of a field's output with interaction kernels, for any width and boundary.
 
-A separable kernel is one matrix per axis, exact at every width, rebuilt without recompiling. A kernel given
-as samples is a product of spectra on the extended grid. Integrals are sums times the grid step (rectangle
-rule), which the matrices carry.
+A separable kernel is one matrix per axis, exact at every width, rebuilt without recompiling. A sampled kernel
+is a product of spectra on the extended grid. Integrals are sums times the grid step (rectangle rule); the
+matrices include this factor.
 
-Boundaries: `periodic` wraps with period N steps, `zero` sees nothing beyond the border, `reflect` sees the
-field mirrored at the outer edge of its last cell.
+Boundaries: `periodic` wraps with a period of N steps, `zero` pads the field with 0, `reflect` mirrors the
+field at the outer edge of its last cell.
 """
 
 from __future__ import annotations
@@ -21,21 +21,23 @@ from deodar.numerics.axes import Axes, Axis, cell, shape
 
 BOUNDARIES = ("periodic", "zero", "reflect")
 TINY = 1e-20
-"""Weights below this are dropped: they change nothing and denormal numbers are slow."""
+"""Smallest weight that is used; smaller weights have no effect, and denormal numbers are slow."""
 
 Profile = Callable[[Array, float | None], Array]
 """Weight as a function of the lag; the second argument is the period if the lag wraps, else None."""
 
 
 def boundaries(given: Sequence[str] | None, axes: Axes) -> tuple[str, ...]:
-    """The boundary on each axis: as given, else periodic on periodic axes and zero on others."""
+    """Return the boundary of each axis; the default is periodic on periodic axes and zero on others."""
     if given is None:
         return tuple("periodic" if a.periodic else "zero" for a in axes)
     return tuple(given) if len(given) == len(axes) else tuple(given) * len(axes)
 
 
 def matrix(axis: Axis, boundary: str, profile: Profile, dtype: DTypeLike) -> Array:
-    """Weights between all pairs of samples of one axis, times the grid step: shape (samples, samples)."""
+    """Return the weights between all pairs of samples of one axis, times the grid step, (samples,
+    samples).
+    """
     x = axis.points
     lag = jnp.asarray(x[:, None] - x[None, :], dtype)
     if boundary == "periodic":
@@ -50,14 +52,14 @@ def matrix(axis: Axis, boundary: str, profile: Profile, dtype: DTypeLike) -> Arr
 
 
 def taps(axis: Axis, boundary: str, profile: Profile, reach: int, dtype: DTypeLike) -> Array:
-    """Weights of a symmetric kernel at lags of 0 to `reach` samples, times the grid step."""
+    """Return the weights of a symmetric kernel at lags of 0 to `reach` samples, times the grid step."""
     lag = jnp.asarray(np.arange(reach + 1) * axis.step, dtype)
     weights = profile(lag, axis.step * axis.samples if boundary == "periodic" else None)
     return weights * jnp.asarray(axis.step, dtype)
 
 
 def tapped(weights: Array, y: Array, boundary: str) -> Array:
-    """Convolution over one axis as a sum of shifted copies, those of equal distance together."""
+    """Convolve over one axis by a sum of shifted copies; both copies of equal distance share a product."""
     reach, n = weights.shape[0] - 1, y.shape[0]
     sides = {"periodic": (y[n - reach :], y[:reach]), "reflect": (y[:reach][::-1], y[n - reach :][::-1])}
     nothing = jnp.zeros((reach,), y.dtype)
@@ -70,7 +72,7 @@ def tapped(weights: Array, y: Array, boundary: str) -> Array:
 
 
 def along(m: Array, y: Array, d: int) -> Array:
-    """The matrix applied along axis d."""
+    """Apply a matrix along axis d."""
     if d == 0:
         return jnp.tensordot(m, y, axes=(1, 0), precision="highest")
     if d == y.ndim - 1:
@@ -79,24 +81,24 @@ def along(m: Array, y: Array, d: int) -> Array:
 
 
 def separable(matrices: Sequence[Array], y: Array, order: Sequence[int] | None = None) -> Array:
-    """One matrix applied along each axis in turn, or in another order."""
+    """Apply one matrix along each axis, in ascending order or in `order`."""
     for d in range(len(matrices)) if order is None else order:
         y = along(matrices[d], y, d)
     return y
 
 
 def extended(axes: Axes, bounds: Sequence[str]) -> tuple[int, ...]:
-    """Samples on each axis of the grid on which a circular convolution has the wanted boundaries."""
+    """Return the number of samples along each axis for a circular convolution with these boundaries."""
     return tuple(n if b == "periodic" else 2 * n for n, b in zip(shape(axes), bounds, strict=True))
 
 
 def spectrum(samples: Array | np.ndarray, axes: Axes, bounds: Sequence[str], dtype: DTypeLike) -> Array:
-    """Spectrum of a kernel given as samples around its centre (odd counts: index (n - 1) / 2 is lag zero)."""
+    """Return the spectrum of a sampled kernel (odd counts: index (n - 1) / 2 is lag zero)."""
     sizes = extended(axes, bounds)
     kernel = jnp.asarray(samples, dtype)
     for d, (size, count) in enumerate(zip(sizes, kernel.shape, strict=True)):
         lags = np.arange(count) - (count - 1) // 2
-        if bounds[d] == "zero":  # lags that reach beyond the field never meet a sample of it
+        if bounds[d] == "zero":  # lags longer than the field have no effect
             keep = np.abs(lags) < axes[d].samples
             kernel, lags = jnp.take(kernel, np.flatnonzero(keep), axis=d), lags[keep]
         wrap = np.zeros((size, len(lags)))
@@ -106,8 +108,8 @@ def spectrum(samples: Array | np.ndarray, axes: Axes, bounds: Sequence[str], dty
 
 
 def spectral(kernel: Array, y: Array, axes: Axes, bounds: Sequence[str], sizes: Sequence[int]) -> Array:
-    """Convolution of y with a kernel given by its spectrum on a ring of these sizes, round which it does not
-    reach.
+    """Convolve y with a kernel given by its spectrum on a periodic grid that is large enough to avoid
+    overlap.
     """
     n = shape(axes)
     for d, b in enumerate(bounds):

@@ -1,4 +1,4 @@
-"""The stochastic Euler method, the one integrator (cedar-2016, eq. 17).
+"""The stochastic Euler method, deodar's only integrator (Lomp et al. 2016, eq. 17).
 
 References:
     Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied
@@ -15,7 +15,8 @@ from deodar.numerics.scalar import Scalar
 
 
 def euler(u: Array, rate: Scalar, tau: Scalar, dt: Scalar, noise: Array | None = None) -> Array:
-    """One step of `tau du = rate dt + noise dW`: drift scaled by dt/tau, noise by sqrt(dt)/tau.
+    """Return the state after one step of `tau du = rate dt + noise dW`: drift by dt/tau, noise by
+    sqrt(dt)/tau.
 
     Args:
         u: state at t.

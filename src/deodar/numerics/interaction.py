@@ -1,10 +1,10 @@
 """A sum of interaction kernels convolved with an output: the lateral interaction of a field, the kernel of a
 coupling.
 
-In three steps, each as seldom as it may be: `prepare` makes weights from widths, `mix` puts amplitudes to
-them and adds up what can be added, `apply` is all that is left for every step. Kernels that are sums of
-Gaussians may share one transform (`choice`, `waves`); all others, and all where results are to be exact, are
-matrices or spectra of their own.
+It has three stages, each run as rarely as possible: `prepare` computes weights from widths, `mix` multiplies
+them by amplitudes and sums them where possible, `apply` runs in every step. Kernels that are sums of
+Gaussians may share one transform (`choice`, `waves`); all others, and all kernels in exact mode, have their
+own matrices or spectra.
 """
 
 from __future__ import annotations
@@ -24,20 +24,18 @@ from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.waves import Waves
 
 KernelWeights = list[Any]
-"""For each kernel: `spectrum`, or for each of its terms `matrices` (one an axis), `waves` or `spectra` (one
-vector an axis), or `taps`.
+"""For each kernel: `spectrum`, or for each of its terms `matrices` (one per axis), `waves` or `spectra` (one
+vector per axis), or `taps`.
 """
 
 Mixture = dict[str, Any]
-"""What is applied: `gain` on a node; else `terms` (for each its matrices, one an axis), `spectra`, `waves`
+"""The mixed weights: `gain` on a node; else `terms` (for each its matrices, one per axis), `spectra`, `waves`
 and `taps` (by boundaries).
 """
 
 
 def buckets(kernels: Sequence[Kernel]) -> Hashable:
-    """What of the widths a program is built for: as long as it stays equal, they may change without compiling
-    anew.
-    """
+    """Return the buckets of the widths; widths may change without recompiling while it is equal."""
     return tuple(
         tuple(
             tuple(bucket(float(w)) for w in (width if isinstance(width, tuple) else (width,)))
@@ -48,8 +46,8 @@ def buckets(kernels: Sequence[Kernel]) -> Hashable:
 
 
 def spans(kernels: Sequence[Kernel], axes: Axes) -> dict[str, list[tuple[tuple[float, float], ...]]]:
-    """For each kind of boundaries, for each of its Gaussians, the narrowest and widest on each axis that its
-    bucket allows.
+    """Return, for each kind of boundaries and each of its Gaussians, the smallest and largest width of its
+    bucket along each axis.
     """
     out: dict[str, list[tuple[tuple[float, float], ...]]] = {}
     for kernel in kernels if axes else ():
@@ -61,14 +59,14 @@ def spans(kernels: Sequence[Kernel], axes: Axes) -> dict[str, list[tuple[tuple[f
 
 
 def covering(found: Sequence[tuple[tuple[float, float], ...]]) -> tuple[tuple[float, float], ...]:
-    """On each axis the narrowest and the widest of all."""
+    """Return the smallest and the largest width of all Gaussians along each axis."""
     return tuple(
         (min(low for low, _ in axis), max(high for _, high in axis)) for axis in zip(*found, strict=True)
     )
 
 
 def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str, Choice]:
-    """For each kind of boundaries, how its Gaussian kernels are applied together, where not by matrices."""
+    """Return, for each kind of boundaries, the joint strategy of its Gaussian kernels, if not matrices."""
     found = {
         key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies)
         for key, terms in spans(kernels, axes).items()
@@ -79,9 +77,9 @@ def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str,
 def prepare(
     kernels: Sequence[Kernel], axes: Axes, dtype: DTypeLike, chosen: Mapping[str, Choice] | None = None
 ) -> KernelWeights:
-    """What convolution needs and what depends on widths only.
+    """Return the weights of the convolution that depend on widths only.
 
-    `chosen` are the choices; without them it is exact.
+    `chosen` are the choices; without them the convolution is exact.
     """
     if not axes:
         return []
@@ -94,9 +92,9 @@ def prepare(
 
 
 def mix(kernels: Sequence[Kernel], axes: Axes, weights: KernelWeights) -> Mixture:
-    """The sum of the kernels, amplitudes included.
+    """Return the sum of the kernels, multiplied by their amplitudes.
 
-    Over one axis it is a single matrix, however many kernels there are.
+    Over one axis it is a single matrix, whatever the number of kernels.
     """
     if not axes:
         return {"gain": sum((t.amplitude for kernel in kernels for t in kernel.terms()), 0.0)}
@@ -124,12 +122,10 @@ def apply(
     own: Array | None = None,
     arriving: Array | None = None,
 ) -> Array:
-    """The integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
+    """Return the integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
 
-    `chosen`: the choices they were made for.
-
-    For the boundaries `key`: `own` is y as waves, where it is known, and what is `arriving` as waves is added
-    before the way back.
+    `chosen` are the choices with which the kernels were prepared. For the boundaries `key`, `own` is y as
+    spectral modes, if known, and `arriving` is added as spectral modes before the inverse transform.
     """
     if not axes:
         return mixture["gain"] * y
@@ -155,31 +151,31 @@ def apply(
 
 
 def to_waves(waves: Sequence[Waves], y: Array) -> Array:
-    """How much of each wave is in an array."""
+    """Transform an array to spectral modes."""
     return convolution.separable([jnp.asarray(w.basis().T, y.dtype) for w in waves], y, _order(len(waves)))
 
 
 def from_waves(waves: Sequence[Waves], y: Array) -> Array:
-    """The array that waves add up to."""
+    """Transform spectral modes to an array."""
     return convolution.separable(
         [jnp.asarray(w.basis(), y.dtype) for w in waves], y, _order(len(waves))[::-1]
     )
 
 
 def _order(axes: int) -> list[int]:
-    """In which order axes are transformed: up to 30 % faster than others, since products come out as the next
-    one wants them.
+    """Return the order in which axes are transformed, up to 30 % faster than others because of the memory
+    layout of the products.
     """
     return [1, 0] if axes == 2 else [0, *range(axes - 1, 0, -1)]
 
 
 def boundaries(kernel: Kernel, axes: Axes) -> str:
-    """The kind of boundaries of a kernel, one word an axis."""
+    """Return the kind of boundaries of a kernel, one word per axis."""
     return " ".join(convolution.boundaries(kernel.boundary, axes))
 
 
 def _product(gains: Sequence[Array]) -> Array:
-    """The outer product of one vector an axis."""
+    """Return the outer product of one vector per axis."""
     out = gains[0]
     for g in gains[1:]:
         out = out[..., None] * g
@@ -229,7 +225,7 @@ def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None
 
 
 def _half(gains: list[Array]) -> list[Array]:
-    """The last axis of a real Fourier transform holds the first half of the waves only."""
+    """Keep the first half of the modes along the last axis, as in a real Fourier transform."""
     return [*gains[:-1], gains[-1][: gains[-1].shape[0] // 2 + 1]]
 
 

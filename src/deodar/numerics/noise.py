@@ -51,8 +51,8 @@ def threefry(x0: Array, x1: Array, k0: Array, k1: Array) -> tuple[Array, Array]:
 
 
 def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarray | Sequence[int]) -> Array:
-    """Two key words for the noise of each element: threefry(counter (id, trial), key (seed, STREAM)), shape
-    (elements, 2).
+    """Return two key words for the noise of each element, shape (elements, 2): threefry(counter (id, trial),
+    key (seed, STREAM)).
     """
     u32 = jnp.uint32
     ids = jnp.asarray(idents, u32)
@@ -61,13 +61,13 @@ def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarr
 
 
 def bits(cells: int, key: Array, block: Array) -> tuple[Array, Array]:
-    """Two uint32 for each cell: counter (cell, block)."""
+    """Return two uint32 for each cell: counter (cell, block)."""
     counter = jnp.arange(cells, dtype=jnp.uint32)
     return threefry(counter, jnp.full((cells,), block, jnp.uint32), key[0], key[1])
 
 
 def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> Array:
-    """Standard normal deviates of one tick, computed in `dtype`.
+    """Return standard normal deviates of one tick, computed in `dtype`.
 
     Block `tick // 2` gives two words a, b for each cell (in C order). With u = (a >> 9 + 1/2) / 2^23 and v
     the same of b, the pair is sqrt(-2 ln u) sin(2 pi v), the first, on even ticks, and sqrt(-2 ln u) cos(2 pi
@@ -82,8 +82,8 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
 
 
 def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> tuple[Array, Array]:
-    """The deviates of both ticks of a block, the even one's first: what `normal` gives at each, for less than
-    it takes twice.
+    """Return the deviates of both ticks of a block, the even one first: equal to `normal`, at a lower cost
+    than two calls.
     """
     a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
     radius, turn = _radius(a, dtype), _uniform(b)
@@ -91,13 +91,12 @@ def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> t
 
 
 def correlation(axes: Axes, lengths: Sequence[Scalar], dtype: DTypeLike) -> list[Array]:
-    """Matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1 at every
-    point.
+    """Return matrices that give white deviates the correlation exp(-d^2 / (2 length^2)) and the variance 1.
 
-    One for each axis: the symmetric square root of the correlation matrix, so that it holds up to the
-    borders. On a ring the correlation is the sum over all ways round, divided by its value at distance 0
-    (which no longer differs from the formula below a length of an eighth of the period, and is the nearest
-    that a ring allows).
+    One matrix for each axis: the symmetric square root of the correlation matrix, so that the correlation is
+    exact up to the borders. On a periodic axis the correlation is the sum over all images, divided by its
+    value at distance 0 (equal to the formula for lengths below an eighth of the period, and its nearest valid
+    form above).
     """
     return [_square_root(axis, length, dtype) for axis, length in zip(axes, lengths, strict=True)]
 
@@ -110,11 +109,11 @@ def _square_root(axis: Axis, length: Scalar, dtype: DTypeLike) -> Array:
     root = jnp.matmul(vectors * jnp.sqrt(jnp.maximum(values, 0.0)), vectors.T, precision="highest")
     return root / jnp.sqrt(
         jnp.sum(root * root, axis=1, keepdims=True)
-    )  # rounding leaves the variance 1 to 1e-6 in single precision
+    )  # in single precision the variance is 1 to 1e-6
 
 
 def over(axes: Axes, deviates: Array, filters: Sequence[Array] | None) -> Array:
-    """Noise of unit amplitude over a field: white with the inverse root of the cell, or correlated with
+    """Return noise of unit amplitude over a field: white, divided by the root of the cell, or correlated with
     variance 1.
     """
     if filters is None:
@@ -123,7 +122,7 @@ def over(axes: Axes, deviates: Array, filters: Sequence[Array] | None) -> Array:
 
 
 def _uniform(word: Array) -> Array:
-    """Uniform in (0, 1) from the upper 23 bits, exact in float32."""
+    """Return a uniform number in (0, 1) from the upper 23 bits, exact in float32."""
     one_to_two = lax.bitcast_convert_type((word >> 9) | jnp.uint32(0x3F800000), jnp.float32)
     return one_to_two - jnp.float32(1.0 - 2.0**-24)
 
@@ -149,12 +148,12 @@ def _cosine(turn: Array, dtype: DTypeLike) -> Array:
 
 
 def _sine_of_turn(q: Array) -> Array:
-    """sin(2 pi q) for q in [-1/4, 1/4]."""
+    """Return sin(2 pi q) for q in [-1/4, 1/4]."""
     return q * _polynomial(q * q, _SINE)
 
 
 def _log(x: Array) -> Array:
-    """Natural logarithm of a float32 in (0, 1]: exponent and a polynomial on [0.75, 1.5)."""
+    """Return the natural logarithm of a float32 in (0, 1]: exponent and a polynomial on [0.75, 1.5)."""
     word = lax.bitcast_convert_type(x, jnp.int32)
     exponent = (word - 0x3F400000) >> 23
     m = lax.bitcast_convert_type(word - (exponent << 23), jnp.float32) - jnp.float32(1)

@@ -1,4 +1,4 @@
-"""Random weights that are the same map at any sampling."""
+"""Random weights that do not depend on the sampling."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ STREAM = 0x3A57
 
 
 def random_weights(pre: Axes, post: Axes, patches: int, share: Scalar, seed: int, dtype: DTypeLike) -> Array:
-    """Weights in (0, 1), or 0: uniform where a patch is connected at all, which a `share` of them is.
+    """Return random weights: uniform in (0, 1) for a `share` of the pairs of patches, 0 for the others.
 
-    Each axis, of the source and of the target, is cut into so many equal patches; all weights between two
-    patches are alike. They are drawn by the numbers of the patches (Threefry, counter (source patch, target
-    patch), key (seed, STREAM)), so that samples at the same place have the same weight at every sampling, and
-    integrals agree up to how well the patches are sampled. White weights, one for each sample, would become a
+    Each axis, of the source and of the target, is divided into `patches` equal patches; all weights between
+    two patches are equal. They depend on the numbers of the patches (Threefry, counter (source patch, target
+    patch), key (seed, STREAM)), so that samples at the same position have the same weight at every sampling,
+    and integrals agree up to the sampling of the patches. Independent weights for each sample would become a
     homogeneous map as the sampling becomes finer.
 
     Returns:
-        source places, target places.
+        Array (source samples, target samples).
     """
     u32 = jnp.uint32
     rows, columns = (jnp.asarray(_patch(axes, patches)) for axes in (pre, post))
@@ -42,7 +42,7 @@ def random_weights(pre: Axes, post: Axes, patches: int, share: Scalar, seed: int
 
 
 def _patch(axes: Axes, patches: int) -> np.ndarray:
-    """The number of the patch that each sample lies in, places in their order."""
+    """Return the number of the patch of each sample, with samples in their order."""
     number = np.zeros((), np.int64)
     for axis in axes:
         share = (axis.points - axis.lower) / axis.range

@@ -12,22 +12,22 @@ from jax import Array
 from deodar.numerics.axes import Axes, Axis
 
 UNDIRECTED = 1e-9
-"""A mean direction on a ring that is shorter than this is rounding: the region has no centre."""
+"""Shortest mean vector on a periodic axis; a shorter one is rounding, and the region has no centre."""
 
 
 def position(
     values: Array, axes: Axes, threshold: float, inside: np.ndarray | None = None
 ) -> tuple[Array, Array]:
-    """Return the position of the highest peak, as `dd.peaks(values, axes, threshold)[0].position` gives it.
+    """Return the position of the highest peak, equal to `dd.peaks(values, axes, threshold)[0].position`.
 
-    The peak is the connected region above the threshold that holds the largest sample; its position is the
+    The peak is the connected region above the threshold that contains the largest sample; its position is the
     centroid, weighted by the values above the threshold.
 
     Args:
         values: array over the axes.
-        axes: at least one.
-        threshold: in units of the values.
-        inside: mask of the samples that may belong to the peak, shaped as the values; None: all.
+        axes: axes of the array, at least one.
+        threshold: threshold in units of the values.
+        inside: mask of the samples that may belong to the peak, in the shape of the values; None: all.
 
     Returns:
         One number for each axis, in axis units, in the precision of the values; and whether a sample is above
@@ -37,8 +37,8 @@ def position(
     if inside is not None:
         above = jnp.where(inside, above, -jnp.inf)
     flat = above.ravel()
-    # the first of the largest by two reductions, which vector instructions do; argmax takes four times as
-    # long as a step of the field
+    # the first largest sample by two vectorised reductions; argmax takes four times as long as a step of the
+    # field
     top = jnp.min(jnp.where(flat == jnp.max(flat), jnp.arange(flat.size, dtype=jnp.int32), flat.size - 1))
     tops = jnp.unravel_index(top, above.shape)
     region = _run(above > 0, axes[0], tops[0]) if len(axes) == 1 else _region(above > 0, axes, top)
@@ -57,7 +57,7 @@ def position(
 
 
 def _run(mask: Array, axis: Axis, top: Array) -> Array:
-    """The run of true samples of a line or a ring that holds the sample `top`."""
+    """Return the run of true samples along one axis that contains the sample `top`."""
     i, n = jnp.arange(axis.samples, dtype=jnp.int32), axis.samples
     if not axis.periodic:
         end = jnp.min(jnp.where(mask | (i < top), n, i))
@@ -71,8 +71,9 @@ def _run(mask: Array, axis: Axis, top: Array) -> Array:
 
 
 def _region(mask: Array, axes: Axes, top: Array) -> Array:
-    """The true samples that a path over faces connects with the sample at flat index `top`: grown by one
-    sample at a time.
+    """Return the true samples that are connected over faces with the sample at flat index `top`.
+
+    The region grows by one sample at a time.
     """
     start = (jnp.arange(mask.size, dtype=jnp.int32).reshape(mask.shape) == top) & mask
 
@@ -82,14 +83,14 @@ def _region(mask: Array, axes: Axes, top: Array) -> Array:
             for side in (1, -1):
                 region = (
                     region | _moved(region, d, axis, side)
-                ) & mask  # what one direction adds, the next one carries on
+                ) & mask  # the next direction starts from the samples that this one adds
         return region, jnp.any(region != now[0])
 
     return jax.lax.while_loop(lambda now: now[1], grow, (start, jnp.any(start)))[0]
 
 
 def _moved(region: Array, d: int, axis: Axis, side: int) -> Array:
-    """The region moved by one sample along axis d, round a periodic border."""
+    """Return the region shifted by one sample along axis d, wrapped on a periodic axis."""
     if axis.periodic:
         return jnp.roll(region, side, axis=d)
     width, part = [(0, 0)] * region.ndim, [slice(None)] * region.ndim
@@ -98,7 +99,9 @@ def _moved(region: Array, d: int, axis: Axis, side: int) -> Array:
 
 
 def _centroid(axis: Axis, weights: Array, top: Array) -> Array:
-    """Centroid of weights that add up to 1; on a ring that of the distances from the mean direction."""
+    """Return the centroid of weights with sum 1; on a periodic axis that of distances from the mean
+    direction.
+    """
     x = jnp.asarray(axis.points, weights.dtype)
     if not axis.periodic:
         return jnp.sum(x * weights)

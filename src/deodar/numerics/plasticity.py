@@ -1,9 +1,9 @@
-"""Weights between two arrays: reading them and changing them, at a cost that follows what is active.
+"""Reading and learning of weights between two arrays, at a cost that depends on the number of active samples.
 
-Weights stand as a matrix, source places first; activity is given with everything that does not count set to
-0. Nothing is touched while one side is silent. For a single copy of a model only the rows of active source
-places are read and written; a batch of copies is computed whole, and rests while all its copies do (what
-`vmap` makes of a condition would compute it always).
+Weights are a matrix, source samples first; activity that does not count is 0. The weights are not read or
+written while one side is inactive. For a single copy of a model only the rows of active source samples are
+read and written. A batch of copies is computed as a whole, and skipped while all its copies are inactive (a
+condition under `vmap` would always be computed).
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from jax import Array, lax
 from jax.custom_batching import custom_vmap
 
 SOURCE_RULES = ("outstar", "association", "hebb")
-"""Rules that change the weights that leave active source places."""
+"""Rules that change the weights from active source samples."""
 
 TARGET_RULES = ("instar", "oja")
-"""Rules that change the weights that reach active target places, whether their source is active or not."""
+"""Rules that change the weights to active target samples, from active and inactive source samples."""
 
 RULES = (*SOURCE_RULES, *TARGET_RULES)
 
 
 def read(weights: Array, pre: Array) -> Array:
-    """sum_i pre_i W_ij: what arrives at each target place.
+    """Return sum_i pre_i W_ij, the input of each target sample.
 
     Args:
-        weights: source places, target places.
-        pre: activity of the source places; not negative.
+        weights: array (source samples, target samples).
+        pre: activity of the source samples; not negative.
     """
     return _read(weights, pre)
 
@@ -38,15 +38,15 @@ def read(weights: Array, pre: Array) -> Array:
 def learn(
     rule: str, weights: Array, pre: Array, post: Array, speed: Array, loss: Array, most: Array
 ) -> Array:
-    """The weights one step later.
+    """Return the weights after one step.
 
-    Unchanged to the bit where both `speed` and `loss` are 0, or one side is silent.
+    They are equal to the bit if both `speed` and `loss` are 0, or if one side is inactive.
 
     Args:
         rule: one of `RULES`.
-        weights: source places, target places.
-        pre: activity of the source places; not negative, 0 where nothing is active.
-        post: the same of the target places.
+        weights: array (source samples, target samples).
+        pre: activity of the source samples; not negative, 0 for inactive samples.
+        post: activity of the target samples, likewise.
         speed: step times rate of learning times gate.
         loss: step times rate of decay times gate.
         most: upper bound of weights that change.
@@ -57,21 +57,20 @@ def learn(
 
 
 def after(value: Array, result: Array) -> Array:
-    """The value, to be used only once `result` is there.
+    """Return the value with a dependence on `result`, so that it is used only after `result` is computed.
 
-    A step that reads weights and changes them would keep a second copy of them if nothing said that the
-    reading comes first.
+    A step that reads weights and changes them would keep a second copy of them without this order.
     """
     return jnp.where(
         result.ravel()[0] > jnp.inf, jnp.zeros_like(value), value
-    )  # never true, which the compiler does not know
+    )  # never true, but the compiler cannot infer that
 
 
 def change(rule: str, weights: Array, pre: Array, post: Array, speed: Array, loss: Array) -> Array:
-    """New weights by the rule itself; all arguments of shapes that broadcast.
+    """Return new weights by the equation of the rule; the shapes of all arguments broadcast.
 
-    A step longer than the relaxation time ends at the attractor and not beyond, where the rule has one that
-    does not depend on other weights.
+    A step longer than the relaxation time ends at the attractor, if the rule has an attractor that does not
+    depend on other weights.
     """
     match rule:
         case "outstar":
@@ -91,7 +90,7 @@ def change(rule: str, weights: Array, pre: Array, post: Array, speed: Array, los
 
 
 def _active(pre: Array, wanted: Array) -> tuple[Array, Array]:
-    """The active places first, and how many they are; none unless wanted."""
+    """Return the indices with active samples first, and the number of active samples; 0 unless `wanted`."""
     places = pre.shape[0]
 
     def find() -> tuple[Array, Array]:
@@ -161,7 +160,7 @@ def _(size: int, batched: Sequence[bool], *args: Array) -> tuple[Array, bool]:
 
 @functools.cache
 def _many(rule: str) -> Callable[..., Array]:
-    """The rule for copies along the first axis of everything."""
+    """Return the rule for copies along the first axis of all arguments."""
 
     @custom_vmap
     def many(weights: Array, pre: Array, post: Array, speed: Array, loss: Array, most: Array) -> Array:
@@ -174,7 +173,7 @@ def _many(rule: str) -> Callable[..., Array]:
             ]
             return jnp.where(here & both, jnp.minimum(change(rule, weights, x, y, s, l), m), weights)
 
-        # a loop that is taken once or not at all: unlike a condition it never copies what it leaves alone
+        # a loop of one iteration or none: unlike a condition it never copies unchanged arrays
         return lax.fori_loop(
             0, _learns(pre, post, speed, loss).astype(jnp.int32), lambda _, weights: step(weights), weights
         )
@@ -187,14 +186,14 @@ def _many(rule: str) -> Callable[..., Array]:
 
 
 def _spread(size: int, batched: Sequence[bool], args: Sequence[Array]) -> list[Array]:
-    """Every argument with the axis of copies."""
+    """Return every argument with the axis of copies."""
     return [
         a if has else jnp.broadcast_to(a, (size, *jnp.shape(a))) for a, has in zip(args, batched, strict=True)
     ]
 
 
 def _joined(size: int, batched: Sequence[bool], args: Sequence[Array]) -> list[Array]:
-    """Copies of copies along one axis."""
+    """Join two axes of copies into one."""
     return [a.reshape(-1, *a.shape[2:]) for a in _spread(size, batched, args)]
 
 

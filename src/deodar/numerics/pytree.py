@@ -1,10 +1,11 @@
-"""Nested arrays, as JAX takes them."""
+"""The type of PyTrees, the nested arrays of JAX."""
 
 from __future__ import annotations
 
 from typing import Any
 
 PyTree = Any
-"""Arrays in nested dictionaries, lists, tuples and dataclasses; `None` is an empty one. JAX has no type that
-states what they hold.
+"""Arrays in nested dictionaries, lists, tuples and dataclasses; `None` is an empty PyTree.
+
+JAX has no type for their content.
 """

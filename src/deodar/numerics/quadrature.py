@@ -4,14 +4,14 @@ Point sums are exact where the output changes little from sample to sample. Wher
 narrower than a sample, a point sum jumps when the edge crosses a sample: peaks stick to the grid and
 thresholds depend on it. A mean over cells grows continuously instead.
 
-Over one axis activation runs in straight lines through v(i) and v(i + 1/2), values at the samples and halfway
+Over one axis activation is piecewise linear through v(i) and v(i + 1/2), values at the samples and halfway
 between them. With q the mean of g over such a half of an interval, the output at sample i is
 
     o(i) = (q(i - 3/4) + 3 q(i - 1/4) + 3 q(i + 1/4) + q(i + 3/4)) / 8.
 
-These weights preserve the first three moments of an edge at the grid's own wavelength, so that the place of
-an edge between two samples reaches the kernels right. v is chosen such that its differences are the same
-weights applied to an antisymmetric difference D of u,
+These weights preserve the first three moments of an edge at the grid's wavelength, so that the kernels
+receive the correct position of an edge between two samples. v is chosen such that its differences are the
+same weights applied to an antisymmetric difference D of u,
 
     v(i + 1/2) - v(i) = (3 (D u)(i) + (D u)(i + 1)) / 8,
     v(i + 1) - v(i + 1/2) = ((D u)(i) + 3 (D u)(i + 1)) / 8.
@@ -19,14 +19,14 @@ weights applied to an antisymmetric difference D of u,
 Then sum_i o(i) (D u)(i) telescopes to zero for a peak away from the ends, as the integral of g(u) du/dx does:
 a symmetric kernel exerts no net force on a peak, wherever it lies between samples. D is the central
 difference of u - 3/8 (second difference) + 3/16 (fourth difference). The first factor makes the rule exact
-for linear g up to fourth differences. The second was chosen by measurement: it lets edges respond to noise at
-single samples about as much as on a fine grid, so that memories drift about as far (without it about 40 %
-less at 5 samples a kernel width).
+for linear g up to fourth differences. The second was chosen by measurement: with it, edges respond to noise
+at single samples about as much as on a fine grid, so that memories drift about as far (without it about 40 %
+less at 5 samples per kernel width).
 
 Over more axes g is averaged over the activations u - s / 2 to u + s / 2, where s is the slope along the
-steepest axis, in activation per sample. An average over one whole sample of that axis removes everything that
-repeats from sample to sample along it, so that edges in any direction move freely. The cost does not grow
-with the number of axes.
+steepest axis, in activation per sample. An average over one whole sample of that axis removes all variation
+with the period of the grid along it, so that edges in any direction move freely. The cost does not grow with
+the number of axes.
 """
 
 from __future__ import annotations
@@ -51,15 +51,15 @@ BESIDE = 4
 
 
 def cell_means(g: SigmoidFunction, u: Array, axes: Axes) -> Array:
-    """The mean of g over the cell of each sample; on a node, and along axes of one sample, g itself.
+    """Return the mean of g over the cell of each sample; on a node, and along axes of one sample, g itself.
 
     Beyond the end of an axis that is not periodic, u continues in a straight line.
     """
     long = [d for d, a in enumerate(axes) if a.samples > 1]
     if not long:
         return g(u)
-    # The barriers keep the compiler from computing exponentials once for each reader, and from mixing them
-    # with the joins of the padding, which stops it from using vectors: without them a step of 100 x 100
+    # The barriers prevent the compiler from computing exponentials once for each reader, and from fusing them
+    # with the concatenation of the padding, which prevents vectorisation: without them a step of 100 x 100
     # samples takes three times as long.
     return _line(g, u, axes, long[0]) if len(long) == 1 else optimization_barrier(_space(g, u, axes, long))
 
@@ -73,14 +73,14 @@ def _line(g: SigmoidFunction, u: Array, axes: Axes, d: int) -> Array:
     )  # from sample -1, and from -1/2
     at_knots, at_middles = jax.tree.map(
         optimization_barrier, (g.ends(knots), g.ends(middles))
-    )  # one each: what nobody reads is not computed
+    )  # one array each: an array that no operation reads is not computed
     (first, at_first), (last, at_last) = (
         (_cut(knots, d, k, n + 1), _ends(at_knots, d, k, n + 1)) for k in (0, 1)
     )
     near, far = g.mean(first, middles, at_first, at_middles), g.mean(last, middles, at_last, at_middles)
     left, right = optimization_barrier(
         (0.375 * near + 0.125 * far, 0.125 * near + 0.375 * far)
-    )  # what an interval gives to either side
+    )  # the contribution of an interval to either side
     return _cut(left, d, 1, n) + _cut(right, d, 0, n)
 
 
@@ -104,7 +104,7 @@ def _space(g: SigmoidFunction, u: Array, axes: Axes, long: list[int]) -> Array:
 
 
 def _weighted(y: Array, d: int, count: int, weights: Sequence[float]) -> Array:
-    """Weighted sums of successive samples along axis d."""
+    """Return weighted sums of successive samples along axis d."""
     return sum(
         (c * _cut(y, d, k, count) for k, c in enumerate(weights) if k), weights[0] * _cut(y, d, 0, count)
     )
@@ -119,7 +119,7 @@ def _cut(y: Array, d: int, start: int, count: int) -> Array:
 
 
 def _padded(y: Array, d: int, by: int, periodic: bool) -> Array:
-    """Samples added at both ends of axis d: those of the other end, or a straight line."""
+    """Pad both ends of axis d: with samples of the other end if periodic, else by linear extrapolation."""
     n = y.shape[d]
     if periodic:
         before = [_cut(y, d, k % n, 1) for k in range(-by, 0)] if n < by else [_cut(y, d, n - by, by)]

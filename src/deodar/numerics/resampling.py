@@ -1,4 +1,4 @@
-"""Between grids: the matrices that interpolate, shifts, and the reductions over axes."""
+"""Matrices that interpolate between grids, shifts, and reductions over axes."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ REDUCTIONS = ("integral", "sum", "mean", "max", "min")
 
 
 def weights(source: Axis, points: Array | np.ndarray, interpolation: str, dtype: DTypeLike) -> Array:
-    """Weights that give the values at `points` from the samples of `source`: shape (points, samples).
+    """Return the weights from the samples of `source` to the values at `points`, shape (points, samples).
 
-    Linear takes the two neighbours, nearest one (the upper of two equally near). Beyond the ends of an axis
-    that is not periodic zeros follow: linear falls to zero within one cell past the last sample, nearest
-    within half a cell.
+    `linear` uses the two neighbours, `nearest` one (the upper of two equally near). An axis that is not
+    periodic is padded with 0: `linear` falls to 0 within one cell beyond the last sample, `nearest` within
+    half a cell.
     """
     position = (jnp.asarray(points, dtype) - jnp.asarray(source.lower, dtype)) / jnp.asarray(
         source.step, dtype
@@ -40,10 +40,10 @@ def weights(source: Axis, points: Array | np.ndarray, interpolation: str, dtype:
 
 
 def steps(axis: Axis, amount: Scalar, dtype: DTypeLike) -> tuple[Array, Array]:
-    """A shift along an axis as whole samples and the part of one that is left, 0 to 1."""
+    """Return a shift along an axis as a whole number of samples and a remainder, 0 to 1."""
     samples = jnp.asarray(amount, dtype) / jnp.asarray(axis.step, dtype)
     whole = jnp.floor(samples)
-    # what a whole number of samples lacks by rounding is no part of one
+    # a remainder that is only rounding counts as 0
     whole = jnp.where(
         samples - whole > 1 - jnp.finfo(dtype).eps * jnp.maximum(8.0, jnp.abs(samples)), whole + 1, whole
     )
@@ -52,10 +52,10 @@ def steps(axis: Axis, amount: Scalar, dtype: DTypeLike) -> tuple[Array, Array]:
 
 
 def shifted(y: Array, d: int, periodic: bool, whole: Array, part: Array) -> Array:
-    """What stood at sample i of axis d stands at i + whole + part, interpolated linearly between samples.
+    """Shift an array along axis d: sample i moves to i + whole + part, with linear interpolation.
 
-    Zeros come in at the ends of an axis that is not periodic. It is a copy of a stretch, which no matrix can
-    beat.
+    An axis that is not periodic is padded with 0. The shift is a copy of a slice, which is faster than a
+    matrix.
     """
     n = y.shape[d]
     if periodic:
@@ -70,7 +70,7 @@ def shifted(y: Array, d: int, periodic: bool, whole: Array, part: Array) -> Arra
 
 
 def reduce(y: Array, d: int, axis: Axis, how: str) -> Array:
-    """One axis taken out: integral (sum times grid step), sum, mean, max or min."""
+    """Contract one axis: integral (sum times grid step), sum, mean, max or min."""
     match how:
         case "integral":
             return jnp.sum(y, axis=d) * jnp.asarray(axis.step, y.dtype)

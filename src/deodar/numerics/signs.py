@@ -11,21 +11,21 @@ Sign = Literal["+", "-", "±"]
 
 
 def sign_of(*values: Any) -> Sign:
-    """The sign of numbers and arrays taken together; zeros and nothing at all count as excitation."""
+    """Return the common sign of numbers and arrays; zeros and empty arrays count as excitation."""
     arrays = [np.asarray(getattr(v, "data", v), float) for v in values if v is not None]
     above, below = any((a > 0).any() for a in arrays), any((a < 0).any() for a in arrays)
     return "±" if above and below else "-" if below else "+"
 
 
 def product(one: Sign, other: Sign) -> Sign:
-    """The sign of a product of weights."""
+    """Return the sign of a product of weights."""
     if "±" in (one, other):
         return "±"
     return "+" if one == other else "-"
 
 
 def together(signs: Iterable[Sign]) -> Sign:
-    """The sign of a sum of weights."""
+    """Return the sign of a sum of weights."""
     found = set(signs)
     if len(found) > 1:
         return "±"

@@ -1,9 +1,8 @@
-"""Convolution as a product in a space of waves: every symmetric kernel is diagonal there, and smooth ones
-need few of them.
+"""Convolution in spectral modes: every symmetric kernel is diagonal there, and smooth kernels need few modes.
 
-On a ring of `length` samples the waves are cosines and sines, before a mirror cosines (of the field and its
-image). A border beyond which there is nothing is a ring long enough that no kernel reaches round it; only the
-field's own samples are transformed.
+On a periodic axis of `length` samples the modes are cosines and sines, with reflecting boundaries cosines (of
+the field and its image). With zero padding, the axis is extended to a periodic one that is long enough for
+all kernels; only the field's samples are transformed.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ from deodar.numerics.convolution import Profile
 
 @dataclass(frozen=True)
 class Waves:
-    """Which waves stand for the samples of one axis.
+    """The spectral modes of one axis.
 
     Attributes:
         boundary: `periodic`, `zero` or `reflect`.
-        samples: of the axis.
-        length: samples of the ring (of field and image together before a mirror).
-        highest: the fastest wave that is kept, in turns a ring.
+        samples: number of samples of the axis.
+        length: number of samples of the periodic axis (with `reflect`, of field and image together).
+        highest: highest mode that is kept, in periods per length.
     """
 
     boundary: str
@@ -37,7 +36,7 @@ class Waves:
 
     @property
     def turns(self) -> np.ndarray:
-        """Turns a ring of each wave."""
+        """The frequency of each mode, in periods per length."""
         if self.boundary == "reflect":
             return np.arange(self.highest + 1)
         pairs = np.repeat(np.arange(self.highest + 1), 2)[1:]
@@ -45,15 +44,15 @@ class Waves:
 
     @property
     def count(self) -> int:
-        """Number of waves."""
+        """The number of modes."""
         return len(self.turns)
 
     def axis(self, axis: Axis) -> Axis:
-        """An axis over the waves of another one."""
+        """Return an axis over the modes of an axis."""
         return Axis(f"waves of {axis.name}", 0, self.count, samples=self.count)
 
     def basis(self) -> np.ndarray:
-        """The waves at the samples, of length 1 over the ring: shape (samples, count)."""
+        """Return the modes at the samples, of norm 1 over the length: shape (samples, count)."""
         n, m = np.arange(self.samples)[:, None], self.turns
         if self.boundary == "reflect":
             waves = np.cos(np.pi * m * (n + 0.5) / self.samples)
@@ -64,21 +63,21 @@ class Waves:
         return np.where(sine, np.sin(angle), np.cos(angle)) * np.sqrt(np.where(alone, 1, 2) / self.length)
 
     def gains(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
-        """What a symmetric kernel makes of each wave, times the grid step: shape (count,)."""
+        """Return the gain of a symmetric kernel for each mode, times the grid step: shape (count,)."""
         turns = np.unique(self.turns)
         found = jnp.asarray(self._cosines(turns), dtype) @ self._ring(axis, profile, dtype)
         return found[np.searchsorted(turns, self.turns)]
 
     def spectrum(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
-        """The same for all waves of the ring in the order of a Fourier transform: shape (length,)."""
+        """Return the gains for all modes in the order of a Fourier transform: shape (length,)."""
         turns = np.arange(self.length)
         return jnp.asarray(self._cosines(turns), dtype) @ self._ring(axis, profile, dtype)
 
     def _ring(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
         lag = np.arange(self.length)
         lag = np.where(2 * lag <= self.length, lag, lag - self.length) * axis.step
-        # also round the ring that stands for a border, so that the kernel is smooth on it: what comes round
-        # meets no sample
+        # the kernel wraps also on the extension of a zero-padded axis, so that it is smooth there; the
+        # wrapped part meets no sample of the field
         return profile(jnp.asarray(lag, dtype), axis.step * self.length) * jnp.asarray(axis.step, dtype)
 
     def _cosines(self, turns: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Windows of time in which something is on."""
+"""Time windows, in which a stimulus is on."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ if TYPE_CHECKING:
     from jax.typing import DTypeLike
 
 FOR_EVER = 1e30
-"""A moment that no run reaches, in any time unit."""
+"""A time that no run reaches, in any time unit."""
 
 
 @register
 @dataclass(frozen=True)
 class Window(Part):
-    r"""On from `start` until before `stop`; a pair of numbers may stand for it.
+    r"""A time window from `start` to `stop`, without `stop`; a pair of numbers is its short form.
 
     Equation:
         w(t) = \begin{cases} 1 & \mathrm{start} \le t < \mathrm{stop} \\ 0 & \text{else} \end{cases}
 
     Parameters:
-        start: first moment, in the document's time unit.
-        stop: first moment at which it is off again, in the document's time unit; by default never.
+        start: start of the window, in the document's time unit.
+        stop: end of the window, excluded, in the document's time unit; by default no run reaches it.
 
     Shapes:
-        One number at each moment.
+        One number at each time.
 
     Reference:
         no reference
@@ -49,9 +49,10 @@ class Window(Part):
 
 
 def gate(windows: Sequence[Window], time: Any, dtype: DTypeLike) -> Scalar:
-    """1 inside any of the windows, else 0; without windows always 1.
+    """Return 1 inside any of the windows, else 0; without windows always 1.
 
-    A step belongs to a window if its moment does, to half a step: rounding never moves an edge.
+    A step belongs to a window if its time does, with a tolerance of half a step, so that rounding moves no
+    edge.
     """
     if not windows:
         return 1.0

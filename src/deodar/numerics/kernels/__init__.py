@@ -1,1 +1,1 @@
-"""One file for each kernel; the folder is the registry."""
+"""Interaction kernels, one per file; every module in this folder is registered."""

@@ -1,4 +1,4 @@
-"""The contract of an interaction kernel: weights as a function of the distance between two places."""
+"""The contract of an interaction kernel: weights as a function of the distance between two positions."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from jax.typing import DTypeLike
 
 WIDEST = 1e12
-"""Widths and shifts beyond this multiple of an axis are a problem: single precision cannot square much larger
-ones (a guess, far above any use).
+"""Largest width or shift relative to an axis: single precision cannot square much larger ones (a guess, far
+above any use).
 """
 
 
@@ -37,9 +37,9 @@ class Term:
 
 @dataclass(frozen=True)
 class Kernel(Part):
-    """k(x - x'), one class for fields of any dimension.
+    """The base class of interaction kernels k(x - x'), for fields of any dimension.
 
-    A kernel is a sum of separable terms, or, where `samples` gives an array, that array.
+    A kernel is a sum of separable terms, or the array that `samples` returns.
     """
 
     boundary: Annotated[
@@ -51,31 +51,33 @@ class Kernel(Part):
     ] = dc.field(default=None, kw_only=True)
 
     def terms(self) -> Sequence[Term]:
-        """The separable terms; amplitudes are live, `along` may only use parameters that rebuild."""
+        """Return the separable terms; amplitudes are live, `along` may only use parameters that rebuild."""
         raise NotImplementedError
 
     def widths(self) -> Sequence[Any]:
-        """For a kernel that is a sum of Gaussians, their widths (each one number, or one for each axis), in
-        the order of the terms; else none.
+        """Return the widths of a sum of Gaussians (each one number, or one for each axis), in the order of
+        the terms; empty for other kernels.
 
-        Such a kernel is smooth: few waves carry it, and how few can be told from its widths.
+        Such a kernel is smooth: it needs few spectral modes, whose number follows from its widths.
         """
         return ()
 
     def samples(self, axes: Axes, dtype: DTypeLike) -> Array | None:
-        """The kernel as an array around lag zero on the grid of `axes`, or None where `terms` say it all."""
+        """Return the kernel as an array around lag zero on the grid of `axes`, or None if it is its
+        `terms`.
+        """
         return None
 
     def bounds(self, axes: Axes) -> Interval:
-        """Its integral at most: of its negative weights, of its positive ones."""
+        """Return bounds on the integral of the negative weights and of the positive weights."""
         return ANY
 
     def polarity(self) -> Sign:
-        """Whether it excites, inhibits, or does both at different distances."""
+        """Return whether the kernel excites, inhibits, or does both at different distances."""
         return sign_of(*(term.amplitude for term in self.terms()))
 
     def validate_axes(self, axes: Axes) -> Iterator[str]:
-        """What does not fit between this kernel and the axes of its field."""
+        """Yield the mismatches between this kernel and the axes of its field."""
         if self.boundary is not None and len(self.boundary) not in (1, len(axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"
         for p in parameters(type(self)):

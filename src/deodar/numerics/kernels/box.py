@@ -22,9 +22,9 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Box(Kernel):
-    r"""The same weight for all distances up to half a width.
+    r"""A kernel of constant weight for distances up to half its width.
 
-    A cell that the edge cuts counts in part.
+    A cell that is partly inside the box counts with the part of its width that is inside.
 
     Equation:
         k(d) = \begin{cases} \mathrm{amplitude} & |d_i| < \frac{\mathrm{width}_i}{2} \ \forall i \\ 0 &
@@ -32,10 +32,10 @@ class Box(Kernel):
 
     Parameters:
         amplitude: weight inside, per unit of the axes; if normalized, the integral over all distances.
-        width: full width in axis units, one or one for each axis; > 0.
+        width: full width in axis units, one value or one for each axis; > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
-            see zero.
+        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
+            periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -66,8 +66,8 @@ class Box(Kernel):
 
 
 def _covered(lag: Array, width: Any, period: float | None, step: float) -> Array:
-    """Share of the cell around `lag` that lies inside the box; on a ring the box may wind round it several
-    times.
+    """Return the share of the cell around `lag` that is inside the box; on a periodic axis the box may
+    overlap itself.
     """
     if period is None:
         return _overlap(lag, width, step)

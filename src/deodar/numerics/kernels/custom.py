@@ -1,4 +1,4 @@
-"""A kernel given as an array."""
+"""The kernel defined by an array."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Custom(Kernel):
-    r"""Any weights: an array around distance zero, symmetric or not, one axis of the array for each axis of
-    the field.
+    r"""A kernel defined by an array around distance zero, symmetric or not.
 
-    Linear between samples, zero beyond them.
+    The array has one axis for each axis of the field. Weights are interpolated linearly between its samples
+    and 0 beyond them.
 
     Equation:
         k(d) = \mathrm{amplitude} \cdot \mathrm{weights}\!\left[\mathrm{centre} +
@@ -38,10 +38,10 @@ class Custom(Kernel):
         weights: array with an odd number of samples on every axis; its middle is distance zero; per unit of
             the axes.
         amplitude: factor.
-        spacing: distance of neighbouring samples in axis units, one or one for each axis; none: the field's
-            grid step (the kernel then changes with the grid).
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
-            see zero.
+        spacing: distance of neighbouring samples in axis units, one value or one for each axis; none: the
+            field's grid step (the kernel then changes with the grid).
+        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
+            periodic axes, `zero` on others.
 
     Shapes:
         weights: one odd number of samples for each axis of the field.
@@ -83,7 +83,7 @@ class Custom(Kernel):
             half = spacing * (weights.shape[d] - 1) / 2
             if half == 0:
                 continue
-            reach = int(np.floor(half / axis.step + 1e-9))  # zero beyond the last sample
+            reach = int(np.floor(half / axis.step + 1e-9))  # weights beyond the last sample are 0
             points = axis.step * np.arange(-reach, reach + 1)
             grid = Axis("lag", -half, half, weights.shape[d])
             weights = along(resampling.weights(grid, points, "linear", dtype), weights, d)

@@ -19,17 +19,17 @@ from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 NARROWEST = 1e-6
-"""Smallest width, in axis units; far below any grid step, where the kernel acts on its own cell alone."""
+"""Smallest width, in axis units; far below any grid step, so that the kernel acts within one cell."""
 
 
 @register
 @dataclass(frozen=True)
 class Gaussian(Kernel):
-    r"""Local excitation (positive amplitude) or inhibition (negative amplitude).
+    r"""A Gaussian kernel: local excitation (positive amplitude) or inhibition (negative amplitude).
 
-    If normalized, it is divided by its integral. Where sigma is below the grid step the samples are scaled
-    to the integral amplitude * prod_i sqrt(2 pi) sigma_i, which they would miss (4 times too large at a
-    tenth of a step).
+    If normalized, the kernel is divided by its integral. If sigma is below the grid step, the samples are
+    scaled so that their sum is the integral amplitude * prod_i sqrt(2 pi) sigma_i (without the scaling it
+    would be 4 times too large at a tenth of a step).
 
     Equation:
         k(d) = \mathrm{amplitude} \prod_i \exp\!\left( -\frac{d_i^2}{2 \sigma_i^2} \right)
@@ -37,10 +37,10 @@ class Gaussian(Kernel):
     Parameters:
         amplitude: weight at the centre, per unit of the axes; if normalized, the integral over all distances.
             On a node the self-excitation.
-        sigma: width in axis units, one or one for each axis; > 0.
+        sigma: width in axis units, one value or one for each axis; > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
-            see zero.
+        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
+            periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -67,7 +67,7 @@ class Gaussian(Kernel):
 
 
 def gaussian_term(amplitude: Scalar, sigma: Any, normalized: bool) -> Term:
-    """A Gaussian as one separable term."""
+    """Return a Gaussian as one separable term."""
 
     def along(d: int, lag: Array, period: float | None, step: float) -> Array:
         s = sigma[d] if isinstance(sigma, tuple) else sigma
@@ -78,7 +78,7 @@ def gaussian_term(amplitude: Scalar, sigma: Any, normalized: bool) -> Term:
 
 
 def profile(lag: Array, sigma: Scalar, period: float | None) -> Array:
-    """exp(-lag^2 / (2 sigma^2)); on a ring the sum over all its images, exact at every width."""
+    """Return exp(-lag^2 / (2 sigma^2)); on a periodic axis the sum over all images, exact at every width."""
     if period is None:
         return jnp.exp(-0.5 * (lag / sigma) ** 2)
     near = (lag - period * jnp.round(lag / period))[..., None]
@@ -92,23 +92,23 @@ def profile(lag: Array, sigma: Scalar, period: float | None) -> Array:
 
 
 def integral(sigma: Scalar, step: float) -> Array:
-    """Sum over an endless grid times its step: sqrt(2 pi) sigma where the grid resolves the Gaussian, step
-    where not.
+    """Return the sum over an infinite grid times its step: sqrt(2 pi) sigma if the grid resolves the
+    Gaussian, else the step.
     """
     ratio = step / sigma
-    # below two steps the sum is taken as it stands (20 terms reach ten widths), above it equals the integral
+    # below two steps the sum is computed directly (20 terms cover ten widths), above it equals the integral
     # to 1e-34
     lattice = jnp.sum(jnp.exp(-0.5 * (jnp.arange(1, 21) * ratio) ** 2))
     return jnp.where(ratio > 0.5, step * (1 + 2 * lattice), math.sqrt(2 * math.pi) * sigma)
 
 
 def unresolved(sigma: Scalar, step: float) -> Array:
-    """What brings the samples of a Gaussian to its true integral: 1 where the grid resolves it, from one step
-    per sigma (to 5e-9).
+    """Return the factor that scales the samples of a Gaussian to its integral: 1 (to 5e-9) from a sigma of
+    one step.
     """
     return jnp.where(sigma < step, math.sqrt(2 * math.pi) * sigma / integral(sigma, step), 1.0)
 
 
 def volume(sigma: PerAxis, axes: Axes) -> float:
-    """The integral of a Gaussian of height 1 over the axes; 1 on a node."""
+    """Return the integral of a Gaussian of height 1 over the axes; 1 on a node."""
     return math.prod(math.sqrt(2 * math.pi) * float(s) for s in per_axis(sigma, axes))

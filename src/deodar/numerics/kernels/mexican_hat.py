@@ -17,7 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class MexicanHat(Kernel):
-    r"""Difference of two Gaussians: neighbours excite, places further off inhibit.
+    r"""A difference of two Gaussians: local excitation and wider inhibition.
 
     If normalized, each Gaussian is divided by its integral.
 
@@ -29,12 +29,12 @@ class MexicanHat(Kernel):
 
     Parameters:
         excitation: weight of the excitation at the centre (its integral if normalized).
-        sigma_excitation: its width in axis units, one or one for each axis; > 0.
+        sigma_excitation: width of the excitation in axis units, one value or one for each axis; > 0.
         inhibition: weight of the inhibition at the centre, counted positive (its integral if normalized).
-        sigma_inhibition: its width in axis units, one or one for each axis; > 0.
+        sigma_inhibition: width of the inhibition in axis units, one value or one for each axis; > 0.
         normalized: whether the weights are integrals.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
-            see zero.
+        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
+            periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.

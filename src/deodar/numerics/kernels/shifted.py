@@ -1,4 +1,4 @@
-"""A kernel moved away from its centre."""
+"""The shifted kernel."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 @register
 @dataclass(frozen=True)
 class Shifted(Kernel):
-    r"""Another kernel moved by a fixed amount: a peak at x acts around x + shift.
+    r"""A kernel shifted by a fixed amount: a peak at x acts around x + shift.
 
     Equation:
         k(d) = \mathrm{inner}(d - \mathrm{shift})
 
     Parameters:
         kernel: the inner kernel, a sum of separable terms (not a custom array).
-        shift: how far, in axis units, one or one for each axis.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes
-            wrap, others see zero.
+        shift: the shift, in axis units, one value or one for each axis.
+        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
+            periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.

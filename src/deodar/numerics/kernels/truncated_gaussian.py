@@ -1,4 +1,4 @@
-"""The Gaussian kernel that ends at a number of widths."""
+"""The truncated Gaussian kernel."""
 
 from __future__ import annotations
 
@@ -20,17 +20,16 @@ from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 ROUNDING = 1e-5
-"""Share of a step by which single precision may miss a whole number of steps."""
+"""Tolerance for rounding in single precision of a whole number of steps, as a share of a step."""
 
 
 @register
 @dataclass(frozen=True)
 class TruncatedGaussian(Kernel):
-    r"""A Gaussian kernel of finite reach, normalised over the samples that it reaches: the kernel of many
-    published simulations.
+    r"""A Gaussian kernel of finite reach, normalised over its samples, as in many published simulations.
 
-    The reach is rounded up to whole steps and no longer than the axis. If normalized, each factor is
-    divided by its sum over these samples times the step. On a ring d_i is the shorter way round.
+    The reach is rounded up to whole steps and limited to the length of the axis. If normalized, each factor
+    is divided by its sum over these samples times the step. On a periodic axis d_i is the shorter distance.
 
     Equation:
         k(d) = \begin{cases} \mathrm{amplitude} \prod_i e^{-d_i^2 / (2 \sigma_i^2)} & |d_i| \le
@@ -40,20 +39,20 @@ class TruncatedGaussian(Kernel):
     Parameters:
         amplitude: weight at the centre, per unit of the axes; if normalized, the sum over all samples reached
             times the steps. On a node the self-excitation.
-        sigma: width in axis units, one or one for each axis; > 0. Far below the step the kernel acts on its
-            own cell alone.
+        sigma: width in axis units, one value or one for each axis; > 0. Far below the step the kernel acts
+            within one cell.
         cutoff: reach as a multiple of the width; >= 0.
-        least: reach at the least, in axis units, one or one for each axis: for a narrow Gaussian that ends
-            where a wider one does.
+        least: smallest reach, in axis units, one value or one for each axis: for a narrow Gaussian with the
+            reach of a wider one.
         normalized: whether the amplitude is the kernel's integral.
-        boundary: `periodic`, `zero` or `reflect`, one or one for each axis; none: periodic axes wrap, others
-            see zero.
+        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
+            periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
 
     Reference:
-        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2, sampled and cut off.
+        Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2, sampled and truncated.
     """
 
     amplitude: Annotated[
@@ -86,7 +85,7 @@ class TruncatedGaussian(Kernel):
         distance = jnp.abs(lag if period is None else lag - period * jnp.round(lag / period))
         if not self.normalized:
             return weight(distance)
-        # the distances that occur: once round the ring, or as far as the axis is long on either side
+        # the distances that occur: one period, or the length of the axis on either side
         count = lag.shape[0] if period is None else round(period / step)
         lags = np.arange(count)
         lags = np.minimum(lags, count - lags) if period is not None else np.concatenate([lags[:0:-1], lags])

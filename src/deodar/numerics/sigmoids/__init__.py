@@ -1,1 +1,1 @@
-"""One file for each sigmoid; the folder is the registry."""
+"""Sigmoids, one per file; every module in this folder is registered."""

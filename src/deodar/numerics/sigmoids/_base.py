@@ -18,31 +18,33 @@ POINTS = 5
 
 @dataclass(frozen=True)
 class SigmoidFunction(Part):
-    """g(u), applied cell by cell."""
+    """The base class of output functions g(u), applied to each sample."""
 
     def __call__(self, u: Array) -> Array:
-        """Output for activation u; same shape."""
+        """Return the output for activation u; same shape."""
         raise NotImplementedError
 
     def ends(self, u: Array) -> tuple[Array, ...] | None:
-        """What `mean` needs at an end of a range of activation and what is costly: neighbouring ranges share
-        it. None where nothing is.
+        """Return expensive terms of `mean` at an end of a range of activation, which neighbouring ranges
+        share.
+
+        None without such terms.
         """
         return None
 
     def mean(
         self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
     ) -> Array:
-        """The mean of g over the activations between a and b, g(a) where they are equal; same shape.
+        """Return the mean of g over the activations between a and b, g(a) where they are equal; same shape.
 
-        A sigmoid that knows its antiderivative gives the exact mean; this is Gauss-Legendre's rule with five
-        points.
+        A sigmoid with a closed antiderivative overrides this with the exact mean; the default is
+        Gauss-Legendre quadrature with five points.
 
         Args:
             a: one end.
-            b: the other; it may lie below a, or be equal.
-            at_a: `ends(a)`, where it is known.
-            at_b: `ends(b)`, where it is known.
+            b: the other end; it may be below a, or equal.
+            at_a: `ends(a)`, if known.
+            at_b: `ends(b)`, if known.
         """
         places, weights = np.polynomial.legendre.leggauss(POINTS)
         middle, half = 0.5 * (a + b), 0.5 * (b - a)
@@ -51,5 +53,5 @@ class SigmoidFunction(Part):
         )
 
     def bounds(self, u: Interval) -> Interval:
-        """Between which values the output lies for activation in an interval."""
+        """Return the smallest and largest output for activation in an interval."""
         return ANY

@@ -17,8 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Absolute(SigmoidFunction):
-    r"""A sigmoid without an exponential; it approaches 0 and 1 slowly, so that a field at rest leaves some
-    output.
+    r"""A sigmoid without an exponential; it approaches 0 and 1 slowly, so a field at rest has some output.
 
     Equation:
         g(u) = \frac{1}{2} \left( 1 + \frac{\beta (u - \theta)}{1 + \beta |u - \theta|} \right)
@@ -46,8 +45,9 @@ class Absolute(SigmoidFunction):
     def mean(
         self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
     ) -> Array:
-        """(1 + (F(b) - F(a)) / (v(b) - v(a))) / 2 with F = |v| - log(1 + |v|), v = beta (u - theta); on one
-        side of theta as a single logarithm.
+        """Return (1 + (F(b) - F(a)) / (v(b) - v(a))) / 2 with F = |v| - log(1 + |v|), v = beta (u - theta).
+
+        On one side of theta it is computed with a single logarithm.
         """
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         wa, wb = jnp.abs(va), jnp.abs(vb)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @register
 @dataclass(frozen=True)
 class Linear(SigmoidFunction):
-    r"""Output proportional to activation, for linear stages of an architecture.
+    r"""A linear output function, for linear stages of an architecture.
 
     Equation:
         g(u) = \mathrm{slope}\, (u - \theta)
@@ -42,7 +42,7 @@ class Linear(SigmoidFunction):
     def mean(
         self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
     ) -> Array:
-        """The output in the middle."""
+        """Return the output in the middle of the range."""
         return self(0.5 * (a + b))
 
     def bounds(self, u: Interval) -> Interval:

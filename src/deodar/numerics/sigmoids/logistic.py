@@ -27,19 +27,19 @@ _SERIES = (
 )
 """log(1 + y) / y for 0 <= y <= 1, highest power first: a polynomial fitted to a relative error of 2e-7.
 
-It vectorises, log1p does not.
+It vectorises; log1p does not.
 """
 
 _NEAR, _NEAR_DOUBLE = 0.01, 1e-5
-"""Ranges of beta u shorter than this take the Taylor series of the mean, in single and double precision:
-where both forms have the same error.
+"""Range of beta u below which the mean uses its Taylor series, in single and double precision: both forms
+have the same error there.
 """
 
 
 @register
 @dataclass(frozen=True)
 class Logistic(SigmoidFunction):
-    r"""Smooth step between 0 and 1, the usual output function of a field.
+    r"""A smooth step between 0 and 1, the usual output function of a field.
 
     Equation:
         g(u) = \frac{1}{1 + e^{-\beta (u - \theta)}}
@@ -62,12 +62,12 @@ class Logistic(SigmoidFunction):
     threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
 
     def __call__(self, u: Array) -> Array:
-        # by tanh it would be exactly 0 in single precision where it should be 1e-8 and less
+        # with tanh it would be exactly 0 in single precision for values of 1e-8 and less
         return jax.nn.sigmoid(self.beta * (u - self.threshold))
 
     def ends(self, u: Array) -> tuple[Array, ...]:
-        """log(1 + exp(-|v|)) with v = beta (u - theta), the part of the antiderivative that decays, and
-        exp(-|v|).
+        """Return log(1 + exp(-|v|)), the decaying part of the antiderivative, and exp(-|v|), with v = beta (u
+        - theta).
         """
         v = self.beta * (u - self.threshold)
         small = jnp.exp(-jnp.abs(v))
@@ -83,8 +83,9 @@ class Logistic(SigmoidFunction):
     def mean(
         self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
     ) -> Array:
-        """(log(1 + exp(beta (b - theta))) - log(1 + exp(beta (a - theta)))) / (beta (b - a)); near a = b the
-        Taylor series about a.
+        """Return (log(1 + exp(beta (b - theta))) - log(1 + exp(beta (a - theta)))) / (beta (b - a)).
+
+        Near a = b it is the Taylor series about a.
         """
         (low, s), (high, _) = at_a or self.ends(a), at_b or self.ends(b)
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
@@ -92,7 +93,7 @@ class Logistic(SigmoidFunction):
         near = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
         q = (
             1.0 + s
-        )  # near a = b: g + g (1 - g) d / 2, over the denominator q^2, so that both forms take one division
+        )  # near a = b: g + g (1 - g) d / 2, with the denominator q^2, so that both forms need one division
         series = jnp.where(va > 0, 1.0, s) * q + 0.5 * s * d
         return jnp.where(
             near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)

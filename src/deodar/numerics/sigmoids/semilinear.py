@@ -17,14 +17,14 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class SemiLinear(SigmoidFunction):
-    r"""Silent below the threshold, proportional above it.
+    r"""An output function that is 0 below the threshold and linear above it.
 
     Equation:
         g(u) = \max(0, \mathrm{slope}\, (u - \theta))
 
     Parameters:
         slope: output per unit of activation above the threshold; >= 0.
-        threshold: theta, activation below which there is no output.
+        threshold: theta, activation below which the output is 0.
 
     Shapes:
         Any shape in, the same out.
@@ -43,8 +43,8 @@ class SemiLinear(SigmoidFunction):
     def mean(
         self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
     ) -> Array:
-        """The output in the middle where the range does not cross the threshold; else slope (max(a, b) -
-        theta)^2 / (2 |b - a|).
+        """Return the output in the middle if the range does not contain the threshold; else slope (max(a, b)
+        - theta)^2 / (2 |b - a|).
         """
         va, vb = a - self.threshold, b - self.threshold
         crosses = (va < 0) != (vb < 0)

@@ -17,7 +17,7 @@ from deodar.registry import register
 @register
 @dataclass(frozen=True)
 class Step(SigmoidFunction):
-    r"""All or nothing: the output function of Amari's analysis.
+    r"""A step between 0 and 1, the output function of Amari's analysis.
 
     Equation:
         g(u) = \begin{cases} 1 & u > \theta \\ 0 & \text{else} \end{cases}
@@ -41,7 +41,7 @@ class Step(SigmoidFunction):
     def mean(
         self, a: Array, b: Array, at_a: tuple[Array, ...] | None = None, at_b: tuple[Array, ...] | None = None
     ) -> Array:
-        """The share of the range that lies above the threshold."""
+        """Return the share of the range above the threshold."""
         va, vb = a - self.threshold, b - self.threshold
         d = vb - va
         return jnp.where(d == 0, self(a), jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0)) / jnp.where(
