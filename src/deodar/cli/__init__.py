@@ -1,7 +1,7 @@
-"""The command line: one file for each command; the folder is the registry.
+"""The command line: one module per command; every module in this folder is a command.
 
-A command is a module with `HELP` (one line), `arguments(parser)` and `run(args) -> int`. Heavy imports stand
-inside `run`, so that `deodar --help` answers at once.
+A command is a module with `HELP` (one line), `arguments(parser)` and `run(args) -> int`. Heavy imports are
+inside `run`, so that `deodar --help` starts quickly.
 """
 
 from __future__ import annotations
@@ -21,21 +21,19 @@ from deodar.plugins import Plugin
 
 
 def commands() -> dict[str, ModuleType]:
-    """Every command of deodar by name; a module ends in an underscore where the name is a word of Python's
-    own.
-    """
+    """Return every command of deodar by name; a module has a trailing underscore if the name is a keyword."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
     return {name.rstrip("_"): importlib.import_module(f"deodar.cli.{name}") for name in names}
 
 
 def packaged() -> list[Plugin]:
-    """The commands that installed packages name, without importing them."""
+    """Return the commands of installed packages, without importing them."""
     return plugins.found("commands", list(commands()))
 
 
 def _outside(given: Sequence[str]) -> dict[str, ModuleType]:
-    """The commands of packages that a call needs: the one it names, or all where the list of commands is
-    shown.
+    """Import the commands of packages that a call needs: the one it names, or all for the list of
+    commands.
     """
     named = next((word for word in given if not word.startswith("-")), None)
     loaded = {p.name: p.load() for p in packaged() if named in (None, p.name) and not p.problem}
@@ -44,12 +42,12 @@ def _outside(given: Sequence[str]) -> dict[str, ModuleType]:
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        """A wrong call is told in one sentence, with what to type; status 2."""
+        """Print an invalid call as one sentence with a fix, and exit with status 2."""
         self.exit(2, f"{self.prog}: {message}. Type: {self.prog} --help\n")
 
 
 def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
-    """The parser of the whole command line; of packages it holds the commands that the call needs."""
+    """Return the parser of the command line, with the commands of packages that the call needs."""
     top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
     top.add_argument(
@@ -69,7 +67,9 @@ def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command; 0 means done, 1 an error told in one paragraph on stderr, 2 a wrong call."""
+    """Run a command; status 0: success, 1: an error, printed as one paragraph on stderr, 2: an invalid
+    call.
+    """
     given = list(sys.argv[1:] if argv is None else argv)
     if given and not given[0].startswith("-") and given[0] not in commands() | _outside(given):
         print(f"deodar: {_no_command(given[0])}", file=sys.stderr)
@@ -100,7 +100,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _no_command(name: str) -> str:
-    """Why there is no command of that name: nothing is called so, or its package cannot be used."""
+    """Return why a command cannot run: no command has that name, or its package cannot be used."""
     for p in packaged():
         if p.name == name:
             return (
@@ -111,14 +111,14 @@ def _no_command(name: str) -> str:
 
 
 def _import(name: str) -> None:
-    """Run a module of the user's, named on the command line, so that the kinds it registers are known."""
+    """Import a module of the user, named on the command line, to register its kinds."""
     if str(Path.cwd()) not in sys.path:
         sys.path.insert(0, str(Path.cwd()))
     try:
         importlib.import_module(name)
     except DeodarError:
         raise
-    except Exception as error:  # a module may raise anything
+    except Exception as error:  # a module may raise any exception
         first = (str(error).strip() or "no message").splitlines()[0]
         raise UnknownName(
             f"the module {name!r} cannot be imported ({type(error).__name__}: {first})",

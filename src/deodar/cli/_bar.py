@@ -1,4 +1,4 @@
-"""The bar of long work that is done in pieces: how much is done, and the time that is left."""
+"""The progress bar of long computations, with the remaining time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 class Bar:
-    """A progress bar on stderr; `what` are the rows that are counted."""
+    """A progress bar on stderr; `what` names the counted rows."""
 
     def __init__(self, hidden: bool, what: str) -> None:
         # start-up time: only a terminal needs rich
@@ -35,7 +35,7 @@ class Bar:
         self._bar.stop()
 
     def show(self, standing: Standing) -> None:
-        """Draw what is told."""
+        """Draw the progress."""
         left = "" if standing.left is None else f"{lasting(standing.left)} left"
         self._bar.update(
             self._task,
@@ -46,7 +46,7 @@ class Bar:
 
 
 def lasting(seconds: float) -> str:
-    """A time in words: 40 s, 12 min, 3 h 5 min."""
+    """Return a duration in words: 40 s, 12 min, 3 h 5 min."""
     minutes = round(seconds / 60)
     if seconds < 90:
         return f"{seconds:.0f} s"

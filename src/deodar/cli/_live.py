@@ -1,4 +1,4 @@
-"""`deodar run FILE --live` and `deodar run FILE --cost`: a session in place of a record."""
+"""The options `deodar run FILE --live` and `deodar run FILE --cost`: a session without a record."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from deodar.session.session import Session
 
 OF_A_RECORD = ("record", "every", "trials", "workers", "sweep", "out", "force")
-"""What a run that writes no record cannot do."""
+"""Options that require a record."""
 
 OF_A_LIVE_RUN = ("speed", "longest_step")
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """`--live`, `--speed`, `--longest-step` and `--cost`."""
+    """Add `--live`, `--speed`, `--longest-step` and `--cost`."""
     parser.add_argument(
         "--live",
         action="store_true",
@@ -45,7 +45,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def refuse_alone(args: argparse.Namespace) -> None:
-    """Refuse what means something with `--live` only."""
+    """Refuse options that require `--live`."""
     given = [name for name in OF_A_LIVE_RUN if getattr(args, name) is not None]
     if given:
         args.wrong(f"{_flags(given)} needs --live")
@@ -75,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
         pace = Pace()
         try:
             meter = run_live(session, duration, speed, args.longest_step, pace=pace)
-        except KeyboardInterrupt:  # a usual end of a live run: what was measured counts
+        except KeyboardInterrupt:  # Ctrl-C is the usual end of a live run: the measurements are printed
             meter, unit = pace.meter(session), session.document.time_unit
             stopped = f"stopped at {session.time:g} of {duration:g} {unit}"
         answer["meter"] = meter.data() | {"complete": not stopped}
@@ -115,7 +115,7 @@ def _session(args: argparse.Namespace) -> Session:
 
 
 def _speed(text: str) -> float | str:
-    """A number, or max."""
+    """Parse a number, or `max`."""
     return text if text == "max" else float(text)
 
 

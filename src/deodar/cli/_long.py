@@ -1,4 +1,4 @@
-"""The question before runs of 10^9 steps and more: state the expected time, and ask whether to begin."""
+"""The confirmation of runs of 10^9 steps and more, with the expected time."""
 
 from __future__ import annotations
 
@@ -13,29 +13,28 @@ TRIAL_SECONDS = 0.5
 """Wall time of the trial run by which the speed is measured, in seconds."""
 
 MOST_TRIED = 1_000_000
-"""Steps that a trial run takes at most."""
+"""Most steps of a trial run."""
 
 
 def add_yes(parser: argparse.ArgumentParser) -> None:
-    """`--yes`."""
+    """Add `--yes`."""
     parser.add_argument("--yes", action="store_true", help="begin runs of 1e9 steps and more without asking")
 
 
 def confirm(
     args: argparse.Namespace, command: str, steps: int, what: str, seconds: Callable[[], float]
 ) -> None:
-    """State how long a run takes, and ask whether to begin; a run of fewer than 10^9 steps begins without a
-    question.
+    """Print the expected time of a run and ask for confirmation; runs of fewer than 10^9 steps need none.
 
     Args:
-        args: of the command; `yes` answers the question.
-        command: its name.
-        steps: steps of the run in total.
+        args: arguments of the command; `yes` answers the question.
+        command: name of the command.
+        steps: total number of steps of the run.
         what: the run in words, the subject of a sentence.
-        seconds: measures how long it takes.
+        seconds: measures the expected time.
 
     Raises:
-        TimeError: the answer is no, or nobody can be asked.
+        TimeError: if the answer is no, or without a terminal to ask on.
     """
     # start-up time: these bring JAX
     from deodar.batch.simulate import LONG_STEPS
@@ -55,7 +54,9 @@ def confirm(
 
 
 def seconds_a_step(run: Callable[[int], object]) -> float:
-    """Wall time of a step, from runs of more and more steps; what a run takes without steps is taken off."""
+    """Return the wall time of a step, from runs of increasing length, without the time of a run of no
+    steps.
+    """
 
     def taken(n: int) -> float:
         began = time.perf_counter()
@@ -70,7 +71,7 @@ def seconds_a_step(run: Callable[[int], object]) -> float:
 
 
 def duration(seconds: float) -> str:
-    """A wall time in words: 40 seconds, 3.2 hours, 12 days."""
+    """Return a wall time in words: 40 seconds, 3.2 hours, 12 days."""
     for unit, length in (("years", 365 * 86400), ("days", 86400), ("hours", 3600), ("minutes", 60)):
         if seconds >= length:
             return (

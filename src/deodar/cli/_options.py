@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
-    """`--json`."""
+    """Add `--json`."""
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
 
 
 def add_force(parser: argparse.ArgumentParser) -> None:
-    """`--force`."""
+    """Add `--force`."""
     parser.add_argument("--force", action="store_true", help="replace what an earlier run wrote there")
 
 
 def add_world(parser: argparse.ArgumentParser) -> None:
-    """`--world` and `--trust`."""
+    """Add `--world` and `--trust`."""
     parser.add_argument(
         "--world",
         metavar="KIND:ARGUMENT",
@@ -39,7 +39,7 @@ def add_world(parser: argparse.ArgumentParser) -> None:
 
 
 def add_cores(parser: argparse.ArgumentParser) -> None:
-    """`--cores`."""
+    """Add `--cores`."""
     parser.add_argument(
         "--cores",
         type=whole,
@@ -49,9 +49,7 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
 
 
 def use_cores(cores: int | None, wanted: int = 1) -> None:
-    """As many as `--cores` says; without it as many as wanted, unless the environment (NPROC) says otherwise
-    or JAX has started.
-    """
+    """Use the number of cores of `--cores`; without it `wanted`, unless NPROC is set or JAX has started."""
     # start-up time: these bring JAX
     from deodar.batch import cores as setting
 
@@ -62,7 +60,7 @@ def use_cores(cores: int | None, wanted: int = 1) -> None:
 
 
 def add_run(parser: argparse.ArgumentParser) -> None:
-    """`--seed`, `--precision`, `--device`, `--cores` and `--no-progress`."""
+    """Add `--seed`, `--precision`, `--device`, `--cores` and `--no-progress`."""
     parser.add_argument(
         "--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)"
     )
@@ -86,7 +84,7 @@ def add_run(parser: argparse.ArgumentParser) -> None:
 
 
 def wrong(parser: argparse.ArgumentParser) -> None:
-    """Let `run` refuse a call as argparse does: `args.wrong(text)` prints it and ends with status 2."""
+    """Let `run` refuse a call like argparse: `args.wrong(text)` prints the text and exits with status 2."""
     parser.set_defaults(wrong=parser.error)
 
 
@@ -101,12 +99,12 @@ def document(text: str) -> Path:
 def add_document(
     parser: argparse.ArgumentParser, meaning: str = "a document (.json, .deodar), or example:NAME", **how: Any
 ) -> None:
-    """`FILE`: a document, or an example by its name."""
+    """Add `FILE`: a document, or an example by its name."""
     parser.add_argument("file", type=document, metavar="FILE", help=meaning, **how)
 
 
 def whole(text: str) -> int:
-    """A whole number, 0 or above."""
+    """Parse an integer, 0 or above."""
     value = int(text)
     if value < 0:
         raise ValueError
@@ -117,7 +115,7 @@ whole.__name__ = "whole number"
 
 
 def pair(text: str) -> tuple[str, str]:
-    """`PATH=VALUE`; a path may itself hold an equals sign."""
+    """Parse `PATH=VALUE`; a path may contain an equals sign."""
     path, sign, value = text.rpartition("=")
     if not sign or not path or not value:
         raise argparse.ArgumentTypeError(f"{text!r} is not of the form PATH=VALUE")
@@ -125,7 +123,7 @@ def pair(text: str) -> tuple[str, str]:
 
 
 def setting(text: str) -> tuple[str, Any]:
-    """`PATH=VALUE`, the value in JSON: a number, true, false, [1, 2]; anything else is text."""
+    """Parse `PATH=VALUE`, the value in JSON: a number, true, false, [1, 2]; any other value is text."""
     path, value = pair(text)
     try:
         return path, codec.parse(value)
@@ -134,7 +132,7 @@ def setting(text: str) -> tuple[str, Any]:
 
 
 def values(text: str) -> tuple[str, list[float]]:
-    """`PATH=V1,V2,...`."""
+    """Parse `PATH=V1,V2,...`."""
     path, listed = pair(text)
     try:
         return path, [float(v) for v in listed.split(",")]
@@ -143,7 +141,7 @@ def values(text: str) -> tuple[str, list[float]]:
 
 
 def world(text: str | None) -> World | None:
-    """The world that `--world KIND:ARGUMENT` names, opened."""
+    """Open the world of `--world KIND:ARGUMENT`."""
     # start-up time: these bring JAX
     from deodar.recording.opened import named
 
@@ -151,9 +149,7 @@ def world(text: str | None) -> World | None:
 
 
 def shown(path: Path) -> str:
-    """A path as one types it: relative where it lies below the working folder, quoted where a shell would
-    take it apart.
-    """
+    """Return a path for a shell: relative inside the working folder, quoted if a shell would split it."""
     try:
         text = str(path.resolve().relative_to(Path.cwd()))
     except (OSError, ValueError):
@@ -162,7 +158,7 @@ def shown(path: Path) -> str:
 
 
 def paragraph(parts: Sequence[str]) -> str:
-    """Sentences, each closed by a full stop."""
+    """Join sentences, each with a full stop."""
     return " ".join(p if p.endswith((".", "!", "?", ":")) else f"{p}." for p in parts if p)
 
 

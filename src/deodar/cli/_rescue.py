@@ -1,6 +1,4 @@
-"""A result that cannot be written where it was asked for: it is kept in memory until a second place has taken
-it.
-"""
+"""The fallback for a result that cannot be written to its folder: write it to another folder."""
 
 from __future__ import annotations
 
@@ -20,19 +18,19 @@ Done = TypeVar("Done")
 
 
 def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Path], ask: bool) -> Done:
-    """Write to the first folder that takes it, and return what `write` returns.
+    """Write to the first writable folder, and return the result of `write`.
 
-    On a terminal a person is asked for folders, until one takes it or the answer is empty. Then come the
-    folder that the system keeps for data of the user, and the one for temporary files.
+    On a terminal the user is asked for folders, until one is writable or the answer is empty. The next
+    candidates are the system's folder for user data and the folder for temporary files.
 
     Args:
-        error: why the result could not be written where it was asked for.
+        error: the error of the requested folder.
         write: writes the result into a folder.
-        first: folders that are tried before anybody is asked.
-        ask: whether a person may be asked.
+        first: folders that are tried before the user is asked.
+        ask: whether the user may be asked.
 
     Raises:
-        OutputError: no folder takes it; every folder that was tried is named.
+        OutputError: if no folder is writable; the message lists all of them.
     """
     tried = [error]
     for folder in _folders(tried, first, ask and sys.stdin.isatty() and sys.stderr.isatty()):
@@ -46,17 +44,17 @@ def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Pa
 
 
 def elsewhere(error: DeodarError, out: Path, fill: Callable[[Path], None], ask: bool) -> Path:
-    """Write a whole folder to a second place, under the name that it was to have and a number.
+    """Write a whole folder to another place, under its requested name and a number.
 
     Args:
-        error: why it could not be written to `out`; where that has come to exist meanwhile, the second place
-            is beside it.
-        out: where it was asked for.
+        error: the error of `out`; if another process has created `out` meanwhile, the new folder is beside
+            it.
+        out: the requested folder.
         fill: fills a folder.
-        ask: whether a person may be asked.
+        ask: whether the user may be asked.
 
     Raises:
-        OutputError: no folder takes it.
+        OutputError: if no folder is writable.
     """
 
     def write(parent: Path) -> Path:
@@ -85,8 +83,8 @@ def _folders(tried: list[DeodarError], first: Sequence[Path], ask: bool) -> Iter
 
 
 def _own() -> Iterator[Path]:
-    """The folders of the user and of the system; one that cannot be made is passed over by whoever writes
-    into it.
+    """Yield the folders for user data and for temporary files; the caller skips those that it cannot
+    create.
     """
     data = platformdirs.user_data_path("deodar", appauthor=False) / "results"
     with contextlib.suppress(OSError):

@@ -1,7 +1,7 @@
-"""The bill of materials: what deodar consists of on this machine, as CycloneDX 1.5.
+"""The bill of materials of deodar on this machine, as CycloneDX 1.5.
 
-Python packages are those that are installed and that deodar, or one of its extras, requires, directly or
-through others. The libraries of the studio's page are those that its build wrote down in `licences.txt`.
+Python packages are the installed ones that deodar, or one of its extras, requires, directly or indirectly.
+The libraries of the studio's page are those in `licences.txt`, which its build writes.
 
 Reference:
     OWASP CycloneDX Specification 1.5 (ECMA-424, 2024).
@@ -18,7 +18,7 @@ from typing import Any
 
 SPECIFICATION = "1.5"
 LONGEST_NAME = 100
-"""Most characters of the name of a licence; longer ones are texts of licences."""
+"""Most characters of the name of a licence; longer text is the licence itself."""
 
 LIBRARY = re.compile(r"(?m)^(@?[\w./-]+) (\d[\w.+-]*) \((.+)\)$")
 """The first line of a library in `licences.txt`: name, version, licence."""
@@ -51,7 +51,7 @@ def bill() -> dict[str, Any]:
 
 
 def _python(root: str) -> tuple[dict[str, Component], dict[str, set[str]]]:
-    """The closure of what a distribution requires, as far as it is installed, by name, and who requires whom
+    """Return the installed direct and indirect requirements of a distribution by name, and the dependencies
     by reference.
     """
     # start-up time
@@ -90,7 +90,7 @@ def _python(root: str) -> tuple[dict[str, Component], dict[str, set[str]]]:
 
 
 def _wanted(requirement: Any, extras: frozenset[str], extra_only: bool) -> bool:
-    """Whether a requirement counts here, with these extras; `extra_only`: only if it counts because of
+    """Return whether a requirement applies on this machine with these extras; `extra_only`: only because of
     them.
     """
     if requirement.marker is None:
@@ -116,8 +116,8 @@ def _component(about: importlib.metadata.Distribution, required: bool) -> Compon
 
 
 def _licences(about: importlib.metadata.Distribution) -> list[dict[str, Any]]:
-    """What a distribution says of its licence: an expression of SPDX, else the names in its classifiers, else
-    its own words.
+    """Return the licences of a distribution: an SPDX expression, else the names in its classifiers, else its
+    licence field.
     """
     if "License-Expression" in about.metadata:
         return [{"expression": about.metadata["License-Expression"]}]
@@ -138,12 +138,12 @@ def _licences(about: importlib.metadata.Distribution) -> list[dict[str, Any]]:
 
 
 def licences() -> Path:
-    """Return the place of the text that the build of the page writes."""
+    """Return the path of the file that the build of the page writes."""
     return Path(__file__).parents[1] / "server" / "static" / "licences.txt"
 
 
 def _page() -> list[Component]:
-    """The libraries in the built page; none where it was not built."""
+    """Return the libraries in the built page; none without a built page."""
     text = licences().read_text(encoding="utf-8") if licences().is_file() else ""
     out: list[Component] = []
     for name, version, licence in sorted(LIBRARY.findall(text)):
@@ -163,6 +163,6 @@ def _page() -> list[Component]:
 
 
 def _reference(kind: str, name: str, version: str) -> str:
-    """The package URL of a package."""
+    """Return the package URL of a package."""
     plain = re.sub(r"[-_.]+", "-", name).lower() if kind == "pypi" else urllib.parse.quote(name, safe="/")
     return f"pkg:{kind}/{plain}@{urllib.parse.quote(version, safe='')}"

@@ -1,4 +1,4 @@
-"""`deodar check FILE`."""
+"""The command `deodar check FILE`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ A problem stops a run; a warning never does. Status 1 if there is a problem, or,
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser)
     parser.add_argument("--strict", action="store_true", help="count warnings as problems: status 1")
@@ -27,7 +27,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if there is any problem; if `--strict`, for warnings too."""
+    """Check a document; status 1 if it has a problem or, with `--strict`, a warning."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
 

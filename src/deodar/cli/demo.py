@@ -1,4 +1,4 @@
-"""`deodar demo NAME`."""
+"""The command `deodar demo NAME`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HELP = "run the quick form of a paper: saliency on photographs, or spa, a robot 
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command; each demonstration adds its own."""
+    """Add the arguments of the command; each demonstration adds its own."""
     demos = papers.demos()
     about = "; ".join(f"{name}: {demo.HELP}" for name, demo in demos.items())
     parser.add_argument("name", choices=tuple(demos), metavar="NAME", help=about)
@@ -51,7 +51,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if a required claim is false."""
+    """Run a demonstration; status 1 if a required claim is false."""
     strange = [
         (option, demo)
         for option, demo in args.owners.items()
@@ -117,9 +117,7 @@ def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
 
 
 def _written(args: argparse.Namespace, out: Path, fill: Callable[[Path], None]) -> tuple[Path, str]:
-    """Write the folder, to a second place where this one fails; the place, and why it is not the one that was
-    asked for.
-    """
+    """Write the folder, or another one on failure; return its path and the reason if it is another one."""
     try:
         places.write_folder(out, fill, replace=args.force)
         return out, ""
@@ -128,9 +126,7 @@ def _written(args: argparse.Namespace, out: Path, fill: Callable[[Path], None]) 
 
 
 def claim(out: Path, force: bool) -> None:
-    """Refuse, before the run, a folder that could not be written after it; `force` replaces only what a demo
-    wrote.
-    """
+    """Refuse, before the run, a folder that could not be written; `force` replaces only results of a demo."""
     places.claim_folder(out, force)
     if out.is_dir() and any(out.iterdir()) and not (out / "results.json").is_file():
         raise OutputExists(

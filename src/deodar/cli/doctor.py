@@ -1,4 +1,4 @@
-"""`deodar doctor`."""
+"""The command `deodar doctor`."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ HELP = (
 )
 
 EXTRAS = {"docs": "zensical", "test": "pytest", "vision": "opencv-python-headless"}
-"""For each extra a package that tells whether it is there."""
+"""For each extra a package whose presence shows that the extra is installed."""
 
 GIB = 2**30
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.add_argument("files", nargs="*", metavar="FILE", help="documents whose packages are looked for")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
     parser.add_argument(
@@ -41,7 +41,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if something that deodar needs is missing."""
+    """Examine the installation; status 1 if a requirement is missing."""
     if args.sbom:
         print(codec.text(_sbom.bill()))
         return 0
@@ -56,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _plans(as_json: bool) -> int:
-    """The cost model of convolutions against this machine, on one core."""
+    """Compare the cost model of convolutions with this machine, on one core."""
     # start-up time: these bring JAX
     from rich.console import Console
     from rich.progress import track
@@ -101,7 +101,7 @@ def _plans(as_json: bool) -> int:
 
 
 def examine() -> dict[str, Any]:
-    """Everything as plain data."""
+    """Return the state of the installation as plain data."""
     # start-up time
     import psutil
 
@@ -148,7 +148,7 @@ def examine() -> dict[str, Any]:
 
 
 def _needs(path: str) -> dict[str, Any]:
-    """The packages that a document needs and that are missing or of another version."""
+    """Return the packages that a document needs and that are missing or have another version."""
     # start-up time: these bring JAX
     from deodar.importers import opening
     from deodar.model import files
@@ -167,14 +167,14 @@ def _needs(path: str) -> dict[str, Any]:
 
 
 def _plugins() -> list[dict[str, str]]:
-    """What installed packages add, each with what is wrong with it; "" where nothing is."""
+    """Return the extensions of installed packages, each with its problem; "" without a problem."""
     # start-up time: these bring JAX
     from deodar import cli, papers, registry
     from deodar.experiments.measures import MEASURES
     from deodar.figures import _panels
     from deodar.importers import opening
 
-    registry.kinds()  # names that deodar itself has
+    registry.kinds()  # names in deodar
     listed = [(p, registry.take(p)) for p in registry.packaged()]
     listed += [(p, MEASURES.problem(p)) for p in MEASURES.packaged()]
     listed += [(p, _panels.KINDS.problem(p)) for p in _panels.KINDS.packaged()]

@@ -1,4 +1,4 @@
-"""`deodar draw FILE`."""
+"""The command `deodar draw FILE`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HELP = "draw the architecture in a file as SVG, PDF or PNG"
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     _options.add_document(parser)
     parser.add_argument(
         "--out",
@@ -37,7 +37,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Draw, write and say where."""
+    """Draw the model, write the file and print its path."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
     from deodar.model.draw import draw

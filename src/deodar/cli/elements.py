@@ -1,4 +1,4 @@
-"""`deodar elements [KIND]`."""
+"""The command `deodar elements [KIND]`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from deodar import codec
 from deodar.declarations import range_text
 
-if TYPE_CHECKING:  # NumPy is imported with it
+if TYPE_CHECKING:  # this also imports NumPy
     from deodar.kinds.parameter import ParameterDescription
 
 HELP = (
@@ -19,13 +19,13 @@ HELP = (
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.add_argument("kind", nargs="?", metavar="KIND", help="show this one, for example Field")
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
 
 
 def run(args: argparse.Namespace) -> int:
-    """The list, or one page."""
+    """Print the list of kinds, or the page of one kind."""
     # start-up time: these bring JAX
     from deodar import docstring, registry
     from deodar.kinds.description import describe
@@ -76,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _values(parameters: Sequence[ParameterDescription]) -> Iterator[str]:
-    """For each parameter its default, unit, range and what a change costs."""
+    """Yield for each parameter its default, unit, range and the cost of a change."""
     width = max(len(p.name) for p in parameters)
     for p in parameters:
         about = [p.typed, p.unit, range_text(p.lower, p.upper), " | ".join(p.choices), p.cost]

@@ -1,4 +1,4 @@
-"""`deodar examples`, `deodar examples copy NAME` and `deodar examples open NAME`."""
+"""The commands `deodar examples`, `deodar examples copy NAME` and `deodar examples open NAME`."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ open starts the studio with a copy that has no file yet. Wherever a command take
 example:NAME stands for an example: deodar run example:selection"""
 
 WIDEST = 110
-"""Columns of the list where a pipe states no width."""
+"""Columns of the list in a pipe, which has no width."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
         "what", nargs="?", default="list", choices=("list", "copy", "open"), help="what to do (default list)"
@@ -42,7 +42,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """List, copy or open."""
+    """List, copy or open examples."""
     if args.what == "list":
         if args.name is not None:
             args.wrong(f"list takes no name. To copy it: deodar examples copy {args.name}")
@@ -75,7 +75,7 @@ def _list(args: argparse.Namespace) -> int:
     from rich.table import Table
 
     console = Console()
-    if not console.is_terminal:  # a pipe has no width to keep to
+    if not console.is_terminal:  # a pipe has no width
         console = Console(width=WIDEST + 60)
     for title, names in (("models", examples.names()), ("scripts", examples.scripts())):
         table = Table(title, "", box=box.SIMPLE_HEAD)

@@ -1,4 +1,4 @@
-"""`deodar experiment FILE`."""
+"""The command `deodar experiment FILE`."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ Rows are written as trials end: Ctrl-C or a power failure loses none. The same c
 resumes, with the same results as without the stop."""
 
 MOST_CELLS = 24
-"""Combinations of levels that are listed; the table holds them all."""
+"""Most combinations of levels that are listed; the table contains all of them."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
         "file", type=Path, metavar="FILE", help="an experiment (.json), which names its model"
@@ -68,13 +68,13 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if the trials were stopped, or if all diverged."""
+    """Run an experiment; status 1 if it was stopped, or if all trials diverged."""
     # start-up time: these bring JAX
     from deodar.experiments.experiment import Experiment
     from deodar.experiments.results import ROWS, carry
     from deodar.importers.opening import load
 
-    _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
+    _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
     found = Experiment.load(args.file, load)
     given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
     given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
@@ -111,7 +111,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _confirm(args: argparse.Namespace, setup: Any, out: Path) -> None:
-    """Ask before very many steps; trials whose rows are in the folder are not counted."""
+    """Ask for confirmation of a long run; trials whose rows are in the folder do not count."""
     # start-up time: these bring JAX
     from deodar.batch.simulate import LONG_STEPS
     from deodar.experiments.results import ROWS, load_results
@@ -168,12 +168,12 @@ def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
 
 
 def _diverged(data: xarray.Dataset) -> int:
-    """Trials that diverged."""
+    """Return the number of trials that diverged."""
     return int((data["diverged"] != "").sum()) if "diverged" in data.attrs else 0
 
 
 def _cells(data: xarray.Dataset) -> Iterator[str]:
-    """For each combination of levels its outcomes, and the median of how long a trial took."""
+    """Yield for each combination of levels its outcomes and the median duration of a trial."""
     # start-up time
     import numpy as np
 

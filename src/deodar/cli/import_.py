@@ -1,4 +1,4 @@
-"""`deodar import FILE`."""
+"""The command `deodar import FILE`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ in the notes of the document. Status 1 with --strict if anything was not carried
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser, "the file of the other tool")
     parser.add_argument(
@@ -44,7 +44,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if `--strict` and something was lost, or if the file cannot be read."""
+    """Import a file; status 1 if it cannot be read, or with `--strict` if a part was lost."""
     # start-up time: these bring JAX
     from deodar.importers.opening import read
     from deodar.model.model import save
@@ -83,7 +83,7 @@ def _show(report: ImportReport) -> None:
     from rich.table import Table
 
     console = Console()
-    if not console.is_terminal:  # a pipe has no width to keep to
+    if not console.is_terminal:  # a pipe has no width
         console = Console(width=160)
     console.print(f"{escape(report.file)} ({report.tool}): {report.summary()}.", highlight=False)
     elements = [line for line in report.lines if line.part == "element"]

@@ -1,4 +1,4 @@
-"""`deodar pack FILE`."""
+"""The command `deodar pack FILE`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ it is, and dd.load does; any zip tool unpacks it."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser)
     parser.add_argument(
@@ -38,7 +38,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the package, or the files in it."""
+    """Write the package, or extract its files."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
     from deodar.model import model, package

@@ -1,4 +1,4 @@
-"""`deodar plot RECORD`."""
+"""The command `deodar plot RECORD`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ dimensions and more). Several variables become panels of one figure."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
         "record", type=Path, metavar="RECORD", help="a record (.zarr, .nc), or a folder that deodar run wrote"
@@ -86,7 +86,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Draw, write and say where."""
+    """Draw the record, write the file and print its path."""
     # start-up time: these bring JAX
     from deodar.recording import files, places
 
@@ -133,7 +133,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View]) -> Figure:
-    """The path in the arena in which it was recorded, and the film of it where one is wanted."""
+    """Draw the path in the arena of the record, and write its video if requested."""
     # start-up time: these bring JAX
     from deodar.figures import path
     from deodar.recording.repeat import world_of

@@ -1,4 +1,4 @@
-"""`deodar regimes FILE ELEMENT`."""
+"""The command `deodar regimes FILE ELEMENT`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ HELP = (
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     _options.add_document(parser)
     parser.add_argument(
         "element", metavar="ELEMENT", help="path of the field or node; it is measured alone and without noise"
@@ -58,7 +58,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """The table, and the figure."""
+    """Print the table, and write the figure."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
 
@@ -94,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _target(args: argparse.Namespace) -> Path:
-    """The figure's path: as given, else the first free number in the working folder."""
+    """Return the path of the figure: the requested one, else the first free number in the working folder."""
     if args.out is not None:
         return args.out
     number = 1
@@ -104,7 +104,7 @@ def _target(args: argparse.Namespace) -> Path:
 
 
 def _table(found: Regimes) -> str:
-    """What was measured, line by line in plain words."""
+    """Return the measurements in words, one per line."""
     isolated, up, down = found.isolated, found.thresholds.detection, found.thresholds.reverse
     field = isolated.field
     axes = ", ".join(str(a) for a in isolated.axes)
@@ -190,8 +190,8 @@ def _table(found: Regimes) -> str:
 
 
 def _bracket(found: Regimes, name: str) -> str:
-    """A threshold, half of its interval, and how far it moves on a grid twice as fine, if that is more than
-    half the interval.
+    """Return a threshold, half of its interval, and its shift on a grid twice as fine if that exceeds half
+    the interval.
     """
     t = found.transitions[name]
     half = (t.interval[1] - t.interval[0]) / 2

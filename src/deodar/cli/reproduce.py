@@ -1,4 +1,4 @@
-"""`deodar reproduce PAPER`."""
+"""The command `deodar reproduce PAPER`."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ RESULTS = "results.json"
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.names())}")
     parser.add_argument(
@@ -68,12 +68,12 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if a required claim is false, or if the runs were stopped."""
+    """Reproduce a paper; status 1 if a required claim is false, or if the runs were stopped."""
     # start-up time: these bring JAX
     from deodar.compiler.device import find
     from deodar.recording.provenance import made_by
 
-    _options.use_cores(None)  # one core, as in workers: how many there are decides the last digits
+    _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
     paper = papers.paper(args.paper)
     jobs = _chosen(args, paper.jobs(args.quick))
     out: Path = args.out or places.free(Path.cwd(), args.paper)
@@ -101,7 +101,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _again(args: argparse.Namespace, out: Path) -> str:
-    """The call that resumes this one."""
+    """Return the call that resumes this one."""
     again = " ".join(
         ["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)]
     )
@@ -109,7 +109,7 @@ def _again(args: argparse.Namespace, out: Path) -> str:
 
 
 def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
-    """The jobs of the conditions that `--only` names, all without it."""
+    """Return the jobs of the conditions in `--only`, or all jobs without it."""
     conditions = sorted({key.rpartition("/")[0] for job in jobs for key in job.keys})
     for name in args.only:
         if not any(c.startswith(name) for c in conditions):
@@ -118,7 +118,7 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
 
 
 def _open(out: Path, about: Mapping[str, Any], by_condition: Sequence[str]) -> Rows:
-    """The rows in a folder: a new one, or one that an earlier call began; another folder is left alone."""
+    """Open the rows in a new folder, or in one of an earlier call; refuse any other folder."""
     claim(out, ROWS, "a reproduction")
     return Rows(out / ROWS, about, by_condition)
 

@@ -1,4 +1,4 @@
-"""`deodar run FILE` and `deodar run RECORD`."""
+"""The commands `deodar run FILE` and `deodar run RECORD`."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ OF_A_RECORD = (
     "workers",
     "accuracy",
 )
-"""What a record settles itself."""
+"""Options whose values a record contains."""
 
 WARNINGS = 3
 """Most warnings of the check that are printed before a run."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
         "file",
@@ -110,7 +110,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Status 1 if the run was stopped, or if a repetition differs without a reason."""
+    """Run a document, or repeat a record; status 1 if stopped, or if a repetition differs without a
+    reason.
+    """
     # start-up time: these bring JAX
     from deodar.importers.opening import require
 
@@ -187,7 +189,7 @@ def _simulate(args: argparse.Namespace) -> int:
 def _confirm(
     args: argparse.Namespace, duration: float | None, dt: float, run: Callable[[float], object]
 ) -> None:
-    """Ask before a very long run; `run` runs a document time of it."""
+    """Ask for confirmation of a long run; `run` simulates a part of it to measure its speed."""
     # start-up time: these bring JAX
     from deodar.batch.simulate import expected_steps
 
@@ -202,7 +204,7 @@ def _confirm(
 
 
 def _show_warnings(model: Model, file: Path) -> None:
-    """Print the first warnings of the check, on stderr: they stop no run."""
+    """Print the first warnings of the check on stderr; they do not prevent the run."""
     found = [p for p in model.check() if p.severity == "warning"]
     for warning in found[:WARNINGS]:
         print(f"deodar run: warning: {warning}", file=sys.stderr)
@@ -253,14 +255,14 @@ def _repeat(args: argparse.Namespace) -> int:
 
 @contextlib.contextmanager
 def _said_here() -> Generator[None]:
-    """The command line says by itself what `simulate` warns about."""
+    """Suppress the warnings of `simulate`, which the command line prints itself."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)
         yield
 
 
 class _Place:
-    """Where the run is written: claimed before it begins, named when it is done."""
+    """The output of a run: its path is checked before the run and printed after it."""
 
     def __init__(self, args: argparse.Namespace, name: str) -> None:
         # start-up time: these bring JAX
@@ -273,8 +275,8 @@ class _Place:
         folder.claim(self.given or places.free(Path(), name), self.format, self.force)
 
     def write(self, data: xarray.Dataset, doc: Document, ask: bool) -> tuple[Path, Path, str]:
-        """Write it, to a second place where this one fails; the folder, the record in it, and why it is not
-        where it was asked for.
+        """Write the run, or to another folder on failure; return the folder, the record in it, and the reason
+        if it is another folder.
         """
         # start-up time: these bring JAX
         from deodar.recording import folder, places
@@ -285,7 +287,7 @@ class _Place:
         except (OutputError, OutputExists, RecordError) as error:
             format, first = (
                 (self.format, []) if isinstance(error, OutputError) else ("zarr", [out.parent])
-            )  # there is room, but not for this
+            )  # the disk has space, but not enough for this record
             second = _rescue.rescue(
                 error, lambda parent: self._elsewhere(data, doc, parent, format), first, ask
             )

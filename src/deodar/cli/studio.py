@@ -1,4 +1,4 @@
-"""`deodar studio [FILE]`."""
+"""The command `deodar studio [FILE]`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ share. A restart at the same port keeps the token; beyond this machine each star
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command."""
+    """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser, nargs="?")
     parser.add_argument(
@@ -45,14 +45,14 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Until Ctrl-C."""
+    """Serve the studio until Ctrl-C."""
     # start-up time: these bring JAX
     from deodar.importers import examples, opening
 
     if args.port is not None and args.port > 65535:
         args.wrong("a port is a number from 0 to 65535")
     file: Path | None = args.file
-    # an example is opened as a copy that has no file yet
+    # an example is opened as a copy without a file
     root = Path.cwd() if file is None or examples.holds(file) else file.resolve().parent
     if not root.is_dir():
         args.wrong(f"there is no folder {root}")
