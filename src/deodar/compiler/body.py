@@ -1,4 +1,4 @@
-"""A world inside the step: what of it a model reads and drives, as pure functions of one copy."""
+"""A world inside the step: the sensors and motors that a model uses, as pure functions of one copy."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from deodar.worlds._pure import PureWorld
 
 @dataclass(frozen=True)
 class Body:
-    """A pure world and what a model uses of it.
+    """A pure world, with the sensors and motors that a model uses.
 
-    The state of a copy holds `now` (the world), `sensed` (what it shows, by the sensor's id) and `told` (what
-    its motors were told, by name); every array has a leading axis of one, as the rows of groups have theirs.
+    The state of a copy contains `now` (the world), `sensed` (its readings, by the sensor's id) and `told`
+    (the commands of its motors, by name); every array has a leading axis of one, like the rows of groups.
 
     Attributes:
-        world: its functions; its arrays come from whoever runs it.
-        sensors, motors: what the model uses, by id.
+        world: functions of the world; its arrays are arguments of a run.
+        sensors, motors: the sensors and motors that the model uses, by id.
     """
 
     world: PureWorld
@@ -35,7 +35,7 @@ class Body:
 
     @property
     def key(self) -> Hashable:
-        """What makes another program when it changes."""
+        """A key whose change requires a new program."""
         return (
             type(self.world),
             self.world.structure(),
@@ -54,7 +54,7 @@ class Body:
         )
 
     def begin(self, shared: PyTree, own: PyTree, now: PyTree) -> PyTree:
-        """The state of a copy whose world stands somewhere."""
+        """Return the state of a copy at the start."""
         told = {
             name: jnp.zeros(signal.shape or (), jnp.result_type(float))
             for name, signal in self.world.motors.items()
@@ -62,14 +62,14 @@ class Body:
         return _rows({"now": now, "sensed": self._sensed(shared, own, now), "told": told})
 
     def sensed(self, state: PyTree) -> dict[str, Any]:
-        """What the sensors show."""
+        """Return the readings of the sensors."""
         return {ident: value[0] for ident, value in state["sensed"].items()}
 
     def step(
         self, shared: PyTree, own: PyTree, state: PyTree, commands: Mapping[str, Any], tick: Any, period: Any
     ) -> PyTree:
-        """The state at tick + 1: motors are told at multiples of the period, and what they do shows one
-        period later.
+        """Return the state at tick + 1: motors receive commands at multiples of the period, whose effects are
+        visible one period later.
         """
         told = dict(state["told"])
         listens = tick % period == 0
@@ -98,19 +98,19 @@ class Body:
 
 
 def shared_dtype(shared: PyTree) -> Any:
-    """The precision of a world's arrays."""
+    """Return the precision of a world's arrays."""
     return next(a.dtype for a in jax.tree.leaves(shared) if a.dtype.kind == "f")
 
 
 def batched(tree: PyTree, batch: Sequence[int]) -> PyTree:
-    """Arrays of copies (copies, ...) as arrays of a batch (points, trials, ...), or of one copy where there
-    is no batch.
+    """Reshape arrays of copies (copies, ...) to arrays of a batch (points, trials, ...), or of one copy
+    without a batch.
     """
     return jax.tree.map(lambda a: np.asarray(a).reshape(*batch, *np.shape(a)[1:]), tree)
 
 
 def unbatched(tree: PyTree, batch: Sequence[int]) -> PyTree:
-    """The same back."""
+    """Reverse `batched`."""
     return jax.tree.map(lambda a: np.asarray(a).reshape(-1, *np.shape(a)[len(batch) :]), tree)
 
 

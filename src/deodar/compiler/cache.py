@@ -1,7 +1,8 @@
-"""Compiled programs kept between processes, in the user's own cache folder.
+"""The cache of compiled programs between processes, in the user's cache folder.
 
-Only deodar's programs are kept, by a key made of the lowered program, the versions and the machine: JAX's own
-cache and its flags are left alone. `DEODAR_CACHE` names another folder; set to "off" it keeps nothing.
+The cache stores deodar's programs only; their key depends on the lowered program, the versions and the
+machine. JAX's own cache and its flags are unchanged. `DEODAR_CACHE` names another folder; "off" disables the
+cache.
 """
 
 from __future__ import annotations
@@ -22,13 +23,13 @@ from deodar.model import output
 
 MOST_BYTES = 512 * 2**20
 LISTED = 16
-"""One write in this many lists the folder for files to drop: listing thousands of files for every write takes
-as long as compiling.
+"""Number of writes between two searches for files to drop: listing thousands of files takes as long as
+compiling.
 """
 
 
 def folder() -> Path | None:
-    """Where compiled programs are kept, or None where they are not."""
+    """Return the folder of compiled programs, or None without a cache."""
     given = os.environ.get("DEODAR_CACHE", "")
     if given == "off":
         return None
@@ -36,7 +37,7 @@ def folder() -> Path | None:
 
 
 def compile(lowered: Any, options: dict[str, Any] | None, device: Any) -> tuple[Any, bool]:
-    """The executable of a program lowered for a device, and whether it had to be compiled."""
+    """Return the executable of a program lowered for a device, and whether it was compiled."""
     place = folder()
     if place is None:
         return lowered.compile(compiler_options=options), True
@@ -50,7 +51,7 @@ def compile(lowered: Any, options: dict[str, Any] | None, device: Any) -> tuple[
 
 
 def key(lowered: Any, options: dict[str, Any] | None, device: Any) -> str:
-    """Name of the file of a program: equal programs on equal devices with equal versions share it."""
+    """Return the file name of a program, equal for equal programs, devices and versions."""
     about = [
         jax.__version__,
         jaxlib.version.__version__,
@@ -75,15 +76,15 @@ def key(lowered: Any, options: dict[str, Any] | None, device: Any) -> str:
 
 
 def options(device: Any) -> dict[str, Any]:
-    """Options for compiling: the processor's widest vectors, where XLA would take half (elementwise work is
-    25 to 30 % faster).
+    """Return options for compiling: the processor's widest vectors, where XLA would use half (elementwise
+    operations are 25 to 30 % faster).
     """
     wide = device.platform == "cpu" and "avx512f" in _processor().split()
     return {"xla_cpu_prefer_vector_width": "512"} if wide else {}
 
 
 def _processor() -> str:
-    """The processor's instruction sets where the system tells: a program for others would not run."""
+    """Return the processor's instruction sets, if known; a program for other ones would not run."""
     with contextlib.suppress(OSError):
         for line in Path("/proc/cpuinfo").read_text().splitlines():
             if line.startswith(("flags", "Features")):
@@ -95,13 +96,14 @@ def _read(path: Path, lowered: Any, device: Any) -> Any:
     try:
         payload = path.read_bytes()
         with contextlib.suppress(OSError):
-            os.utime(path)  # used now: the longest unused go first
+            os.utime(path)  # mark the file as used: the longest unused files are dropped first
         return serialize_executable.deserialize_and_load(
             payload, lowered.in_tree, lowered.out_tree, device.client, [device]
         )
     except FileNotFoundError:
         return None
-    except Exception:  # a damaged file, or one of another build: it is compiled anew and replaced
+    # a damaged file, or one of another build: the program is compiled again and the file replaced
+    except Exception:
         return None
 
 
@@ -110,16 +112,14 @@ def _write(path: Path, compiled: Any) -> None:
         payload = serialize_executable.serialize(compiled)[0]
         path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         output.write(path, payload, durable=False, private=True)
-        if int(path.name[:8], 16) % LISTED == 0:  # the name is a hash: no process has to count
+        if int(path.name[:8], 16) % LISTED == 0:  # the name is a hash, so every process finds the same files
             _prune(path.parent)
-    except (
-        Exception
-    ):  # a full or read-only disk, or a backend that cannot serialise, costs time and nothing else
+    except Exception:  # a full or read-only disk, or a backend that cannot serialise, only costs time
         return
 
 
 def _prune(place: Path) -> None:
-    """Drop the programs longest unused while there are too many."""
+    """Drop the longest unused programs above the limit."""
     files = sorted((p for p in place.iterdir() if p.is_file()), key=lambda p: p.stat().st_mtime)
     size = sum(p.stat().st_size for p in files)
     for p in files:

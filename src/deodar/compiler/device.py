@@ -1,4 +1,4 @@
-"""Where programs run: a device by its name, and how many cores the CPU is taken to have."""
+"""The device of programs by its name, and the number of cores of the CPU."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from deodar.errors import DeviceError
 from deodar.parameters import show
 
 DEFAULT = "cpu"
-"""Where programs run unless another device is named: a step of a small model takes 1 to 20 microseconds
-there, less than starting its kernels takes on a graphics processor.
+"""The default device: a step of a small model takes 1 to 20 microseconds on a CPU, less than the launch of
+its kernels on a graphics processor.
 """
 
 KINDS = ("cpu", "gpu", "cuda", "rocm", "tpu")
 """Platforms that are asked for; gpu is cuda or rocm, whichever is there."""
 
 CORES = "NPROC"
-"""Environment variable from which XLA reads how many threads it may use on a CPU; without it: as many as the
-process may have cores.
+"""Environment variable with the number of threads that XLA may use on a CPU; default: the number of cores of
+the process.
 """
 
 INSTALL = "For a graphics processor of NVIDIA type: pip install 'jax[cuda12]'"
@@ -60,7 +60,7 @@ def names() -> list[str]:
 
 
 def cores() -> int:
-    """Cores that programs on the CPU use, or will use: as the environment says, else those that this process
+    """Return the number of cores for programs on the CPU: from the environment, else all that this process
     may use.
     """
     given = os.environ.get(CORES, "")
@@ -68,7 +68,7 @@ def cores() -> int:
 
 
 def available() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -77,5 +77,5 @@ def _of(kind: str) -> list[Any]:
         return []
     try:
         return list(jax.local_devices(backend=kind))
-    except RuntimeError:  # JAX has no backend of this kind here
+    except RuntimeError:  # JAX has no backend of this kind on this machine
         return []

@@ -1,6 +1,6 @@
-"""Executables of one model: compiled ahead of time, so that running never traces.
+"""Executables of one model, compiled ahead of time, so that a run does not trace.
 
-One executable runs any number of steps: the numbers of steps and of records are arguments, not part of the
+One executable runs any number of steps: the numbers of steps and records are arguments, not part of the
 program.
 """
 
@@ -37,7 +37,7 @@ from deodar.worlds._pure import PureWorld
 PRECISIONS = ("float32", "float64")
 ACCURACIES = ("default", "exact")
 MOST_KEPT = 16
-"""Executable sets that one model keeps; the oldest go first."""
+"""Most executables that one model keeps; the oldest are dropped first."""
 
 PAIRS_FROM = 1000
 """Cells with noise, for each call of a step, from which noise is drawn in pairs: they save 0.4 ns a cell and
@@ -53,15 +53,15 @@ them.
 """
 
 RARELY = {"xla_backend_optimization_level": 0}
-"""For what runs once, or when a width changes: it compiles in half the time."""
+"""Options for functions that run once, or when a width changes: they compile in half the time."""
 
 BUFFER_BYTES = 16 * 2**20
-"""Size of the buffer in which a chunk records."""
+"""Size of the recording buffer of a chunk."""
 
 
 @dc.dataclass(frozen=True)
 class Batch:
-    """The copies that run at once.
+    """The copies of a model that run at once.
 
     Attributes:
         points: number of points of a sweep; None without a sweep.
@@ -75,12 +75,12 @@ class Batch:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Leading axes of everything that is batched."""
+        """The leading axes of batched arrays."""
         return tuple(n for n in (self.points, self.trials) if n is not None)
 
     @property
     def size(self) -> int:
-        """Number of copies."""
+        """The number of copies."""
         return math.prod(self.shape)
 
 
@@ -152,7 +152,7 @@ class Executable:
     # ------------------------------------------------------------------------------------------------- values
 
     def holds(self, leaf: Leaf) -> bool:
-        """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
+        """Return whether a leaf is part of the program; if not, it has its neutral value and is omitted."""
         return self.layout.holds(leaf)
 
     def values(self, doc: Document, swept: Sequence[Any] | None = None) -> PyTree:
@@ -162,7 +162,7 @@ class Executable:
     # ---------------------------------------------------------------------------------------------- functions
 
     def prepare(self, values: PyTree) -> PyTree:
-        """Constants of the groups."""
+        """Return the constants of the groups."""
         return self.call(self._prepare, values)
 
     def embodied(self, world: Any, state: PyTree, keys: PyTree) -> tuple[PyTree, PyTree, PyTree]:
@@ -186,11 +186,11 @@ class Executable:
         )
 
     def init(self, values: PyTree, seed: int, trials: Sequence[int]) -> tuple[PyTree, PyTree]:
-        """State at the start and noise keys, for the given trials of a seed."""
+        """Return the state at the start and the noise keys, for the given trials of a seed."""
         return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
 
     def chunk(self, ports: Sequence[Port]) -> tuple[Any, int]:
-        """The executable that steps and records, and how many records its buffer holds."""
+        """Return the executable that steps and records, and the capacity of its buffer in records."""
         key = ("chunk", tuple(ports))
         if key not in self._known:
             capacity = self.capacity(ports)
@@ -201,7 +201,7 @@ class Executable:
         return self._known[key]
 
     def reader(self, ports: Sequence[Port]) -> Any:
-        """The executable that reads ports of a state."""
+        """Return the executable that reads ports of a state."""
         key = ("read", tuple(ports))
         if key not in self._known:
             self._known[key] = self.new_reader(ports)
@@ -217,17 +217,17 @@ class Executable:
             return executable(*args)
 
     def port(self, ident: str, name: str) -> Port:
-        """A port of an element, as the program knows it."""
+        """Return the port of an element in the program."""
         g, r = self.plan.row[ident]
         return Port(g, r, name)
 
     def axes(self, port: Port) -> Axes:
-        """Axes of a port."""
+        """Return the axes of a port."""
         like = self.plan.groups[port.group].like
         return like.outs[port.name] if port.name in like.outs else like.ins[port.name]
 
     def capacity(self, ports: Sequence[Port]) -> int:
-        """How many records fit into the buffer of one chunk."""
+        """Return the number of records that fit into the buffer of one chunk."""
         cells = sum(int(np.prod(shape(self.axes(p)), dtype=int)) for p in ports) * self.batch.size
         return max(1, min(16384, BUFFER_BYTES // max(1, cells * self.program.dtype.itemsize)))
 
@@ -266,7 +266,7 @@ class Executable:
         return self._batched(one, given)
 
     def _begin(self, values: PyTree, constants: PyTree, keys: PyTree, sensed: PyTree, clock: PyTree) -> Chunk:
-        """What stays the same in a chunk of one copy."""
+        """Return the values that are constant during a chunk of one copy."""
         constants = self.program.hoist(values, constants)
         still = self.program.steady(values, constants, sensed)
         return Chunk(values, constants, keys, sensed, clock, still)
@@ -278,7 +278,7 @@ class Executable:
         elif self.batch.trials is not None:
             one = jax.vmap(
                 one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials
-            )  # also without any state or noise
+            )  # also for models without state and noise
         if self.batch.points is None:
             return one(values | {"swept": ()}, constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
@@ -361,7 +361,7 @@ class Executable:
         return state, buffers, program.finite(state)
 
     def draws_pairs(self) -> bool:
-        """Whether drawing noise for two steps at once is worth a program with three copies of the step."""
+        """Return whether to draw noise for two steps at once, in a program with three copies of the step."""
         cells = sum(
             self.plan.groups[g].rows * math.prod(shape(self.plan.groups[g].noise or ()))
             for g in self.program.paired
@@ -376,7 +376,7 @@ class Executable:
     ) -> tuple[Any, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
-        # full products everywhere: processors that multiply in fewer digits (TF32) would do so otherwise
+        # full precision of products: otherwise some processors multiply with fewer digits (TF32)
         with (
             precision_context(self.precision),
             jax.default_device(self.device),
@@ -394,7 +394,7 @@ class Executable:
         return executable, lowered.out_info
 
     def blind(self) -> dict[str, np.ndarray]:
-        """Readings of the sensors of a model that senses nothing: zeros."""
+        """Return the readings of sensors without a world: zeros."""
         out: dict[str, np.ndarray] = {}
         for ident in self.plan.sensors:
             g, _ = self.plan.row[ident]
@@ -491,18 +491,18 @@ def _shared(request: _Request) -> Executable:
 
 
 def _bytes(doc: Document) -> int:
-    """Size of the arrays among the parameters of a document."""
+    """Return the size in bytes of the arrays among the parameters of a document."""
     return sum(a.nbytes for e in doc.entries for a in arrays(e.element))
 
 
 def signature(doc: Document) -> Hashable:
-    """What makes a new program when it changes: everything but names and the values of traced leaves."""
+    """Return a key whose change requires a new program: all but names and the values of traced leaves."""
     entries = tuple((e.id, e.every, structure(e.element)) for e in sorted(doc.entries, key=lambda e: e.id))
     return (entries, tuple(sorted(dc.astuple(c) for c in doc.connections)))
 
 
 def require_trust(model: Model, doc: Document) -> None:
-    """Refuse to compile a document from elsewhere that names a function, until it is trusted."""
+    """Raise an error if a document from another source refers to a function and is not trusted."""
     if model.trusted:
         return
     for e in doc.entries:

@@ -1,5 +1,5 @@
-"""The functions of one group as the program calls them: those of its elements, and the kernels that these
-convolve with.
+"""The functions of one group that the program calls: those of its elements, with the convolution by
+kernels.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from deodar.numerics.choice import Choice
 
 
 class Constants(NamedTuple):
-    """What a group keeps from step to step; a JAX PyTree.
+    """The constants of a group between steps; a JAX PyTree.
 
     Attributes:
         kernels: weights of the kernels, or their mixture after `hoist`; empty without a convolution.
-        own: what the elements themselves prepared.
+        own: constants from the `prepare` of the elements.
     """
 
     kernels: Any
@@ -33,9 +33,9 @@ class StepArguments(NamedTuple):
     """What an element reads in one step; a JAX PyTree.
 
     Attributes:
-        state: its state.
-        inputs: the sums at its input ports.
-        constants: what it keeps from step to step.
+        state: state of the element.
+        inputs: sums at the input ports.
+        constants: constants between steps.
         noise: standard normal deviates, or None.
     """
 
@@ -65,7 +65,7 @@ class Functions:
         return Constants(weights, element.prepare(at))
 
     def hoist(self, element: Element, at: Setting, constants: Constants) -> Constants:
-        """What stays the same from step to step although it depends on live parameters."""
+        """Return values that are constant during a chunk although they depend on live parameters."""
         own = element.hoist(at, constants.own)
         if not self.convolves:
             return Constants((), own)
@@ -88,7 +88,7 @@ class Functions:
 
 
 def convolved_axes(node: Node) -> Axes:
-    """Axes of the port that an element convolves; none where it convolves nothing."""
+    """Return the axes of the port that an element convolves; empty without a convolution."""
     convolution = node.element.convolution
     return node.axes(convolution.of) if convolution is not None else ()
 

@@ -1,4 +1,4 @@
-"""The layout of parameters: where each number of a document lies among the arguments of its program."""
+"""The layout of parameters: the index of each number of a document in the arguments of its program."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class LeafLayout:
         ]
 
     def place(self, leaf: Leaf) -> int:
-        """Place of a scalar leaf in the parameter vector."""
+        """Return the index of a scalar leaf in the parameter vector."""
         ident, path = leaf
         g, r = self.plan.row[ident]
         return self.plan.groups[g].offset[path] + r
 
     def holds(self, leaf: Leaf) -> bool:
-        """Whether a leaf is part of the program; if not, it has its neutral value and is left out."""
+        """Return whether a leaf is part of the program; if not, it has its neutral value and is omitted."""
         group = self._group(leaf[0])
         return leaf[1] in group.offset or leaf[1] in group.arrays
 
@@ -80,7 +80,7 @@ class LeafLayout:
             vector[self.place((leaf[0], leaf[1] + LOW))] = low
 
     def put_array(self, arrays: dict[str, np.ndarray], leaf: Leaf, value: np.ndarray) -> None:
-        """Put an array leaf among the arrays, in copies of those that it changes."""
+        """Write an array leaf into the arrays, in copies of those that change."""
         g, r = self.plan.row[leaf[0]]
         names = (leaf[1], leaf[1] + LOW) if leaf[1] in self._group(leaf[0]).exact else (leaf[1],)
         for name, part in zip(names, split(value, self.dtype), strict=False):
@@ -92,12 +92,12 @@ class LeafLayout:
         return self.plan.groups[self.plan.row[ident][0]]
 
     def _part(self, name: str, value: Any) -> np.ndarray:
-        """A leaf in the working precision, or what rounding takes from it."""
+        """Return a leaf in the working precision, or its rounding error."""
         return split(value, self.dtype)[name.endswith(LOW)]
 
 
 def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None:
-    """Refuse a number that the working precision cannot hold."""
+    """Raise an error if a number exceeds the range of the working precision."""
     if abs(value) > float(np.finfo(precision).max):
         entry = doc.by_id().get(leaf[0])
         raise ParameterError(

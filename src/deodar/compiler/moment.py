@@ -1,4 +1,4 @@
-"""A moment of a run, as a program gets it: when it is, and how many steps and records there are to be."""
+"""The clock arguments of a program: the time, and the numbers of steps and records."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ REAL = ("start", "dt")
 
 
 def packed(now: Mapping[str, Any], dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
-    """When it is, and how many steps and records there are to be, as two arrays: each argument of a program
-    costs microseconds.
+    """Pack the time and the numbers of steps and records into two arrays, as each argument of a program costs
+    microseconds.
 
     The time is `start` at the tick `origin`; `start` and `dt` keep the digits of float64.
     """
@@ -27,7 +27,7 @@ def packed(now: Mapping[str, Any], dtype: DTypeLike) -> tuple[np.ndarray, np.nda
 
 
 def unpacked(whole: Any, real: Any) -> dict[str, Any]:
-    """The same by name."""
+    """Return the packed numbers by name."""
     return {name: whole[k] for k, name in enumerate(WHOLE)} | {
         name: Exact(real[0, k], real[1, k]) for k, name in enumerate(REAL)
     }

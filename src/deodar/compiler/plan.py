@@ -1,4 +1,4 @@
-"""The plan between model and program: plain data without JAX, to be printed and tested.
+"""The plan between model and program: plain data without JAX, for printing and tests.
 
 Nodes of equal structure are rows of one group, stacked on a leading axis. The schedule is a list of calls,
 and every sum of the graph a list of index arrays. A planner may replace the partition, or rewrite a plan into
@@ -40,9 +40,9 @@ class RowGroup:
         exact: paths of the leaves that keep the digits of float64; the path with `LOW` behind it holds what
             is lost by rounding.
         cost: for each leaf, `live` or `rebuild`.
-        still: whether its outputs stay the same during a chunk.
+        still: whether its outputs are constant during a chunk.
         noise: axes over which a row draws noise, or None.
-        way: how its kernels are applied.
+        way: the strategy for its kernels.
     """
 
     nodes: list[Node]
@@ -56,12 +56,12 @@ class RowGroup:
 
     @property
     def like(self) -> Node:
-        """The row that stands for all."""
+        """The row that represents the group."""
         return self.nodes[0]
 
     @property
     def rows(self) -> int:
-        """Number of rows."""
+        """The number of rows."""
         return len(self.nodes)
 
 
@@ -105,7 +105,7 @@ class Read:
 
 @dc.dataclass
 class Plan:
-    """What is computed, in which order, from what."""
+    """The groups, the calls in their order, and the sums of inputs."""
 
     groups: list[RowGroup]
     calls: list[Call]
@@ -116,7 +116,7 @@ class Plan:
     ticks: int
 
     def describe(self) -> str:
-        """The plan in words, one line a group and a call."""
+        """Return the plan in words, one line per group and call."""
         lines = [
             f"{len(self.groups)} groups, {self.size} parameters, all parts meet every {self.ticks} ticks"
         ]
@@ -134,7 +134,9 @@ class Plan:
         return "\n".join(lines)
 
     def needed(self, slots: Sequence[tuple[int, str]]) -> list[Call]:
-        """The output calls at time t that ports of groups depend on: (group, port), input ports included."""
+        """Return the output calls at time t on which ports of groups depend: (group, port), including
+        input ports.
+        """
         want: set[int] = set()
         todo: list[tuple[int, Sequence[str]]] = []
         for g, port in slots:
@@ -196,7 +198,7 @@ def plan(
         exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
         copies: how many copies of the model run at once.
         partition: which nodes share a group; none: `by_structure`.
-        embodied: whether the world is inside the step, so that sensors do not stand still.
+        embodied: whether the world is inside the step, so that readings of sensors change during a chunk.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
@@ -225,7 +227,7 @@ def plan(
 def ways_of(
     doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False
 ) -> dict[str, Strategy]:
-    """How each element would apply its kernels, where not by matrices."""
+    """Return the strategy of each element for its kernels, if not matrices."""
     nodes, problems = resolve(doc)
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
         return {}
@@ -258,11 +260,12 @@ def _groups(
     keys: dict[Hashable, int] = {}
     groups: list[RowGroup] = []
     row: dict[str, tuple[int, int]] = {}
-    for n in sorted(nodes, key=lambda n: n.id):  # by stored id: the order of declaration cannot matter
+    # by stored id, so that the order of declaration has no effect
+    for n in sorted(nodes, key=lambda n: n.id):
         key = partition(n, still[n.id], neutral[n.id], found[n.id])
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
-            # noise at its neutral strength 0 is left out of the program, unless that value may change
+            # noise at its neutral strength 0 is omitted from the program, unless that value may change
             probe: Any = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
             groups.append(RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id]))
         row[n.id] = (g, groups[g].rows)
@@ -271,7 +274,7 @@ def _groups(
 
 
 def _swept(nodes: Sequence[Node], lifted: frozenset[Leaf]) -> set[str]:
-    """Nodes of which constants are made at several values at once."""
+    """Return the nodes whose constants are computed for several values at once."""
     by = {n.id: n for n in nodes}
     costs = {(i, path): cost(p) for i in {i for i, _ in lifted} for path, _, p in leaves(by[i].element)}
     return {i for i, path in lifted if costs[i, path] == "rebuild"}
@@ -298,7 +301,7 @@ def _place(groups: Sequence[RowGroup], neutral: Mapping[str, frozenset[str]]) ->
 
 
 def cost(p: Parameter) -> str:
-    """What a change of a leaf costs; arrays are constants of `prepare`."""
+    """Return the cost of a change of a leaf; arrays are constants of `prepare`."""
     return "rebuild" if p.form == "array" else p.cost
 
 

@@ -1,5 +1,5 @@
-"""The cost model of convolutions against the machine at hand: every way that is open, what it should cost,
-and what it costs.
+"""The comparison of the cost model of convolutions with this machine: estimated and measured cost of every
+strategy.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ CASES = (
     Case((400, 400), sigmas=(2.0, 3.0)),
     Case((50, 50, 30), sigmas=(3.0, 6.0)),
 )
-"""Fields like those that people build, from a line to a volume."""
+"""Typical fields, from one to three dimensions."""
 
 
 @dc.dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Measured:
 
 
 def measure(case: Case) -> Iterator[Measured]:
-    """Every way that is open for a case, the cheapest by the model first."""
+    """Yield every possible strategy for a case, in ascending order of estimated cost."""
     key = " ".join([case.boundary] * len(case.samples))
     terms = interaction.spans(case.kernels, case.axes)[key]
     found = candidates(case.axes, tuple(key.split()), interaction.covering(terms), len(terms), case.copies)
@@ -102,7 +102,7 @@ def measure(case: Case) -> Iterator[Measured]:
 
 
 def _seconds(case: Case, key: str, choice: Choice) -> float:
-    """CPU seconds of one application to all copies."""
+    """Return the CPU time in seconds of one application to all copies."""
     axes, kernels, chosen = case.axes, case.kernels, {} if choice.way == "matrices" else {key: choice}
     weights = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float32"), chosen))
 
@@ -120,7 +120,7 @@ def _seconds(case: Case, key: str, choice: Choice) -> float:
 
 
 def _least(run: Callable[[int], Any]) -> float:
-    """CPU seconds of one of many repetitions, the calls' own cost taken off."""
+    """Return the CPU time in seconds of one of many repetitions, without the cost of the call."""
 
     def cpu(n: int) -> float:
         began = time.process_time()

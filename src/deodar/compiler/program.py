@@ -33,8 +33,8 @@ Buffers = dict[tuple[int, str, int], Array]
 
 @dc.dataclass(frozen=True)
 class Port:
-    """A port of a row of a group (of all rows: None), to be read: output port, or input port (then the sum
-    that arrives there).
+    """A port to read, of one row of a group or of all rows (None): an output port, or the sum at an input
+    port.
     """
 
     group: int
@@ -43,9 +43,9 @@ class Port:
 
 
 class _NotHere:
-    """Stands for a live parameter inside `prepare`, which must not use one: any arithmetic with it raises.
+    """The placeholder of a live parameter inside `prepare`, which must not use it: any arithmetic raises.
 
-    A sign is let through: a kernel's terms are listed there too, whose amplitudes may be negated and are not
+    Negation is allowed: `prepare` also lists a kernel's terms, whose amplitudes may be negated and are not
     used.
     """
 
@@ -62,7 +62,7 @@ def precision_context(precision: str) -> contextlib.AbstractContextManager[Any]:
 
 
 class Chunk(NamedTuple):
-    """What stays the same from step to step in one copy of a model; a JAX PyTree.
+    """The values that are constant during a chunk in one copy of a model; a JAX PyTree.
 
     Attributes:
         values: the parameters: `vector` (all scalar leaves), `arrays` (by group and leaf), `swept` (one value
@@ -130,7 +130,7 @@ class Program:
         return out
 
     def init(self, values: PyTree, seed: Array, trial: Array) -> tuple[PyTree, PyTree]:
-        """State at the start, and the noise keys of a trial."""
+        """Return the state at the start, and the noise keys of a trial."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
         keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
         return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}, keys
@@ -138,7 +138,7 @@ class Program:
     # -------------------------------------------------------------------------------------------------- steps
 
     def hoist(self, values: PyTree, constants: PyTree) -> list[Any]:
-        """What groups make of their constants and of live parameters once a chunk."""
+        """Return the values that groups compute from constants and live parameters once per chunk."""
         return [
             self._each(g, self.functions[g].hoist, values, constants[g]) for g in range(len(self.plan.groups))
         ]
@@ -210,7 +210,7 @@ class Program:
         return tuple(self._port(p, buffers) for p in ports)
 
     def finite(self, state: PyTree) -> tuple[Array, list[Array]]:
-        """Whether all numbers are finite, and for each group of which rows."""
+        """Return whether all numbers are finite, and for each group in which rows."""
         out: list[Array] = []
         for g, group in enumerate(self.plan.groups):
             good = jnp.ones((group.rows,), bool)

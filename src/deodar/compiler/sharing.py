@@ -21,12 +21,12 @@ from deodar.model.resolve import Node, Slot
 from deodar.numerics import interaction
 
 WAVES = "~"
-"""Ends the name of a port that holds as waves what the port without it holds; of an input, only what comes as
-waves.
+"""Suffix of a port with the spectral modes of the port without the suffix; for an input, only the part that
+arrives as modes.
 """
 
 REST = "-"
-"""Ends the name of a port that holds what does not come as waves."""
+"""Suffix of a port with the part of an input that does not arrive as spectral modes."""
 
 
 @dc.dataclass
@@ -39,7 +39,7 @@ class SharedNode(Node):
 
 
 def plain_ports(ports: Mapping[str, Any]) -> dict[str, Any]:
-    """The ports that an element itself has."""
+    """Return the ports of the element, without the ports for spectral modes."""
     return {name: value for name, value in ports.items() if not name.endswith((WAVES, REST))}
 
 
@@ -100,7 +100,7 @@ def _with_waves(
 
 
 def _joined(a: Node, b: Node, found: Mapping[str, Strategy]) -> bool:
-    """Whether both share the same waves."""
+    """Return whether both nodes share the same spectral modes."""
     one, other = found[a.id], found[b.id]
     same = (
         bool(one.shared)
@@ -118,7 +118,7 @@ def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
 
 
 def functions(node: Node, way: Strategy) -> Functions:
-    """The functions of a group whose rows are like the node."""
+    """Return the functions of a group whose rows have the structure of the node."""
     if not way.shared:
         return Functions(node, dict(way.choices))
     return (SharingSource if role(node) == "source" else SharingFilter)(node, way)

@@ -1,9 +1,9 @@
-"""Which way every kernel of a model is applied, and which couplings are added up as waves.
+"""The convolution strategy of every kernel of a model, and the couplings that are summed as spectral modes.
 
-A convolution is cheap between transforms. Where fields of the same axes are coupled by Gaussian kernels, each
-field is therefore transformed once, all kernels are applied to its waves, what arrives at a field is added up
-as waves, and there is one way back. `ways` decides, before anything is compiled, by the costs of
-`numerics.choice` and by what elements declare of their equations (`role`); `sharing` does it.
+A convolution is cheap in spectral modes. If fields over the same axes are coupled by Gaussian kernels, each
+field is therefore transformed once, all kernels are applied to its modes, the inputs of a field are summed as
+modes, and one inverse transform follows. `ways` decides before compiling, by the costs of `numerics.choice`
+and the declarations of elements (`role`); `sharing` implements the decision.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Strategy:
 
 EXACT = Strategy()
 WORTH = 1.1
-"""How much more a step may cost for a program with fewer groups: it compiles sooner."""
+"""Largest relative cost of a step that is accepted for a program with fewer groups, which compiles faster."""
 
 SharingRole = Literal["", "source", "filter", "gain"]
 
@@ -48,15 +48,15 @@ Circle = tuple[list[Node], str, Choice]
 
 
 def role(n: Node) -> SharingRole:
-    """How an element can take part in a sum in Fourier space, from what it declares: as a `source` of waves
-    whose dynamics take others in, as a `filter`, or as a `gain`.
+    """Return the role of an element in a sum of spectral modes, from its declarations: a `source`, whose
+    dynamics also receive modes, a `filter`, or a `gain`.
     """
     return _role(type(n.element))
 
 
 @functools.cache
 def _role(cls: type[Element]) -> SharingRole:
-    """The facts of a class are those of its functions: one that overrides a function declares them anew."""
+    """Return the role of a class; a class that overrides a function must repeat the declaration."""
     convolution = cls.convolution if _holds(cls, "convolution") else None
     if convolution is None:
         return "gain" if cls.scaled_by and _holds(cls, "scaled_by") else ""
@@ -75,7 +75,7 @@ def _holds(cls: type[Element], fact: str) -> bool:
 
 
 def acted_axes(n: Node) -> Axes:
-    """The axes over which an element convolves or scales."""
+    """Return the axes over which an element convolves or scales."""
     return convolved_axes(n) or (n.outs["output"] if role(n) else ())
 
 
@@ -174,7 +174,7 @@ def _linked(a: Node, b: Node) -> bool:
 
 
 def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
-    """The waves that carry all kernels of these nodes."""
+    """Return the spectral modes that all kernels of these nodes need."""
     axes = acted_axes(members[0])
     terms = [span for n in members for span in interaction.spans(n.element.kernels(), axes).get(key, ())]
     return together(axes, tuple(key.split()), interaction.covering(terms), copies * len(members))
@@ -207,7 +207,7 @@ def _sorted(choices: Mapping[str, Choice]) -> tuple[tuple[str, Choice], ...]:
 
 
 def _key(n: Node) -> str:
-    """The one kind of boundaries of kernels that are Gaussians, or ""."""
+    """Return the common kind of boundaries of kernels that are Gaussians, or ""."""
     kernels = n.element.kernels()
     keys = {interaction.boundaries(k, acted_axes(n)) if k.widths() else "" for k in kernels}
     return keys.pop() if len(keys) == 1 else ""
