@@ -1,5 +1,5 @@
 """Architectures as pictures: a plain graph is laid out in layers, painted as shapes, and written as SVG, PDF
 or PNG.
 
-Nothing here knows models: `model/diagram.py` makes the graph of a document.
+The package does not depend on models: `model/diagram.py` makes the graph of a document.
 """

@@ -1,4 +1,4 @@
-"""Boxes: how large each item is drawn, and its shape, picture, name and axes."""
+"""Boxes: the size, shape, picture, name and axes of each item."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Loop:
 
 @dataclass(frozen=True)
 class SizedItem:
-    """An item with all that decides its size: names of the ports at which wires end, and its loops."""
+    """An item with its size and the data that determine it: names of connected ports, and loops."""
 
     item: Item
     lines: tuple[str, ...]
@@ -76,7 +76,7 @@ class SizedItem:
 def prepare(
     item: Item, inputs: Sequence[str], outputs: Sequence[str], loops: Sequence[Loop], most: int
 ) -> SizedItem:
-    """Decide how large an item is.
+    """Compute the size of an item.
 
     Args:
         item: the item.
@@ -194,7 +194,7 @@ def _axis(axis: Axis) -> str:
 
 
 def number(value: float) -> str:
-    """At most four digits that count, with a true minus sign."""
+    """Return a number with at most four significant digits and a typographic minus sign."""
     return f"{value:.4g}".replace("-", "\N{MINUS SIGN}")
 
 
@@ -226,7 +226,7 @@ def _outline(item: Item, x: float, top: float, box: ItemSize) -> tuple[PathComma
 
 
 def _node_picture(x: float, y: float, r: float) -> list[Shape | TextLine]:
-    """A step up: on or off."""
+    """Draw the glyph of a node, a step."""
     s = min(r, NODE) * 0.5
     return [
         Shape(
@@ -279,7 +279,7 @@ def _picture(item: Item, x: float, y: float) -> list[Shape | TextLine]:
 
 
 def _bump(x: float, base: float, w: float, h: float) -> tuple[PathCommand, ...]:
-    """A bell on a base line."""
+    """Return a bell-shaped curve on a base line."""
     m = x + w / 2
     return (
         ("M", x, base),

@@ -12,15 +12,15 @@ from deodar.numerics.signs import Sign
 
 
 def fold(graph: Graph, depth: int) -> Graph:
-    """The same architecture with fewer boxes.
+    """Return the same architecture with fewer boxes.
 
-    Connections inside a folded group are left out. Several connections between the same two boxes become one,
-    with their common sign or with both signs; its text is their number. Places of the document are those of
-    open groups, so the result is laid out anew.
+    Connections inside a folded group are omitted. Several connections between the same two boxes become one,
+    with their common sign or with both signs; its text is their number. Positions in the document are those
+    of open groups, so the result has a new layout.
 
     Args:
-        graph: the whole.
-        depth: how many levels of groups stay open; with 0 every group is one box.
+        graph: the whole graph.
+        depth: number of levels of groups that remain open; with 0 every group is one box.
     """
     folded = {item.id: item.group[: depth + 1] for item in graph.items if len(item.group) > depth}
     if not folded:

@@ -1,4 +1,4 @@
-"""Layout of a graph whose items have places already."""
+"""Layout of a graph whose items have positions."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from deodar.diagrams.graph import Graph, GroupPath
 from deodar.diagrams.layout import FRAME, HEAD, LEFT, RIGHT, SPACING, Arrangement, ItemSize, Stretch
 
 GIVEN = 0.7
-"""Points of a unit of the places that a document holds: the studio's boxes are larger than those drawn here.
-"""
+"""Points per unit of the positions in a document; the studio's boxes are larger than those of pictures."""
 
 
 def placed(
@@ -19,9 +18,9 @@ def placed(
     labels: Mapping[int, tuple[float, float]],
     names: Mapping[GroupPath, float],
 ) -> Arrangement:
-    """Take the places that are given.
+    """Lay out a graph with the given positions.
 
-    Connections then run straight from side to side, wherever boxes stand.
+    Connections then run straight from side to side, without avoiding boxes.
     """
     left, top = (min(graph.places[i.id][k] for i in graph.items) for k in (0, 1))
     found = Arrangement()
@@ -72,7 +71,7 @@ def _other(graph: Graph, w: int, ident: str) -> str:
 def _to_origin(
     found: Arrangement, boxes: Mapping[str, ItemSize], labels: Mapping[int, tuple[float, float]]
 ) -> Arrangement:
-    """The same, moved so that nothing stands at places below 0."""
+    """Return the arrangement, shifted so that no position is below 0."""
     areas = [(x, y, boxes[i].width, boxes[i].height) for i, (x, y) in found.boxes.items()] + list(
         found.frames.values()
     )

@@ -26,7 +26,7 @@ class Item:
         recurrence: signs of its interactions with itself, drawn as loops.
         group: names of the groups around it.
         every: ticks of its own step.
-        told: whether its axes are written; they need not be where all that it reaches has the same ones.
+        told: whether its axes are written; not if all connected items have the same axes.
     """
 
     id: str

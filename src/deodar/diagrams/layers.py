@@ -1,4 +1,4 @@
-"""Layers: which way edges run, in which column each node stands, and in which order.
+"""Layers: the direction of edges, the column of each node, and the order inside columns.
 
 The steps of Sugiyama, Tagawa & Toda (1981), IEEE Trans. Syst. Man Cybern. 11, 109-125: break cycles, rank,
 order by barycentres.
@@ -15,7 +15,7 @@ SWEEPS = 10
 
 
 def forward(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, int]:
-    """A position for each node such that few edges run backwards.
+    """Return a position for each node such that few edges run backwards.
 
     Reference:
         Eades, Lin & Smyth (1993), Inf. Process. Lett. 47, 319-323: sources first, sinks last, else the node
@@ -100,7 +100,7 @@ def order(
 
 
 def crossings(columns: Sequence[Sequence[str]], after: Mapping[str, Sequence[str]]) -> int:
-    """How many pairs of edges cross."""
+    """Return the number of pairs of edges that cross."""
     total = 0
     for left, right in itertools.pairwise(columns):
         at = {n: k for k, n in enumerate(right)}

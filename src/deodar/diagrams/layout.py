@@ -64,7 +64,7 @@ class Stretch:
 
 @dataclass
 class Arrangement:
-    """Where everything stands.
+    """The positions of all items, groups and connections.
 
     Attributes:
         boxes: upper left corner of each item.
@@ -255,8 +255,8 @@ class _Level:
         return self._places(columns, y)
 
     def _lanes(self) -> list[list[str]]:
-        """The columns, with a lane for each wire in each column that it passes; its text stands in the middle
-        one of those between boxes.
+        """Return the columns, with a lane for each wire in each column that it passes; the middle lane
+        between boxes has its text.
         """
         columns: list[list[str]] = [[] for _ in range(self.last + 1)]
         for n in self.blocks:
@@ -421,7 +421,7 @@ class _Level:
             x, y = place[n]
             c = self.column[n]
             if n.startswith("lane ") and not widths[c]:
-                continue  # nothing stands in this column: one smooth curve to the next
+                continue  # this column has no box: one smooth curve to the next
             if n not in self.blocks:
                 runs.append(Stretch(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
             elif k == 0:

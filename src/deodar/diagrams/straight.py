@@ -1,4 +1,4 @@
-"""Straight edges: places along a column that keep order and distances and lie near those wished for."""
+"""Straight edges: positions along a column with a given order and distances, near requested positions."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 
 def settle(wishes: Sequence[float], weights: Sequence[float], gaps: Sequence[float]) -> list[float]:
-    """The places nearest to the wishes, in weighted squares, that are at least `gaps` apart.
+    """Return the positions nearest to the requested ones, by weighted least squares, at least `gaps` apart.
 
     Args:
-        wishes: where each would stand.
-        weights: how much each insists.
-        gaps: least distance between each and the next; one less than wishes.
+        wishes: requested position of each item.
+        weights: weight of each request.
+        gaps: smallest distance between each item and the next; one entry fewer than items.
 
     Reference:
         Isotonic regression by pooling adjacent violators: Ayer et al. (1955), Ann. Math. Stat. 26, 641-647.

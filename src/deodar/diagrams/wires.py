@@ -1,4 +1,4 @@
-"""Wires: paths, and the marks at their ends that tell excitation from inhibition."""
+"""Wires: paths, and the marks at their ends that show excitation or inhibition."""
 
 from __future__ import annotations
 

@@ -73,9 +73,9 @@ TUNING = tuple((speed, gain) for speed in (400.0, 800.0) for gain in (50.0, 100.
 
 
 LIKE_LOW, REFLECTIONS = 1.0, (0.8, 1.0)
-"""What two choices of ours or of the published code are varied to: the factor on the place input with high
-noise, which is that of low noise then (published code: 1.2), and how well walls reflect infrared light
-(fitted: 0.6; the sensors' own table: 1).
+"""Other values of two choices of deodar or of the published code: the factor on the position input with high
+noise (1, as with low noise; published code: 1.2), and the reflection of infrared light by walls (fitted: 0.6;
+table of the sensors: 1).
 """
 
 VARIED, VARIED_QUICK = 40, 10

@@ -11,10 +11,10 @@ from deodar.analysis.shortest import Grid, arena_grid
 from deodar.architectures.spa import maze, place
 
 HEADINGS = {"z": 0.0, "large": 4.983}
-"""Where the robot looks at the start, rad.
+"""Heading of the robot at the start, rad.
 
-The published lists give headings too, but the published simulation never turned the robot: all its runs began
-with the heading of the world file, which is taken here.
+The published lists state headings too, but the published simulation did not apply them: all its runs began
+with the heading of the world file, which is used here.
 """
 
 DRAW = 2015

@@ -1,6 +1,4 @@
-"""Which way a run of case 3 took, whether the obstacle came down on the robot, and how long it stood
-still.
-"""
+"""The route of a run of case 3, whether the obstacle hit the robot, and how long the robot did not move."""
 
 from __future__ import annotations
 
@@ -57,8 +55,8 @@ def covered(path: Any, obstacle: str) -> bool:
 
 
 def stillness(path: Any) -> int:
-    """The longest time for which the robot stood still without a break, in steps; 0 of a path that is too
-    short to tell.
+    """Return the longest uninterrupted time in which the robot did not move, in steps; 0 for a path that is
+    too short.
     """
     if len(path) <= OVER:
         return 0

@@ -37,7 +37,7 @@ class Sentence:
     """What is judged.
 
     Attributes:
-        section: of the paper; empty: no sentence of the paper, but of ours.
+        section: section of the paper; empty: a statement of deodar.
         text: the sentence.
         origin: where the target comes from.
         assumes, inferred, kind: see `Claim`.

@@ -32,10 +32,10 @@ STRONG = 0.5
 """Output of an intention field from which on it is there."""
 
 KEPT = 2
-"""Every so many steps a place of the path is kept in the row."""
+"""Number of steps between two positions of the path that a row stores."""
 
 LASTS = 20
-"""Steps for which an intention has to be there to be listed."""
+"""Smallest number of steps of an active intention that is listed."""
 
 LOCATION_2 = (15, 57)
 """Row and column of the second location of figures 10 and 11: where the robot of that run is at t = 500.
