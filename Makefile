@@ -15,8 +15,13 @@ demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
 test: .venv/installed-test lint types studio
-	$(BIN)/python -m pytest -n 2 --dist loadfile --durations 30
+	$(BIN)/python -m pytest $(SPREAD) --durations 30 -m "not default_program"
+	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
 	$(BIN)/python studio/build.py check lint test browser
+
+# a verdict in about a minute
+fast: .venv/installed-test
+	$(BIN)/python -m pytest $(SPREAD) -m fast
 
 lint: .venv/installed-test
 	$(BIN)/python -m ruff check .

@@ -32,6 +32,8 @@ DEFAULT_PROGRAM = (
     "tests/benchmarks/test_bits.py",
     "tests/benchmarks/test_trajectories.py",
     "tests/session/test_invariance.py",
+    "tests/elements/test_moving_gaussian.py::test_how_a_run_is_cut",
+    "tests/elements/test_time_series.py::test_how_a_run_is_cut",
 )
 """What judges the bits of programs, or compares them with stored ones: `make test` runs it with
 `--default-programs`.
