@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from deodar import renamed
 from deodar.errors import AnalysisError
 from deodar.parameters import show
 
 
-def points(path: Any) -> np.ndarray:
+def points(path: ArrayLike) -> np.ndarray:
     """Return a path as an array (points, 2); other columns (such as a heading) are dropped."""
     array = np.asarray(path, float)
     if array.ndim != 2 or array.shape[1] < 2 or not len(array) or not np.isfinite(array[:, :2]).all():
@@ -20,12 +21,12 @@ def points(path: Any) -> np.ndarray:
     return array[:, :2]
 
 
-def path_length(path: Any) -> float:
+def path_length(path: ArrayLike) -> float:
     """Return the sum of the distances between consecutive points, in the unit of the path."""
     return float(np.linalg.norm(np.diff(points(path), axis=0), axis=1).sum())
 
 
-def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
+def path_until(path: ArrayLike, goal: Sequence[float] | np.ndarray, radius: float) -> np.ndarray | None:
     """Return the path until it first enters a disc around a goal; the last point is on the disc's edge.
 
     None if the path never enters the disc.
@@ -51,7 +52,7 @@ def path_until(path: Any, goal: Sequence[float] | np.ndarray, radius: float) -> 
 
 
 def path_divergence(
-    path: Any, shortest: Any, goal: Sequence[float] | np.ndarray, radius: float
+    path: ArrayLike, shortest: ArrayLike, goal: Sequence[float] | np.ndarray, radius: float
 ) -> float | None:
     """Return Lp / Lo: the length of a path divided by that of the shortest path.
 
@@ -67,7 +68,7 @@ def path_divergence(
     return path_length(gone) / path_length(least)
 
 
-def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
+def clearance(places: ArrayLike, boxes: ArrayLike, border: Sequence[float]) -> np.ndarray:
     """Return the distance of each position to the nearest box or to the border; 0 inside a box or outside the
     border.
 
@@ -88,7 +89,7 @@ def clearance(places: Any, boxes: Any, border: Sequence[float]) -> np.ndarray:
     return np.maximum(nearest, 0.0)
 
 
-def speeds(path: Any, times: Any, over: int = 1) -> np.ndarray:
+def speeds(path: ArrayLike, times: ArrayLike, over: int = 1) -> np.ndarray:
     """Return the speed at each point but the first `over`, in the unit of the path per unit of time.
 
     It is the distance from the point `over` points earlier, divided by the time between them.

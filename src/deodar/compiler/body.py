@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
+from jax import Array, lax
 
+from deodar.compiler.arguments import BodyState
+from deodar.element import Arrays
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.numerics.pytree import PyTree
@@ -53,7 +54,7 @@ class Body:
             *((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items())),
         )
 
-    def begin(self, shared: PyTree, own: PyTree, now: PyTree) -> PyTree:
+    def begin(self, shared: Arrays, own: PyTree, now: PyTree) -> BodyState:
         """Return the state of a copy at the start."""
         told = {
             name: jnp.zeros(signal.shape or (), jnp.result_type(float))
@@ -61,13 +62,13 @@ class Body:
         }
         return _rows({"now": now, "sensed": self._sensed(shared, own, now), "told": told})
 
-    def sensed(self, state: PyTree) -> dict[str, Any]:
+    def sensed(self, state: BodyState) -> Arrays:
         """Return the readings of the sensors."""
         return {ident: value[0] for ident, value in state["sensed"].items()}
 
     def step(
-        self, shared: PyTree, own: PyTree, state: PyTree, commands: Mapping[str, Any], tick: Any, period: Any
-    ) -> PyTree:
+        self, shared: Arrays, own: PyTree, state: BodyState, commands: Arrays, tick: Array, period: Array
+    ) -> BodyState:
         """Return the state at tick + 1: motors receive commands at multiples of the period, whose effects are
         visible one period later.
         """
@@ -77,7 +78,7 @@ class Body:
             name = self.motors[ident].motor
             told[name] = jnp.where(listens, command[None].astype(told[name].dtype), told[name])
 
-        def advance() -> PyTree:
+        def advance() -> dict[str, PyTree]:
             now = self.world.advance(shared, own, _copy(state["now"]), _copy(told))
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
             return _rows({"now": now, "sensed": self._sensed(shared, own, now)})
@@ -85,11 +86,11 @@ class Body:
         moved = lax.cond(
             (tick + jnp.uint32(1)) % period == 0, advance, lambda: {k: state[k] for k in ("now", "sensed")}
         )
-        return {**moved, "told": told}
+        return {"now": moved["now"], "sensed": moved["sensed"], "told": told}
 
-    def _sensed(self, shared: PyTree, own: PyTree, now: PyTree) -> PyTree:
+    def _sensed(self, shared: Arrays, own: PyTree, now: PyTree) -> Arrays:
         dtype = shared_dtype(shared)
-        out: dict[str, Any] = {}
+        out: Arrays = {}
         for ident, sensor in self.sensors.items():
             axes = tuple(sensor.axes)
             read = self.world.read(shared, own, now, sensor.sensor, axes)
@@ -97,7 +98,7 @@ class Body:
         return out
 
 
-def shared_dtype(shared: PyTree) -> Any:
+def shared_dtype(shared: Arrays) -> np.dtype[np.floating]:
     """Return the precision of a world's arrays."""
     return next(a.dtype for a in jax.tree.leaves(shared) if a.dtype.kind == "f")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, Protocol
 
 import jax
 
@@ -26,7 +26,16 @@ the process.
 INSTALL = "For a graphics processor of NVIDIA type: pip install 'jax[cuda12]'"
 
 
-def find(name: str | None = None) -> Any:
+class Device(Protocol):
+    """A device of JAX."""
+
+    platform: str
+    id: int
+    device_kind: str
+    client: Any
+
+
+def find(name: str | None = None) -> Device:
     """The device called `cpu`, `gpu`, `cuda`, `rocm`, `tpu`, or one of several by its number: `gpu:1`.
 
     None: the CPU.
@@ -48,7 +57,7 @@ def find(name: str | None = None) -> Any:
     return devices[index]
 
 
-def name(device: Any) -> str:
+def name(device: Device) -> str:
     """Name of a device, as `find` takes it."""
     return f"{device.platform}:{device.id}"
 
@@ -72,7 +81,7 @@ def available() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _of(kind: str) -> list[Any]:
+def _of(kind: str) -> list[Device]:
     if kind not in KINDS:
         return []
     try:

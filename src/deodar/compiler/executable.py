@@ -10,21 +10,26 @@ import dataclasses as dc
 import functools
 import math
 import time
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
+from jax.stages import Compiled
 
 from deodar.compiler import cache
 from deodar.compiler import device as devices
+from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.body import Body, batched
+from deodar.compiler.device import Device
+from deodar.compiler.functions import Constants
 from deodar.compiler.layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, ways_of
 from deodar.compiler.program import Chunk, Port, Program, precision_context
+from deodar.element import Arrays
 from deodar.errors import ModelError, ParameterError, Untrusted
 from deodar.leaves import arrays, resting, structure
 from deodar.model.check import problems
@@ -32,6 +37,7 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.pytree import PyTree
+from deodar.worlds._base import World
 from deodar.worlds._pure import PureWorld
 
 PRECISIONS = ("float32", "float64")
@@ -93,13 +99,13 @@ class ProgramArguments(NamedTuple):
         whole, real: the clock, as `packed` gives it.
     """
 
-    values: PyTree
-    constants: PyTree
-    state: PyTree
-    keys: PyTree
-    sensed: PyTree
-    whole: Any
-    real: Any
+    values: ProgramValues
+    constants: list[Constants]
+    state: ProgramState
+    keys: NoiseKeys
+    sensed: Mapping[str, EitherArray]
+    whole: EitherArray
+    real: EitherArray
 
 
 class Executable:
@@ -119,12 +125,12 @@ class Executable:
         doc: Document,
         precision: str,
         batch: Batch,
-        device: Any = None,
+        device: Device | None = None,
         exact: bool = False,
         body: Body | None = None,
     ) -> None:
         began = time.process_time()
-        self.device: Any = device or devices.find()
+        self.device: Device = device or devices.find()
         self.precision, self.exact = precision, exact
         self.batch = batch
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
@@ -155,17 +161,19 @@ class Executable:
         """Return whether a leaf is part of the program; if not, it has its neutral value and is omitted."""
         return self.layout.holds(leaf)
 
-    def values(self, doc: Document, swept: Sequence[Any] | None = None) -> PyTree:
+    def values(self, doc: Document, swept: Sequence[np.ndarray] | None = None) -> ProgramValues:
         """The parameters of a document of this structure, on the host."""
         return self.layout.values(doc, self.batch.points or 1, swept)
 
     # ---------------------------------------------------------------------------------------------- functions
 
-    def prepare(self, values: PyTree) -> PyTree:
+    def prepare(self, values: ProgramValues) -> list[Constants]:
         """Return the constants of the groups."""
         return self.call(self._prepare, values)
 
-    def embodied(self, world: Any, state: PyTree, keys: PyTree) -> tuple[PyTree, PyTree, PyTree]:
+    def embodied(
+        self, world: World, state: ProgramState, keys: NoiseKeys
+    ) -> tuple[Arrays, ProgramState, NoiseKeys]:
         """What all copies share of a world inside the step, which has begun, and state and keys with what
         each has of it.
         """
@@ -185,11 +193,11 @@ class Executable:
             {**keys, "world": batched(own, self.batch.shape)},
         )
 
-    def init(self, values: PyTree, seed: int, trials: Sequence[int]) -> tuple[PyTree, PyTree]:
+    def init(self, values: ProgramValues, seed: int, trials: Sequence[int]) -> tuple[ProgramState, NoiseKeys]:
         """Return the state at the start and the noise keys, for the given trials of a seed."""
         return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
 
-    def chunk(self, ports: Sequence[Port]) -> tuple[Any, int]:
+    def chunk(self, ports: Sequence[Port]) -> tuple[Compiled, int]:
         """Return the executable that steps and records, and the capacity of its buffer in records."""
         key = ("chunk", tuple(ports))
         if key not in self._known:
@@ -200,18 +208,18 @@ class Executable:
             self._known[key] = (chunk, capacity)
         return self._known[key]
 
-    def reader(self, ports: Sequence[Port]) -> Any:
+    def reader(self, ports: Sequence[Port]) -> Compiled:
         """Return the executable that reads ports of a state."""
         key = ("read", tuple(ports))
         if key not in self._known:
             self._known[key] = self.new_reader(ports)
         return self._known[key]
 
-    def new_reader(self, ports: Sequence[Port]) -> Any:
+    def new_reader(self, ports: Sequence[Port]) -> Compiled:
         """The same, for a caller that keeps it itself."""
         return self.compile(lambda *a: self._read(ports, ProgramArguments(*a)), *self._example)[0]
 
-    def call(self, executable: Any, *args: Any) -> Any:
+    def call(self, executable: Compiled, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
         with precision_context(self.precision):
             return executable(*args)
@@ -233,23 +241,25 @@ class Executable:
 
     # ------------------------------------------------------------------------------------------------- traced
 
-    def _start(self, values: PyTree, seed: Array, trials: Array) -> tuple[PyTree, PyTree]:
+    def _start(self, values: ProgramValues, seed: Array, trials: Array) -> tuple[ProgramState, NoiseKeys]:
         one = self.program.init
         if self.batch.trials is not None:
             many = jax.vmap(one, in_axes=(None, None, 0))
         else:
 
-            def many(values: PyTree, seed: Array, trial: Array) -> tuple[PyTree, PyTree]:
+            def many(values: ProgramValues, seed: Array, trial: Array) -> tuple[ProgramState, NoiseKeys]:
                 return one(values, seed, trial[0])
 
         if self.batch.points is None:
-            return many(values | {"swept": ()}, seed, trials)
+            return many({**values, "swept": ()}, seed, trials)
         return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
 
     def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> Any:
         clock = unpacked(given.whole, given.real)
 
-        def one(values: PyTree, constants: PyTree, state: PyTree, keys: PyTree) -> Any:
+        def one(
+            values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
+        ) -> Any:
             return self._run(
                 ports, capacity, self._begin(values, constants, keys, given.sensed, clock), state
             )
@@ -259,13 +269,22 @@ class Executable:
     def _read(self, ports: Sequence[Port], given: ProgramArguments) -> Any:
         clock = unpacked(given.whole, given.real)
 
-        def one(values: PyTree, constants: PyTree, state: PyTree, keys: PyTree) -> Any:
+        def one(
+            values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
+        ) -> Any:
             chunk = self._begin(values, constants, keys, given.sensed, clock)
             return self.program.observe(ports, chunk, state, clock["tick"])
 
         return self._batched(one, given)
 
-    def _begin(self, values: PyTree, constants: PyTree, keys: PyTree, sensed: PyTree, clock: PyTree) -> Chunk:
+    def _begin(
+        self,
+        values: ProgramValues,
+        constants: list[Constants],
+        keys: NoiseKeys,
+        sensed: Mapping[str, EitherArray],
+        clock: ProgramClock,
+    ) -> Chunk:
         """Return the values that are constant during a chunk of one copy."""
         constants = self.program.hoist(values, constants)
         still = self.program.steady(values, constants, sensed)
@@ -280,16 +299,16 @@ class Executable:
                 one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials
             )  # also for models without state and noise
         if self.batch.points is None:
-            return one(values | {"swept": ()}, constants, state, keys)
+            return one({**values, "swept": ()}, constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
         return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(
             values, constants, state, keys
         )
 
-    def _swept_axes(self, values: PyTree) -> PyTree:
+    def _swept_axes(self, values: ProgramValues) -> PyTree:
         return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
-    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: PyTree) -> Any:
+    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: ProgramState) -> Any:
         """`head` steps, a record, then `every` steps and a record until there are `records`; without ports
         `head` steps.
         """
@@ -298,24 +317,24 @@ class Executable:
         leaves_of, tree = jax.tree.flatten(state)
         shapes = [leaf.shape for leaf in leaves_of]
 
-        def full(flat: PyTree) -> PyTree:
+        def full(flat: ProgramState) -> ProgramState:
             return jax.tree.unflatten(
                 tree, [a.reshape(s) for a, s in zip(jax.tree.leaves(flat), shapes, strict=True)]
             )
 
         def flat(
-            state: PyTree,
+            state: ProgramState,
         ) -> (
-            PyTree
+            ProgramState
         ):  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
-        def steps(n: Array, tick: Array, state: PyTree) -> tuple[Array, PyTree]:
-            def one(_: Array, carry: tuple[Array, PyTree]) -> tuple[Array, PyTree]:
+        def steps(n: Array, tick: Array, state: ProgramState) -> tuple[Array, ProgramState]:
+            def one(_: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
                 tick, state = carry
                 return tick + jnp.uint32(1), flat(program.step(chunk, full(state), {}, tick))
 
-            def two(_: Array, carry: tuple[Array, PyTree]) -> tuple[Array, PyTree]:
+            def two(_: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
                 tick, state = carry
                 for drawn in program.draw(
                     chunk.keys, tick
@@ -333,8 +352,8 @@ class Executable:
             )
 
             def phase(
-                p: Array, carry: tuple[Array, PyTree]
-            ) -> tuple[Array, PyTree]:  # up to an even tick, pairs, what is left
+                p: Array, carry: tuple[Array, ProgramState]
+            ) -> tuple[Array, ProgramState]:  # up to an even tick, pairs, what is left
                 return lax.fori_loop(0, doubles[p], two, lax.fori_loop(0, singles[p], one, carry))
 
             return lax.fori_loop(0, 2, phase, (tick, state))
@@ -372,8 +391,8 @@ class Executable:
     # ---------------------------------------------------------------------------------------------- compiling
 
     def compile(
-        self, function: Any, *args: Any, options: Mapping[str, Any] | None = None
-    ) -> tuple[Any, PyTree]:
+        self, function: Callable[..., Any], *args: Any, options: Mapping[str, Any] | None = None
+    ) -> tuple[Compiled, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
         # full precision of products: otherwise some processors multiply with fewer digits (TF32)
@@ -402,7 +421,7 @@ class Executable:
         return out
 
 
-def _form(a: Any) -> Any:
+def _form(a: Array) -> jax.ShapeDtypeStruct:
     """Shape and type of an array: all that compiling asks for, so that an executable keeps no state alive."""
     return jax.ShapeDtypeStruct(a.shape, a.dtype)
 
@@ -410,7 +429,9 @@ def _form(a: Any) -> Any:
 def _alone(one: Any) -> Any:
     """The function of one trial as that of a batch of one: it has the bits of a single run."""
 
-    def single(values: PyTree, constants: PyTree, state: PyTree, keys: PyTree) -> Any:
+    def single(
+        values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
+    ) -> Any:
         out = one(values, constants, *jax.tree.map(lambda a: a[0], (state, keys)))
         return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
 
@@ -474,7 +495,7 @@ class _Request:
     doc: Document = dc.field(compare=False)
     precision: str = dc.field(compare=False)
     batch: Batch = dc.field(compare=False)
-    device: Any = dc.field(compare=False)
+    device: Device | None = dc.field(compare=False)
     exact: bool = dc.field(compare=False)
     body: Body | None = dc.field(compare=False)
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from deodar.compiler.arguments import EitherArray, ProgramValues
 from deodar.compiler.plan import Leaf, Plan, RowGroup
 from deodar.compiler.program import array_key
 from deodar.errors import ParameterError
 from deodar.leaves import leaves
 from deodar.model.document import Document
 from deodar.numerics.exact import LOW, split
-from deodar.numerics.pytree import PyTree
 
 
 class LeafLayout:
@@ -43,12 +43,14 @@ class LeafLayout:
         group = self._group(leaf[0])
         return leaf[1] in group.offset or leaf[1] in group.arrays
 
-    def values(self, doc: Document, points: int = 1, swept: Sequence[Any] | None = None) -> PyTree:
+    def values(
+        self, doc: Document, points: int = 1, swept: Sequence[np.ndarray] | None = None
+    ) -> ProgramValues:
         """The parameters of a document of this structure, on the host; `swept`: the values of each entry of
         the sweep at its points.
         """
         vector = np.zeros(self.plan.size, self.dtype)
-        arrays: dict[str, np.ndarray] = {}
+        arrays: dict[str, EitherArray] = {}
         by = doc.by_id()
         for g, group in enumerate(self.plan.groups):
             columns = [

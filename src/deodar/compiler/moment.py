@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from deodar.compiler.arguments import EitherArray, ProgramClock
 from deodar.numerics.exact import Exact, split
 
 if TYPE_CHECKING:
@@ -26,8 +27,10 @@ def packed(now: Mapping[str, Any], dtype: DTypeLike) -> tuple[np.ndarray, np.nda
     return whole, np.stack(split([now.get(name, 0.0) for name in REAL], dtype))
 
 
-def unpacked(whole: Any, real: Any) -> dict[str, Any]:
+def unpacked(whole: EitherArray, real: EitherArray) -> ProgramClock:
     """Return the packed numbers by name."""
-    return {name: whole[k] for k, name in enumerate(WHOLE)} | {
+    named = {name: whole[k] for k, name in enumerate(WHOLE)} | {
         name: Exact(real[0, k], real[1, k]) for k, name in enumerate(REAL)
     }
+    return cast("ProgramClock", named)
+    return cast("ProgramClock", named)

@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, cast
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
+from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.body import Body
-from deodar.compiler.functions import StepArguments
+from deodar.compiler.functions import Constants, StepArguments
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.element import Arrays, Setting, Time
@@ -26,7 +27,6 @@ from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.noise import element_keys, normal, pair
-from deodar.numerics.pytree import PyTree
 
 Buffers = dict[tuple[int, str, int], Array]
 
@@ -56,7 +56,7 @@ class _NotHere:
         return "a live parameter (prepare may use only what rebuilds)"
 
 
-def precision_context(precision: str) -> contextlib.AbstractContextManager[Any]:
+def precision_context(precision: str) -> contextlib.AbstractContextManager[None]:
     """JAX's 64-bit mode for this thread and this block only; no global flag is touched."""
     return jax.enable_x64(True) if precision == "float64" else contextlib.nullcontext()
 
@@ -75,11 +75,11 @@ class Chunk(NamedTuple):
         still: outputs that stay the same.
     """
 
-    values: PyTree
-    constants: PyTree
-    keys: PyTree
-    sensed: PyTree
-    clock: PyTree
+    values: ProgramValues
+    constants: list[Constants]
+    keys: NoiseKeys
+    sensed: Mapping[str, EitherArray]
+    clock: ProgramClock
     still: Buffers
 
 
@@ -98,7 +98,7 @@ class Program:
         self.plan = plan
         self.body = body
         self.precision = precision
-        self.dtype: Any = np.dtype(precision)
+        self.dtype: np.dtype[np.floating] = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
         self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
         self.paired = [
@@ -117,19 +117,21 @@ class Program:
 
     # --------------------------------------------------------------------------------------- prepare and init
 
-    def prepare(self, values: PyTree) -> list[Any]:
+    def prepare(self, values: ProgramValues) -> list[Constants]:
         """Constants of every group; with a sweep axis where a swept parameter rebuilds them."""
-        out: list[Any] = []
+        out: list[Constants] = []
         for g in range(len(self.plan.groups)):
             if self.rebuilt[g]:
                 out.append(
-                    jax.vmap(lambda swept, g=g: self._prepared(g, values | {"swept": swept}))(values["swept"])
+                    jax.vmap(lambda swept, g=g: self._prepared(g, {**values, "swept": swept}))(
+                        values["swept"]
+                    )
                 )
             else:
-                out.append(self._prepared(g, values | {"swept": ()}))
+                out.append(self._prepared(g, {**values, "swept": ()}))
         return out
 
-    def init(self, values: PyTree, seed: Array, trial: Array) -> tuple[PyTree, PyTree]:
+    def init(self, values: ProgramValues, seed: Array, trial: Array) -> tuple[ProgramState, NoiseKeys]:
         """Return the state at the start, and the noise keys of a trial."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
         keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
@@ -137,21 +139,23 @@ class Program:
 
     # -------------------------------------------------------------------------------------------------- steps
 
-    def hoist(self, values: PyTree, constants: PyTree) -> list[Any]:
+    def hoist(self, values: ProgramValues, constants: list[Constants]) -> list[Constants]:
         """Return the values that groups compute from constants and live parameters once per chunk."""
         return [
             self._each(g, self.functions[g].hoist, values, constants[g]) for g in range(len(self.plan.groups))
         ]
 
-    def steady(self, values: PyTree, constants: PyTree, sensed: PyTree) -> Buffers:
+    def steady(
+        self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
+    ) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
         buffers: Buffers = {}
-        chunk = Chunk(values, constants, {}, sensed, {}, {})
+        chunk = Chunk(values, constants, {}, sensed, cast("ProgramClock", {}), {})
         for call in self.still:
             self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
 
-    def draw(self, keys: PyTree, tick: Array) -> tuple[PyTree, PyTree]:
+    def draw(self, keys: NoiseKeys, tick: Array) -> tuple[Arrays, Arrays]:
         """Noise of the fast groups for the two ticks of the block that `tick` lies in."""
         out: list[tuple[Array, Array]] = []
         for g in self.paired:
@@ -161,7 +165,7 @@ class Program:
             str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
         }
 
-    def step(self, chunk: Chunk, state: PyTree, drawn: PyTree, tick: Array) -> PyTree:
+    def step(self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array) -> ProgramState:
         """The state at tick + 1: every output at t is read, then all new states are committed together.
 
         `drawn`: noise of the fast groups.
@@ -179,7 +183,7 @@ class Program:
                 for port in group.like.element.reads_own_output:
                     inputs[port] = buffers[call.group, port, 0]
 
-                def run(g: int = call.group, inputs: Arrays = inputs, time: Time = time) -> Any:
+                def run(g: int = call.group, inputs: Arrays = inputs, time: Time = time) -> Arrays:
                     noise = drawn[str(g)] if str(g) in drawn else self._noise(g, chunk.keys, tick)
                     read = StepArguments(old[g], inputs, chunk.constants[g], noise)
                     return self._advance(g, chunk.values, read, time)
@@ -190,17 +194,21 @@ class Program:
         told = {
             ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]
         }
+        assert "world" in chunk.values and "world" in chunk.keys and "world" in state
         world = self.body.step(
             chunk.values["world"], chunk.keys["world"], state["world"], told, tick, chunk.clock["period"]
         )
         return {"groups": new, "held": held, "world": world}
 
-    def _seeing(self, chunk: Chunk, state: PyTree) -> Chunk:
+    def _seeing(self, chunk: Chunk, state: ProgramState) -> Chunk:
         if self.body is None:
             return chunk
+        assert "world" in state
         return chunk._replace(sensed={**chunk.sensed, **self.body.sensed(state["world"])})
 
-    def observe(self, ports: Sequence[Port], chunk: Chunk, state: PyTree, tick: Array) -> tuple[Array, ...]:
+    def observe(
+        self, ports: Sequence[Port], chunk: Chunk, state: ProgramState, tick: Array
+    ) -> tuple[Array, ...]:
         """Ports at the state's own time; connections that read `current` see that same state."""
         chunk = self._seeing(chunk, state)
         buffers = dict(chunk.still)
@@ -209,7 +217,7 @@ class Program:
                 self._output(call, buffers, chunk, state["groups"][call.group], tick, now=True)
         return tuple(self._port(p, buffers) for p in ports)
 
-    def finite(self, state: PyTree) -> tuple[Array, list[Array]]:
+    def finite(self, state: ProgramState) -> tuple[Array, list[Array]]:
         """Return whether all numbers are finite, and for each group in which rows."""
         out: list[Array] = []
         for g, group in enumerate(self.plan.groups):
@@ -221,7 +229,7 @@ class Program:
 
     # ---------------------------------------------------------------------------------------------- one group
 
-    def _prepared(self, g: int, values: PyTree) -> Any:
+    def _prepared(self, g: int, values: ProgramValues) -> Constants:
         return self._each(g, self.functions[g].prepare, values, only="rebuild")
 
     def _output(
@@ -245,13 +253,13 @@ class Program:
                 jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes))
             )
 
-    def _advance(self, g: int, values: PyTree, read: StepArguments, time: Time) -> Any:
+    def _advance(self, g: int, values: ProgramValues, read: StepArguments, time: Time) -> Arrays:
         new = self._each(g, lambda e, at, read: self.functions[g].advance(e, at, read, time), values, read)
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read.state)
 
     def _gated(
-        self, g: int, run: Callable[[], Any], old: Sequence[Any], held: dict[str, Any], tick: Array
-    ) -> Any:
+        self, g: int, run: Callable[[], Arrays], old: Sequence[Arrays], held: dict[str, Arrays], tick: Array
+    ) -> Arrays:
         """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks
         later.
         """
@@ -263,7 +271,7 @@ class Program:
         due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
-    def _noise(self, g: int, keys: PyTree, tick: Array) -> Array | None:
+    def _noise(self, g: int, keys: NoiseKeys, tick: Array) -> Array | None:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
@@ -271,7 +279,7 @@ class Program:
         own = tick // jnp.uint32(group.like.every)
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
-    def _time(self, clock: PyTree, tick: Array, group: RowGroup) -> Time:
+    def _time(self, clock: ProgramClock, tick: Array, group: RowGroup) -> Time:
         if not clock:
             return Time.at(0.0, 0.0, self.dtype)
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
@@ -296,13 +304,13 @@ class Program:
         rows = buffers[p.group, p.name, 0] if shown else self._sum(p.group, p.name, buffers, now=True)
         return rows if p.row is None else rows[p.row]
 
-    def _each(self, g: int, fn: Callable[..., Any], values: PyTree, *args: Any, only: str = "") -> Any:
+    def _each(self, g: int, fn: Callable[..., Any], values: ProgramValues, *args: Any, only: str = "") -> Any:
         """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""
         group, at = self.plan.groups[g], self.settings[g]
         own = self._leaves(g, values)
 
-        def one(own: dict[str, Any], *args: Any) -> Any:
-            def value(path: str) -> Any:
+        def one(own: Arrays, *args: Any) -> Any:
+            def value(path: str) -> Array | Exact | _NotHere | None:
                 if only and path in group.cost and group.cost[path] != only:
                     return _NotHere()
                 found = own.get(path)
@@ -315,18 +323,19 @@ class Program:
             return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
         return jax.vmap(one, axis_size=group.rows)(own, *args)
 
-    def _leaves(self, g: int, values: PyTree) -> Arrays:
+    def _leaves(self, g: int, values: ProgramValues) -> Arrays:
         group = self.plan.groups[g]
-        out: dict[str, Any] = {}
+        out: Arrays = {}
+        vector, arrays = cast("Array", values["vector"]), cast("Arrays", values["arrays"])
         for path, offset in group.offset.items():
-            leaf = values["vector"][offset : offset + group.rows]
+            leaf = vector[offset : offset + group.rows]
             for places, value in zip(self.sweep, values["swept"], strict=False):
                 for place in places:
                     if offset <= place < offset + group.rows:
                         leaf = leaf.at[place - offset].set(value)
             out[path] = leaf
         for path in group.arrays:
-            out[path] = values["arrays"][array_key(g, path)]
+            out[path] = arrays[array_key(g, path)]
         return out
 
     def _swept_constants(self, group: RowGroup) -> bool:
@@ -356,7 +365,7 @@ def gather(x: Array, read: Read) -> Array:
     for rows, blocks in read.more:
         blocks = jnp.asarray(blocks)
 
-        def add(n: Any, part: Any, blocks: Any = blocks) -> Any:
+        def add(n: int, part: Array, blocks: Any = blocks) -> Any:
             for column in range(blocks.shape[1]):
                 part = part + x[blocks[n, column]]
             return part

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from deodar.compiler.functions import Functions, StepArguments, run_advance, run_output
 from deodar.compiler.ways import EXACT, Strategy, acted_axes, role
@@ -19,6 +19,9 @@ from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
 from deodar.model.resolve import Node, Slot
 from deodar.numerics import interaction
+
+if TYPE_CHECKING:
+    from jax import Array
 
 WAVES = "~"
 """Suffix of a port with the spectral modes of the port without the suffix; for an input, only the part that
@@ -142,7 +145,7 @@ class SharingSource(_Sharing):
     def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         given, calls = read.inputs, list[Any]()
 
-        def convolve(y: Any) -> Any:
+        def convolve(y: Array) -> Array:
             calls.append(y)
             own, arriving = given["output" + WAVES], given["input" + WAVES]
             return interaction.apply(

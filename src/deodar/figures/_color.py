@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -38,7 +38,11 @@ def scale(arrays: Iterable[Any], threshold: float | None) -> ScalarMappable:
 
 
 def bar(
-    place: FigureBase, colors: ScalarMappable, axes: Any, label: str, threshold: float | None = None
+    place: FigureBase,
+    colors: ScalarMappable,
+    axes: Axes | Sequence[Axes],
+    label: str,
+    threshold: float | None = None,
 ) -> None:
     """Draw the colour bar beside axes, with a line at the threshold."""
     made = place.colorbar(colors, ax=axes, label=label, pad=0.02, aspect=18 if isinstance(axes, Axes) else 22)

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 import xarray
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
@@ -142,7 +143,7 @@ def overview(results: Sequence[DrawnScenes], columns: int = 4) -> Figure:
     return out
 
 
-def _label(axes: Any, text: str, hue: float | None) -> None:
+def _label(axes: Axes, text: str, hue: float | None) -> None:
     axes.set_ylabel(text, labelpad=16)
     if hue is not None:
         colour = colorsys.hsv_to_rgb(hue / 360, 0.9, 0.85)
@@ -151,7 +152,7 @@ def _label(axes: Any, text: str, hue: float | None) -> None:
         )
 
 
-def _photograph(axes: Any, result: DrawnScenes, outcome: DrawnOutcome | None) -> None:
+def _photograph(axes: Axes, result: DrawnScenes, outcome: DrawnOutcome | None) -> None:
     axes.imshow(result.scene.picture.pixels, origin="upper", interpolation="antialiased")
     axes.set_anchor("N")
     axes.set_xticks([])
@@ -179,7 +180,7 @@ def _photograph(axes: Any, result: DrawnScenes, outcome: DrawnOutcome | None) ->
         )
 
 
-def _colour_space(axes: Any, result: DrawnResult, k: int, at: int, hue: float | None = None) -> Any:
+def _colour_space(axes: Axes, result: DrawnResult, k: int, at: int, hue: float | None = None) -> Any:
     seen = result.record["seen.output"].isel({"cue.center": k, "time": at}).values
     x, hues = result.record["x"].values, result.record["hue"].values
     step = hues[1] - hues[0]
@@ -207,7 +208,7 @@ def _scale() -> dict[str, Any]:
     return {"cmap": colors.cmap, "norm": colors.norm}
 
 
-def _spatial(axes: Any, result: DrawnResult, k: int, at: int) -> None:
+def _spatial(axes: Axes, result: DrawnResult, k: int, at: int) -> None:
     u = result.record["spatial.activation"].isel({"cue.center": k, "time": at}).values
     width, height = result.scene.picture.size
     axes.imshow(
@@ -225,7 +226,7 @@ def _spatial(axes: Any, result: DrawnResult, k: int, at: int) -> None:
     axes.set_xlabel("columns and rows of the picture" if at == -1 and k == len(result.outcomes) - 1 else "")
 
 
-def _motor(axes: Any, result: DrawnResult, k: int, outcome: DrawnOutcome, last: bool) -> None:
+def _motor(axes: Axes, result: DrawnResult, k: int, outcome: DrawnOutcome, last: bool) -> None:
     time = result.record["time"].values / 1000
     for name, words, color, place in (("pan", "x", COLORS[0], 0), ("tilt", "y", COLORS[1], 1)):
         values = result.record[f"{name}.output"].isel({"cue.center": k}).values

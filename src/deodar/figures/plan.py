@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 import xarray
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from deodar.architectures.spa import DIRECTIONS
@@ -82,14 +83,15 @@ def plan_figure(result: DrawnRun) -> Figure:
     return out
 
 
-def _path(axes: Any, r: DrawnRun) -> None:
+def _path(axes: Axes, r: DrawnRun) -> None:
     maze.walls(axes, r.arena, (t for t in r.arena.layout.things))
     for thing in r.arena.furniture.things:
         if r.obstacle_at is not None and thing is not None and thing.name == "obstacle":
             look = {"facecolor": COLOR.obstacle, "edgecolor": COLOR.obstacle_edge, "linewidth": 0.6}
             place = maze.box(r.arena, thing, **look)
             axes.add_patch(place)
-            axes.text(*place.get_center(), f"from\n{r.obstacle_at}", ha="center", va="center", fontsize=SMALL)
+            x, y = place.get_center()
+            axes.text(x, y, f"from\n{r.obstacle_at}", ha="center", va="center", fontsize=SMALL)
     axes.plot(*r.path[:, :2].T, color=COLORS[0])
     axes.plot(*r.path[:: 100 // r.every, :2].T, ".", color=COLORS[0], markersize=4)
     for number, site in enumerate(r.sites, 1):
@@ -108,7 +110,7 @@ def _path(axes: Any, r: DrawnRun) -> None:
     maze.labels(axes, r.arena)
 
 
-def _motivation(axes: Any, r: DrawnRun, name: str, step: int | None) -> None:
+def _motivation(axes: Axes, r: DrawnRun, name: str, step: int | None) -> None:
     axes.axis("off")
     if step is None:
         return

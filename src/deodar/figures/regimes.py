@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from deodar.figures import _style
@@ -40,7 +41,7 @@ def phase_figure(shown: Phase, time_unit: str = "ms") -> Figure:
 # ----------------------------------------------------------------------------------------------------- panels
 
 
-def _hysteresis(axes: Any, found: Regimes) -> None:
+def _hysteresis(axes: Axes, found: Regimes) -> None:
     swept, threshold = found.ramp, found.isolated.threshold
     axes.axhline(threshold, **_style.THRESHOLD_LINE)
     for branch, color, label, style in (
@@ -85,7 +86,7 @@ def _hysteresis(axes: Any, found: Regimes) -> None:
     axes.legend(loc="lower right")
 
 
-def _profiles(axes: Any, found: Regimes) -> None:
+def _profiles(axes: Axes, found: Regimes) -> None:
     isolated = found.isolated
     axis = isolated.axes[0]
     axes.axhline(isolated.threshold, **_style.THRESHOLD_LINE)
@@ -107,13 +108,13 @@ def _profiles(axes: Any, found: Regimes) -> None:
     axes.legend(loc="upper right")
 
 
-def _profile(axes: Any, found: Regimes, pattern: np.ndarray, color: str, style: str, label: str) -> None:
+def _profile(axes: Axes, found: Regimes, pattern: np.ndarray, color: str, style: str, label: str) -> None:
     """Draw the pattern along the first axis, through the centre of the input on the others."""
     cut = pattern[(slice(None), *(a.samples // 2 for a in found.isolated.axes[1:]))]
     axes.plot(found.isolated.axes[0].points, cut, style, color=color, label=label)
 
 
-def _phases(axes: Any, found: Regimes) -> None:
+def _phases(axes: Axes, found: Regimes) -> None:
     # start-up time: it brings the engine, other figures do not need it
     from deodar.analysis.phase import phase
 
@@ -134,7 +135,7 @@ def _phases(axes: Any, found: Regimes) -> None:
     axes.set_title("b", loc="left", fontweight="bold")
 
 
-def _phase_axes(axes: Any, plots: list[tuple[Phase, str, str]], time_unit: str) -> None:
+def _phase_axes(axes: Axes, plots: list[tuple[Phase, str, str]], time_unit: str) -> None:
     axes.axhline(0.0, color=COLOR.moment, linewidth=0.6)
     for shown, color, label in plots:
         axes.plot(shown.u, shown.rate, color=color, label=label)

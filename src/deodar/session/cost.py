@@ -9,18 +9,20 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
+from jax import Array, lax
 
+from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramState, ProgramValues
 from deodar.compiler.executable import Executable
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Plan
 from deodar.compiler.program import Chunk, Port, Program, array_key
+from deodar.element import Arrays
 from deodar.errors import TimeError
 from deodar.model.document import Document
 from deodar.numerics.pytree import PyTree
@@ -120,25 +122,25 @@ class StepInputs:
 
     program: Executable
     document: Document
-    values: PyTree
+    values: ProgramValues
     constants: PyTree
-    state: PyTree
-    keys: PyTree
-    sensed: PyTree
+    state: ProgramState
+    keys: NoiseKeys
+    sensed: Mapping[str, EitherArray]
     clock: PyTree
 
 
 class _GroupArguments(NamedTuple):
     """The arguments of the step of one group; a JAX PyTree."""
 
-    values: PyTree
-    arrays: PyTree
+    values: ProgramValues
+    arrays: dict[str, EitherArray]
     constants: PyTree
-    state: PyTree
-    keys: PyTree
+    state: ProgramState
+    keys: NoiseKeys
     inputs: PyTree
     shown: PyTree
-    sensed: PyTree
+    sensed: Mapping[str, EitherArray]
     clock: PyTree
 
 
@@ -204,7 +206,7 @@ def _read_ports(at: StepInputs) -> list[list[Port]]:
     ]
 
 
-def _buffers(at: StepInputs, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Any]:
+def _buffers(at: StepInputs, used: Sequence[Sequence[Port]]) -> dict[tuple[int, str], Array]:
     """Return the values of those ports at this moment."""
     ports = [p for some in used for p in some]
     if not ports:
@@ -234,7 +236,7 @@ def _together(at: StepInputs) -> Callable[[int], object]:
 
 
 def _alone(
-    at: StepInputs, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Any]
+    at: StepInputs, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Array]
 ) -> Callable[[int], object]:
     """Return a function that takes `n` steps of one group, with constant inputs and an advancing state."""
     plan, precision = at.program.plan, at.program.precision
@@ -249,11 +251,11 @@ def _alone(
     def only(one: Any) -> list[Any]:
         return [one if k == g else None for k in range(count)]
 
-    def run(given: _GroupArguments, n: Any) -> Any:
+    def run(given: _GroupArguments, n: Array) -> Any:
         values, clock, keys = given.values, given.clock, given.keys
-        settled = only(alone.hoist(values | {"arrays": given.arrays}, [given.constants])[0])
+        settled = only(alone.hoist({**values, "arrays": given.arrays}, [given.constants])[0])
 
-        def step(tick: Any, state: PyTree, drawn: PyTree) -> tuple[PyTree, Any]:
+        def step(tick: Array, state: ProgramState, drawn: Arrays) -> tuple[PyTree, Any]:
             # without the barrier XLA would compute all that depends on the inputs alone once, before the loop
             now, tick = lax.optimization_barrier((given.inputs, tick))
             buffers = {
@@ -265,7 +267,7 @@ def _alone(
             shown = program.observe(ports, chunk, state, tick)
             return program.step(chunk, state, drawn, tick), shown
 
-        def body(_: Any, carry: Any) -> Any:
+        def body(_: Array, carry: Any) -> Any:
             tick, state, shown = carry
             for drawn in program.draw(keys, tick) if pairs else ({},):
                 state, shown = step(tick, state, drawn)
@@ -274,7 +276,7 @@ def _alone(
 
         return lax.fori_loop(0, n // 2 if pairs else n, body, (clock["tick"], given.state, given.shown))
 
-    state = {
+    state: ProgramState = {
         "groups": only(at.state["groups"][g]),
         "held": {k: v for k, v in at.state["held"].items() if k == str(g)},
     }

@@ -10,11 +10,14 @@ from typing import Any
 
 import jax
 import numpy as np
+from jax.stages import Compiled
 
+from deodar.compiler.arguments import ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
 from deodar.compiler.executable import Executable
 from deodar.compiler.moment import packed
 from deodar.compiler.program import Port
+from deodar.element import Arrays
 from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
 from deodar.model.limits import too_long
@@ -47,7 +50,7 @@ class Run:
         seed: int,
         trials: Sequence[int],
         world: World | None,
-        swept: Sequence[Any] | None = None,
+        swept: Sequence[np.ndarray] | None = None,
     ) -> None:
         self.seed = seed
         self.trials = tuple(trials)
@@ -83,8 +86,9 @@ class Run:
         self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
         self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
-        self.shared: PyTree = None
+        self.shared: Arrays | None = None
         if self.exchange.inside:
+            assert self.exchange.world is not None
             self.shared, self.state, self.keys = self.program.embodied(
                 self.exchange.world, self.state, self.keys
             )
@@ -152,10 +156,16 @@ class Run:
                 progress(done)
         self._steps(chunk, steps - done, 1, progress, done)
         if self.exchange.inside:
+            assert "world" in self.state
             self.exchange.put_now(unbatched(self.state["world"]["now"], self.program.batch.shape))
 
     def _steps(
-        self, chunk: Any, steps: int, records: int, progress: Callable[[int], None] | None, before: int = 0
+        self,
+        chunk: Compiled,
+        steps: int,
+        records: int,
+        progress: Callable[[int], None] | None,
+        before: int = 0,
     ) -> None:
         done = 0
         while done < steps:
@@ -165,7 +175,7 @@ class Run:
             if progress is not None:
                 progress(before + done)
 
-    def _chunk(self, chunk: Any, counts: dict[str, int], used: int) -> tuple[Any, ...]:
+    def _chunk(self, chunk: Compiled, counts: dict[str, int], used: int) -> tuple[Any, ...]:
         self.sense()
         if used:
             self.exchange.tell(self.clock.tick, self._period(), self._commands)
@@ -190,7 +200,7 @@ class Run:
             )
         return seen
 
-    def _call(self, chunk: Any, state: PyTree, counts: dict[str, int]) -> Any:
+    def _call(self, chunk: Compiled, state: ProgramState, counts: dict[str, int]) -> Any:
         return self.program.call(
             chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts)
         )
@@ -204,7 +214,7 @@ class Run:
         )
         return [np.asarray(a) for a in seen]
 
-    def look(self, reader: Any) -> Sequence[Any]:
+    def look(self, reader: Compiled) -> Sequence[np.ndarray]:
         """Return the values of a compiled reader in the present state."""
         self.sense()
         return self.program.call(
@@ -215,7 +225,7 @@ class Run:
         """Return the state of one element of a single run."""
         return {name: np.asarray(values[row]) for name, values in self.state["groups"][group].items()}
 
-    def put_row(self, group: int, row: int, state: Mapping[str, Any]) -> None:
+    def put_row(self, group: int, row: int, state: Mapping[str, np.ndarray]) -> None:
         """Replace the state of one element of a single run."""
         new = host(self.state)
         for name, values in state.items():
@@ -235,7 +245,7 @@ class Run:
             about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype
         )
 
-    def _values(self) -> PyTree:
+    def _values(self) -> ProgramValues:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
 
     def _chunk_steps(self) -> int:
@@ -289,20 +299,20 @@ class Run:
         if len(self.lost) > self.tolerated:
             raise next(iter(self.lost.values()))
 
-    def _report(self, before: PyTree, used: int) -> None:
+    def _report(self, before: ProgramState, used: int) -> None:
         """Find the first step at which a value was not finite, and raise."""
         step, names = self._search(before, used, [...])[...]
         self._go(before, step - 1)
         raise not_finite(self._without_state(...) or names, self.clock.after(1), self.doc.time_unit)
 
-    def _go(self, before: PyTree, steps: int) -> None:
+    def _go(self, before: ProgramState, steps: int) -> None:
         """Set the state and the clock to a step within a chunk, from the state at its start."""
         chunk, _ = self.program.chunk(())
         self.state, _, _ = self._call(chunk, before, {"head": steps, "every": 0, "records": 0})
         self.clock = self.clock.after(steps)
 
     def _diverged(
-        self, before: PyTree, used: int, copies: Sequence[tuple[int, ...]]
+        self, before: ProgramState, used: int, copies: Sequence[tuple[int, ...]]
     ) -> dict[tuple[int, ...], NotFinite]:
         """Return for each of these copies an error with the first step at which a value was not finite."""
         found = self._search(before, used, copies)
@@ -318,7 +328,9 @@ class Run:
             self.state, self.clock = state, clock
         return {copy: out[copy] for copy in copies}
 
-    def _search(self, before: PyTree, used: int, copies: Sequence[Any]) -> dict[Any, tuple[int, list[str]]]:
+    def _search(
+        self, before: ProgramState, used: int, copies: Sequence[Any]
+    ) -> dict[Any, tuple[int, list[str]]]:
         """Return for each copy the first step after which a value was not finite, and the elements.
 
         Steps are counted from the start of a chunk. The copy `...` means all copies together.
@@ -394,13 +406,15 @@ class Run:
                     raise error(np.asarray(spoilt.reshape(-1, values.shape[lead]).any(0)))
                 self._lose({copy: error(spoilt[copy]) for copy in self._new(np.asarray(spoilt.any(-1)), end)})
 
-    def _require_finite_world(self, before: PyTree, state: PyTree, used: int) -> None:
+    def _require_finite_world(self, before: ProgramState, state: ProgramState, used: int) -> None:
         """Raise NotFinite if a world inside the step has sensor values that are not finite.
 
         Without this check the error would appear later, in an element of the model.
         """
-        if not self.exchange.inside or all(
-            np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"])
+        if (
+            not self.exchange.inside
+            or "world" not in state
+            or all(np.isfinite(a).all() for a in jax.tree.leaves(state["world"]["now"]))
         ):
             return
         chunk, _ = self.program.chunk(())

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar import renamed
+from deodar.compiler.arguments import ProgramValues
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.layout import require_range
 from deodar.compiler.plan import ways_of
@@ -463,14 +464,15 @@ class Session:
     def _change(self, doc: Document, changed: Sequence[LeafChange]) -> str:
         """Write new values of leaves to the program's vector and arrays, and rebuild constants if needed."""
         run = self._run
-        vector, arrays = run.values["vector"].copy(), dict(run.values["arrays"])
+        vector = np.array(run.values["vector"])
+        arrays = {name: np.asarray(a) for name, a in run.values["arrays"].items()}
         for leaf, value, _, _ in changed:
             if isinstance(value, np.ndarray):
                 run.program.layout.put_array(arrays, leaf, value)
             else:
                 require_range(run.doc, leaf, value, self._precision)
                 run.program.layout.put(vector, leaf, value)
-        values = run.values | {"vector": vector, "arrays": arrays}
+        values: ProgramValues = {**run.values, "vector": vector, "arrays": {**arrays}}
         costs = {cost for _, _, cost, _ in changed}
         if "rebuild" in costs:
             run.constants = run.program.prepare(values)

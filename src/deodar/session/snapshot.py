@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from deodar.compiler.arguments import ProgramState
 from deodar.compiler.executable import Executable
 from deodar.model.document import Document
 from deodar.numerics.pytree import PyTree
@@ -40,7 +41,7 @@ class SessionSnapshot:
     world: WorldState | None = None
 
 
-def rows(program: Executable, state: PyTree) -> dict[str, tuple[StateRow, StateRow]]:
+def rows(program: Executable, state: ProgramState) -> dict[str, tuple[StateRow, StateRow]]:
     """Return the state of every element by id: the visible one, and the one that is held until it is due.
 
     Both are the same for elements that run at every tick.

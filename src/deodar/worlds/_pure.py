@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax.typing import DTypeLike
 
+from deodar.element import Arrays
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.noise import element_keys
@@ -50,15 +51,15 @@ class PureWorld(World):
         """Return the arrays of each copy, copies first; `trials` has the trial number of each copy."""
         return {}
 
-    def start(self, shared: PyTree, own: PyTree) -> PyTree:
+    def start(self, shared: Arrays, own: PyTree) -> PyTree:
         """Return the initial state."""
         raise NotImplementedError
 
-    def read(self, shared: PyTree, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Any:
+    def read(self, shared: Arrays, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Any:
         """Return the reading of a sensor, sampled over `axes`."""
         raise NotImplementedError
 
-    def advance(self, shared: PyTree, own: PyTree, state: PyTree, motors: Mapping[str, Any]) -> PyTree:
+    def advance(self, shared: Arrays, own: PyTree, state: PyTree, motors: Arrays) -> PyTree:
         """Return the state one period later; `motors` has the value of every motor."""
         raise NotImplementedError
 
@@ -66,7 +67,7 @@ class PureWorld(World):
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         self._trials = tuple(trials)
-        self._dtype: Any = np.dtype(precision)
+        self._dtype: np.dtype[np.floating] = np.dtype(precision)
         numbers = np.asarray([number(name) for name in self.noises], np.uint32)
         words = self.call("keys", _keys, np.uint32(seed), np.asarray(trials, np.uint32), numbers)
         self._keys = {name: np.asarray(words)[:, k] for k, name in enumerate(self.noises)}
@@ -79,7 +80,7 @@ class PureWorld(World):
         shared, own, state = *self._values(), self._now()
 
         def reading(world: PureWorld) -> Callable[..., Any]:
-            def read(shared: PyTree, own: PyTree, state: PyTree) -> Any:
+            def read(shared: Arrays, own: PyTree, state: PyTree) -> Any:
                 return jnp.broadcast_to(world.read(shared, own, state, sensor, axes), shape(axes))
 
             return jax.vmap(read, in_axes=(None, 0, 0))
@@ -134,7 +135,7 @@ class PureWorld(World):
         array = np.asarray(values)
         return array.astype(self._dtype) if array.dtype.kind == "f" else array
 
-    def call(self, name: Hashable, make: Callable[[Any], Callable[..., Any]], *args: Any) -> Any:
+    def call(self, name: Hashable, make: Callable[[PureWorld], Callable[..., Any]], *args: Any) -> Any:
         """Compile and run a function of this world, in the precision of the model.
 
         Worlds of one structure share the compiled function.
@@ -159,7 +160,7 @@ class _Program:
     name: Hashable
     dtype: DTypeLike
     world: PureWorld = field(compare=False)
-    make: Callable[[Any], Callable[..., Any]] = field(compare=False)
+    make: Callable[[PureWorld], Callable[..., Any]] = field(compare=False)
 
 
 @functools.lru_cache(maxsize=64)
@@ -168,7 +169,7 @@ def _compiled(program: _Program) -> Callable[..., Any]:
     return jax.jit(program.make(copy.copy(program.world)))
 
 
-def _keys(_: Any) -> Callable[..., Any]:
+def _keys(_: PureWorld) -> Callable[..., Any]:
     return jax.vmap(element_keys, in_axes=(None, 0, None))
 
 

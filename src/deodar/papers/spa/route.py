@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from deodar.analysis.paths import points
@@ -30,7 +28,7 @@ ON_ROBOT: dict[str, tuple[tuple[tuple[float, float], ...], float]] = {
 """
 
 
-def route(path: Any) -> str:
+def route(path: np.ndarray) -> str:
     """`north`, `south`, `switch` (first north, then south), or `none` of them."""
     line = points(path)
     rows = place(0, 0)[1] - line[:, 1]
@@ -40,7 +38,7 @@ def route(path: Any) -> str:
     return SOUTH if len(south) else NONE
 
 
-def covered(path: Any, obstacle: str) -> bool:
+def covered(path: np.ndarray, obstacle: str) -> bool:
     """Whether the robot was where the obstacle stands, on the part of its path that it drove while the
     obstacle was there.
 
@@ -54,7 +52,7 @@ def covered(path: Any, obstacle: str) -> bool:
     return bool((np.linalg.norm(line[:, None, :2] - middles[None], axis=-1) < reach).any())
 
 
-def stillness(path: Any) -> int:
+def stillness(path: np.ndarray) -> int:
     """Return the longest uninterrupted time in which the robot did not move, in steps; 0 for a path that is
     too short.
     """

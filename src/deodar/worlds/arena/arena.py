@@ -12,9 +12,11 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 from jax.typing import DTypeLike
 
 from deodar import codec
+from deodar.element import Arrays
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
@@ -318,7 +320,7 @@ class Arena(PureWorld):
 
     # ----------------------------------------------------------------------------------------------- one copy
 
-    def start(self, shared: PyTree, own: PyTree) -> PyTree:
+    def start(self, shared: Arrays, own: PyTree) -> Arrays:
         zero = jnp.zeros((), shared["boxes"].dtype)
         state = {
             "position": own["start"][:2],
@@ -329,7 +331,7 @@ class Arena(PureWorld):
         tick = jnp.uint32(0)
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
 
-    def advance(self, shared: PyTree, own: PyTree, state: PyTree, motors: Mapping[str, Any]) -> PyTree:
+    def advance(self, shared: Arrays, own: PyTree, state: Arrays, motors: Arrays) -> Arrays:
         boxes, tick = shared["boxes"], state["tick"] + jnp.uint32(1)
         deviates = self._deviates(own, tick, boxes.dtype)
         assert self.period is not None
@@ -353,7 +355,7 @@ class Arena(PureWorld):
         }
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
-    def _deviates(self, own: PyTree, tick: Any, dtype: DTypeLike) -> dict[str, Any]:
+    def _deviates(self, own: PyTree, tick: Array, dtype: DTypeLike) -> Arrays:
         """Draw the standard normal deviates of a period for each noise.
 
         Every noise gets the number that the largest one needs, because one graph for all compiles faster.
@@ -363,8 +365,8 @@ class Arena(PureWorld):
         return dict(zip(self.noises, drawn, strict=True))
 
     def _sensed(
-        self, shared: PyTree, own: PyTree, body: PyTree, tick: Any, deviates: Mapping[str, Any], held: Any
-    ) -> PyTree:
+        self, shared: Arrays, own: PyTree, body: Arrays, tick: Array, deviates: Arrays, held: Array
+    ) -> Arrays:
         """Add the readings of the noisy sensors to the state, so that one period has one reading."""
         boxes = shared["boxes"]
         seen = distances(
@@ -381,7 +383,7 @@ class Arena(PureWorld):
         infrared = readings(self.vehicle.infrared, seen, factor)
         return {**body, "tick": tick, "infrared": infrared, "place": jnp.where(fresh, place, held)}
 
-    def read(self, shared: PyTree, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Any:
+    def read(self, shared: Arrays, own: PyTree, state: Arrays, sensor: str, axes: Axes) -> Array:
         if sensor in ("infrared", "heading", "encoders", "touching"):
             return state[sensor]
         if sensor in ("place", "goal"):
@@ -478,7 +480,7 @@ class Arena(PureWorld):
         return {"obstacles": plane, "above": (*plane, Axis("channel", 0, 2, 3))}.get(sensor, ())
 
 
-def _there(own: PyTree, tick: Any) -> Any:
+def _there(own: PyTree, tick: Array) -> Array:
     now = tick.astype(jnp.int32)
     return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from deodar.worlds.arena.contact import rays
 from deodar.worlds.arena.vehicle import Infrared, ahead
 
 
 def distances(
-    sensors: Infrared, position: Any, heading: Any, boxes: Any, present: Any, reflection: Any
-) -> Any:
+    sensors: Infrared, position: Array, heading: Array, boxes: Array, present: Array, reflection: Array
+) -> Array:
     """Return the distance (sensors,) to the nearest box along one ray, divided by `reflection`, m.
 
     Rays end at ten times the largest distance of the table; readings are constant beyond the table.
@@ -29,7 +28,7 @@ def distances(
     return jnp.minimum(rays(origins, looks, boxes, present, longest), longest) / reflection
 
 
-def readings(sensors: Infrared, distance: Any, deviates: Any) -> Any:
+def readings(sensors: Infrared, distance: Array, deviates: Array) -> Array:
     """Return the reading (sensors,) at distances, with noise from standard normal deviates; at least 0.
 
     Reading and noise are interpolated linearly between the entries of the table.

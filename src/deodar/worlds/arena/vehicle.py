@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import jax.numpy as jnp
+from jax import Array
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Vehicle:
         return 2 * math.pi * self.wheel_radius / self.steps_per_turn
 
 
-def drive(vehicle: Vehicle, heading: Any, steps: Any) -> tuple[Any, Any]:
+def drive(vehicle: Vehicle, heading: Array, steps: Array) -> tuple[Array, Array]:
     """Compute the displacement (2,) of the axle in m and its turn in rad.
 
     The motor steps (left, right) are made at constant speed, so the axle moves on a circle; the displacement
@@ -82,16 +82,16 @@ def drive(vehicle: Vehicle, heading: Any, steps: Any) -> tuple[Any, Any]:
     return chord * ahead(heading + 0.5 * turn), turn
 
 
-def ahead(heading: Any) -> Any:
+def ahead(heading: Array) -> Array:
     """Return the unit vector (2,) of a heading; heading 0 points along x, and it grows counter-clockwise."""
     return jnp.stack([jnp.cos(heading), jnp.sin(heading)])
 
 
-def wrapped(angle: Any) -> Any:
+def wrapped(angle: Array) -> Array:
     """Wrap an angle to [-pi, pi], so that float32 keeps its precision after many turns of the vehicle."""
     return angle - 2 * math.pi * jnp.round(angle / (2 * math.pi))
 
 
-def limited(vehicle: Vehicle, left: Any, right: Any) -> Any:
+def limited(vehicle: Vehicle, left: Array, right: Array) -> Array:
     """Clip the wheel speeds (2,) to the range of the motors."""
     return jnp.clip(jnp.stack([left, right]), -vehicle.fastest, vehicle.fastest)

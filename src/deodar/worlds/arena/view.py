@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
@@ -14,7 +13,7 @@ FLOOR = (0.96, 0.96, 0.94)
 OUTSIDE = (0.25, 0.25, 0.25)
 
 
-def sides(axes: Axes, boxes: Any, scale: float) -> tuple[Any, Any]:
+def sides(axes: Axes, boxes: Array, scale: float) -> tuple[Array, Array]:
     """Return the share (boxes, samples) of each sample's cell that each box covers, for each of two axes.
 
     The share of a cell of the plane that a box covers is the product of both.
@@ -32,14 +31,14 @@ def sides(axes: Axes, boxes: Any, scale: float) -> tuple[Any, Any]:
     return one, other
 
 
-def _along(axis: Axis, lower: Any, upper: Any, scale: float) -> Any:
+def _along(axis: Axis, lower: Array, upper: Array, scale: float) -> Array:
     step = axis.step * scale
     middle = jnp.asarray(axis.points * scale, lower.dtype)
     low, high = jnp.maximum(lower[:, None], middle - step / 2), jnp.minimum(upper[:, None], middle + step / 2)
     return jnp.clip((high - low) / step, 0.0, 1.0)
 
 
-def coloured(cover: Any, colours: Any) -> Any:
+def coloured(cover: Array, colours: Array) -> Array:
     """Return the colour (samples, samples, 3) of things that cover a floor, later ones over earlier ones."""
     free = 1.0 - cover
     above = jnp.cumprod(free[::-1], axis=0)[::-1]  # share that this thing and all later ones leave free
