@@ -119,11 +119,11 @@ def test_a_kind_of_ones_own_without_a_docstring_has_help_too() -> None:
 
 def test_the_docstring_of_the_source_is_kept() -> None:
     assert (
-        "tau: time constant, in the document's time unit; > 0, and no shorter than the step.\n"
+        "tau: time constant, in the document's time unit; > 0, and at least one step.\n"
         in docstring.source(dd.Field)
     )
     assert dd.Field.__doc__ is not None and dd.Field.__doc__.startswith("A dynamic neural field")
-    assert "no shorter than the step. [unit time; at least 1e-06]" in dd.Field.__doc__
+    assert "at least one step. [unit time; at least 1e-06]" in dd.Field.__doc__
 
 
 def test_a_class_is_made_without_its_annotations_being_read() -> None:
