@@ -33,7 +33,7 @@ def test_the_default_of_axes_is_none_at_all_or_a_node(kind: str, name: str) -> N
     )
 
 
-INFERRED = {("Attractor", "axis"), ("PeakPosition", "axis")}
+INFERRED = [("Attractor", "axis"), ("PeakPosition", "axis")]
 """Axes that are taken from the source where they are not stated."""
 
 
