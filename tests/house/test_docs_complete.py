@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 
 import pytest
 
@@ -10,14 +11,13 @@ import deodar
 from deodar import cli, registry
 from tests.house.source import ROOT, SRC
 
+sys.path.insert(0, str(ROOT / "tools"))
+from measure import DEEP
+
 MOST_DEEP = 5
 """Distinct lines of the scripts that make the manual that import from deodar otherwise than by `import deodar
 as dd`.
 """
-
-DEEP = re.compile(
-    r"^\s*(?:>>> |\.\.\. )?((?:from deodar\b[\w.]* import|import deodar\.)[^\n#]*)", re.MULTILINE
-)
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$", re.MULTILINE)
 
 

@@ -2,37 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from graphlib import CycleError, TopologicalSorter
+import sys
 
-from tests.house.source import MODULES, imported, module
+from tests.house.source import ROOT
 
-
-def graph() -> dict[str, set[str]]:
-    """For each module the modules that it imports."""
-    names = {module(path) for path in MODULES}
-    return {module(path): set(_known(imported(path), names)) - {module(path)} for path in MODULES}
-
-
-def _known(found: list[tuple[int, str]], names: set[str]) -> Iterator[str]:
-    for _, name in found:
-        while name and name not in names:  # what is imported from a module is no module
-            name = name.rpartition(".")[0]
-        if name:
-            yield name
-
-
-def cycle(imports: Mapping[str, set[str]]) -> list[str]:
-    """The first cycle, or nothing."""
-    try:
-        TopologicalSorter(imports).prepare()
-    except CycleError as error:
-        return error.args[1]
-    return []
+sys.path.insert(0, str(ROOT / "tools"))
+from measure import SRC, cycle, graph, trees
 
 
 def test_no_module_is_part_of_a_cycle_of_imports() -> None:
-    assert cycle(graph()) == []
+    assert cycle(graph(SRC, trees(SRC))) == []
 
 
 def test_the_rule_sees_a_cycle() -> None:
@@ -40,5 +19,6 @@ def test_the_rule_sees_a_cycle() -> None:
 
 
 def test_the_graph_sees_an_import_inside_a_function_or_for_types() -> None:
-    assert "batch.workers" in graph()["batch.simulate"]
-    assert "recording.record" in graph()["batch.compute"]
+    imports = graph(SRC, trees(SRC))
+    assert "deodar.batch.workers" in imports["deodar.batch.simulate"]
+    assert "deodar.recording.record" in imports["deodar.batch.compute"]

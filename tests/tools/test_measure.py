@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
 from tests.house.source import ROOT
 
-
-@pytest.fixture(scope="module")
-def measure() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("measure", ROOT / "tools" / "measure.py")
-    assert spec is not None and spec.loader is not None
-    module = sys.modules["measure"] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+sys.path.insert(0, str(ROOT / "tools"))
+import measure
 
 
 def package(folder: Path, **files: str) -> Path:
@@ -30,9 +22,7 @@ def package(folder: Path, **files: str) -> Path:
     return root
 
 
-def test_a_name_of_two_classes_or_aliases_is_seen_with_its_places(
-    measure: ModuleType, tmp_path: Path
-) -> None:
+def test_a_name_of_two_classes_or_aliases_is_seen_with_its_places(tmp_path: Path) -> None:
     root = package(
         tmp_path,
         a="class Box: ...\nTree = dict[str, int]\nLIMIT = 3",
@@ -42,7 +32,7 @@ def test_a_name_of_two_classes_or_aliases_is_seen_with_its_places(
     assert measure.doubled(measure.trees(root)) == ["Box: a.py, b.py", "Tree: a.py, b.py"]
 
 
-def test_any_is_counted_through_aliases_and_not_in_metadata(measure: ModuleType, tmp_path: Path) -> None:
+def test_any_is_counted_through_aliases_and_not_in_metadata(tmp_path: Path) -> None:
     root = package(
         tmp_path,
         a="Tree = dict[str, Any]\nForest = list[Tree]",
@@ -52,7 +42,7 @@ def test_any_is_counted_through_aliases_and_not_in_metadata(measure: ModuleType,
     assert (held, total, by["b.py"]) == (3, 6, 3)
 
 
-def test_parameters_of_every_kind_count_and_self_does_not(measure: ModuleType, tmp_path: Path) -> None:
+def test_parameters_of_every_kind_count_and_self_does_not(tmp_path: Path) -> None:
     root = package(
         tmp_path,
         a="class A:\n"
@@ -62,14 +52,14 @@ def test_parameters_of_every_kind_count_and_self_does_not(measure: ModuleType, t
     assert measure.crowded(measure.trees(root)) == ["a.py:3 g (9)"]
 
 
-def test_a_cycle_through_a_function_is_seen(measure: ModuleType, tmp_path: Path) -> None:
+def test_a_cycle_through_a_function_is_seen(tmp_path: Path) -> None:
     root = package(tmp_path, a="def f():\n    from toy import b", b="from toy.c import x", c="import toy.a")
-    assert set(measure.cycle(root, measure.trees(root))) == {"toy.a", "toy.b", "toy.c"}
+    assert set(measure.cycle(measure.graph(root, measure.trees(root)))) == {"toy.a", "toy.b", "toy.c"}
     (root / "c.py").write_text("x = 1")
-    assert measure.cycle(root, measure.trees(root)) == []
+    assert measure.cycle(measure.graph(root, measure.trees(root))) == []
 
 
-def test_an_import_in_a_function_needs_a_reason(measure: ModuleType, tmp_path: Path) -> None:
+def test_an_import_in_a_function_needs_a_reason(tmp_path: Path) -> None:
     root = package(
         tmp_path,
         a="def f():\n    # an extra\n    import cv2\n    import zmq\n"
@@ -79,14 +69,14 @@ def test_an_import_in_a_function_needs_a_reason(measure: ModuleType, tmp_path: P
     assert measure.inner_imports(root, measure.trees(root)) == ["a.py:10"]
 
 
-def test_the_words_of_the_optimiser_are_found_in_physics(measure: ModuleType, tmp_path: Path) -> None:
+def test_the_words_of_the_optimiser_are_found_in_physics(tmp_path: Path) -> None:
     root = package(tmp_path, a="rest = 1\nREST = 2\nx = 'waves'\n# sharing\n")
     assert measure.worded(tmp_path, ["toy"]) == ["toy/a.py:2", "toy/a.py:3", "toy/a.py:4"]
     assert root.is_dir()
 
 
 def test_the_command_prints_every_limit_and_says_which_is_broken(
-    measure: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     figures = [
         measure.Figure("good", 1, 2),
@@ -101,7 +91,7 @@ def test_the_command_prints_every_limit_and_says_which_is_broken(
     assert measure.Figure("even", 2, 2).holds
 
 
-def test_only_public_calls_of_scripts_have_eight_and_more_parameters(measure: ModuleType) -> None:
+def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
     found = {" ".join(line.split()[:2]) for line in measure.crowded(measure.trees(measure.SRC))}
     assert {re.sub(r":\d+", "", place) for place in found} == {
         "batch/simulate.py simulate",
@@ -112,9 +102,9 @@ def test_only_public_calls_of_scripts_have_eight_and_more_parameters(measure: Mo
     }
 
 
-def test_no_class_or_alias_of_the_package_shares_its_name(measure: ModuleType) -> None:
+def test_no_class_or_alias_of_the_package_shares_its_name() -> None:
     assert measure.doubled(measure.trees(measure.SRC)) == []
 
 
-def test_every_import_in_a_function_says_why(measure: ModuleType) -> None:
+def test_every_import_in_a_function_says_why() -> None:
     assert measure.inner_imports(measure.SRC, measure.trees(measure.SRC)) == []

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
 from tests.house.source import ROOT
 
-
-@pytest.fixture(scope="module")
-def mutate() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("mutate", ROOT / "tools" / "mutate.py")
-    assert spec is not None and spec.loader is not None
-    module = sys.modules["mutate"] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+sys.path.insert(0, str(ROOT / "tools"))
+import mutate
 
 
 @pytest.mark.parametrize(
@@ -39,7 +31,7 @@ def mutate() -> ModuleType:
         ("x = f(a, b, c)", "swapped argument", "x = (f(b, a, c))"),
     ],
 )
-def test_a_place_is_changed_and_nothing_else(mutate: ModuleType, text: str, kind: str, changed: str) -> None:
+def test_a_place_is_changed_and_nothing_else(text: str, kind: str, changed: str) -> None:
     found = [m.applied(text) for m in mutate.mutants("a.py", text) if m.kind == kind]
     assert changed in found
 
@@ -55,11 +47,11 @@ def test_a_place_is_changed_and_nothing_else(mutate: ModuleType, text: str, kind
         "def f():\n    return None",
     ],
 )
-def test_what_no_run_reads_is_not_changed(mutate: ModuleType, text: str) -> None:
+def test_what_no_run_reads_is_not_changed(text: str) -> None:
     assert not list(mutate.mutants("a.py", text))
 
 
-def test_the_same_commit_draws_the_same_places(mutate: ModuleType, tmp_path: Path) -> None:
+def test_the_same_commit_draws_the_same_places(tmp_path: Path) -> None:
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / "a.py").write_text("\n".join(f"x{i} = {i}" for i in range(50)))
     drawn = mutate.draw(tmp_path, "abc", 10)
@@ -68,7 +60,7 @@ def test_the_same_commit_draws_the_same_places(mutate: ModuleType, tmp_path: Pat
 
 
 def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
-    mutate: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # the three processes start sooner
     (tmp_path / "src").mkdir()
@@ -105,6 +97,6 @@ def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
     ]
 
 
-def test_a_mutant_that_takes_too_long_survives(mutate: ModuleType, tmp_path: Path) -> None:
+def test_a_mutant_that_takes_too_long_survives(tmp_path: Path) -> None:
     (tmp_path / "test_slow.py").write_text("import time\ndef test_slow(): time.sleep(600)\n")
     assert mutate.run(tmp_path, ["test_slow.py::test_slow"], 0.5) == ("timed out", "")
