@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from deodar.declarations import Cost
 from deodar.family import Family
+from deodar.parameters import ValueForm
 from deodar.server.message import Data, Id, Message
 
 MESSAGES = Family(Message)
@@ -31,22 +33,8 @@ class ParameterForm(Data, frozen=True):
     """
 
     name: str
-    form: Literal[
-        "number",
-        "integer",
-        "flag",
-        "text",
-        "texts",
-        "per_axis",
-        "axes",
-        "axis",
-        "part",
-        "parts",
-        "array",
-        "numbers",
-        "pairs",
-    ]
-    cost: Literal["live", "rebuild", "recompile"]
+    form: ValueForm
+    cost: Cost
     meaning: str
     description: str
     symbol: str
@@ -219,7 +207,7 @@ class Changed(Message, frozen=True, tag="changed"):
     element: Id
     parameter: str
     value: Any
-    cost: Literal["live", "rebuild", "recompile"]
+    cost: Cost
     unsaved: bool
     undo: int
     redo: int
@@ -411,7 +399,7 @@ class Answer(Message, frozen=True, tag="answer"):
     request: int
     problems: list[ListedProblem] = []
     ask: Literal["", "unsaved", "replace"] = ""
-    cost: Literal["", "live", "rebuild", "recompile"] = ""
+    cost: Literal["", Cost] = ""
     file: str = ""
     carried: int = 0
     unmatched: list[str] = []
