@@ -1,16 +1,10 @@
 // What can be done with a pinned row.
 
 import { Menu } from "@mantine/core";
-import {
-  IconArrowDown,
-  IconArrowUp,
-  IconArrowsHorizontal,
-  IconPencil,
-  IconPinnedOff,
-  IconWand,
-} from "@tabler/icons-react";
+import { IconArrowsHorizontal, IconPencil, IconPinnedOff, IconWand } from "@tabler/icons-react";
 
 import { DotsMenu } from "../inspector/DotsMenu";
+import { MoveItems } from "../inspector/MoveItems";
 
 type PinMenuProps = {
   path: string;
@@ -24,7 +18,6 @@ type PinMenuProps = {
 };
 
 export function PinMenu({ path, place, ranged, onEdit, onAutomatic, onMove, onUnpin }: PinMenuProps) {
-  const { index, count } = place;
   return (
     <DotsMenu label={`More for ${path}`}>
       <Menu.Item leftSection={<IconArrowsHorizontal size={14} />} onClick={() => onEdit("range")}>
@@ -36,20 +29,7 @@ export function PinMenu({ path, place, ranged, onEdit, onAutomatic, onMove, onUn
       <Menu.Item leftSection={<IconPencil size={14} />} onClick={() => onEdit("label")}>
         Rename…
       </Menu.Item>
-      <Menu.Item
-        leftSection={<IconArrowUp size={14} />}
-        disabled={index === 0}
-        onClick={() => onMove(index - 1)}
-      >
-        Move up
-      </Menu.Item>
-      <Menu.Item
-        leftSection={<IconArrowDown size={14} />}
-        disabled={index === count - 1}
-        onClick={() => onMove(index + 1)}
-      >
-        Move down
-      </Menu.Item>
+      <MoveItems place={place} onMove={onMove} />
       <Menu.Item leftSection={<IconPinnedOff size={14} />} onClick={onUnpin}>
         Unpin
       </Menu.Item>

@@ -1,18 +1,13 @@
 // One part of a list: a line that says what it is, and its parameters, which fold.
 
 import { Menu, UnstyledButton } from "@mantine/core";
-import {
-  IconArrowDown,
-  IconArrowUp,
-  IconChevronDown,
-  IconChevronRight,
-  IconTrash,
-} from "@tabler/icons-react";
+import { IconChevronDown, IconChevronRight, IconTrash } from "@tabler/icons-react";
 
 import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { DotsMenu } from "../DotsMenu";
+import { MoveItems } from "../MoveItems";
 import { kindOf, recast, summary } from "../part";
 import { PartFields } from "./PartFields";
 
@@ -42,7 +37,6 @@ export function PartItem({
   const kinds = useStudio((state) => state.kinds);
   const kind = kindOf(kinds, part);
   const title = kind?.title ?? String(part["kind"]);
-  const { index, count } = place;
   const others = form.of.filter((name) => name !== kind?.name);
   return (
     <section className="part-item" aria-label={path}>
@@ -58,20 +52,7 @@ export function PartItem({
           {folded && <span className="dim one-line">{summary(kinds, part)}</span>}
         </UnstyledButton>
         <DotsMenu label={`More for ${path}`}>
-          <Menu.Item
-            leftSection={<IconArrowUp size={14} />}
-            disabled={index === 0}
-            onClick={() => onMove(index - 1)}
-          >
-            Move up
-          </Menu.Item>
-          <Menu.Item
-            leftSection={<IconArrowDown size={14} />}
-            disabled={index === count - 1}
-            onClick={() => onMove(index + 1)}
-          >
-            Move down
-          </Menu.Item>
+          <MoveItems place={place} onMove={onMove} />
           <Menu.Item leftSection={<IconTrash size={14} />} onClick={onRemove}>
             Remove
           </Menu.Item>
