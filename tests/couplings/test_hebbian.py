@@ -237,7 +237,7 @@ def test_sparse_weights_may_be_all_alike():
 
 def test_weights_of_another_shape_are_refused_with_both_shapes():
     with pytest.raises(
-        ModelError, match=r"start has shape \[4, 3\]; target and source samples make \[3, 4\]"
+        ModelError, match=r"start has shape \[4, 3\], target and source have \[3, 4\] samples"
     ):
         dd.Session(model(start=np.zeros((4, 3))))
 

@@ -37,7 +37,7 @@ def test_the_axis_of_the_source_is_the_one_that_is_read_out(axis: dd.Axis) -> No
 def test_of_two_axes_one_has_to_be_stated() -> None:
     [problem] = model([X, Y]).check()
     assert (
-        problem.what == "the source has 2 axes, so the one that is read out has to be stated"
+        problem.what == "the source has 2 axes, so the axis of the input must be stated"
         and problem.fix == "Set its axis: x or y"
     )
     assert not [p for p in model([X, Y], axis=Y).check() if p.severity == "problem"]
@@ -47,7 +47,7 @@ def test_a_source_without_an_axis_has_no_position() -> None:
     made = dd.Model("place")
     made.add(dd.Boost("b", [], 1.0)) >> made.add(dd.PeakPosition(name="p"))
     [problem] = [p for p in made.check() if p.severity == "problem"]
-    assert problem.what == "the source has no axis, so there is no position to read out"
+    assert problem.what == "the source has no axis, so it has no positions"
 
 
 def test_a_document_keeps_that_the_axis_is_inferred() -> None:

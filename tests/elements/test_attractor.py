@@ -36,7 +36,7 @@ def test_without_an_axis_the_motor_variable_moves_over_that_of_its_source(axis: 
 
 def test_of_a_source_with_two_axes_one_has_to_be_stated() -> None:
     [problem] = [p for p in driven([X, Y]).check() if p.severity == "problem"]
-    assert problem.what == "the source has 2 axes, so the axis of the input has to be stated"
+    assert problem.what == "the source has 2 axes, so the axis of the input must be stated"
     assert problem.fix == "Set its axis: x or y"
     assert not [p for p in driven([X, Y], axis=Y).check() if p.severity == "problem"]
 
@@ -45,7 +45,7 @@ def test_a_source_without_an_axis_cannot_drive_it() -> None:
     made = dd.Model("motor")
     made.add(dd.Boost("b", [], 1.0)) >> made.add(dd.Attractor("phi"))
     [problem] = [p for p in made.check() if p.severity == "problem"]
-    assert problem.what == "the source has no axis, so there is no position to move to"
+    assert problem.what == "the source has no axis, so it has no positions"
 
 
 def test_gain_and_offset_are_refused_on_the_periodic_axis_of_the_source() -> None:

@@ -87,5 +87,7 @@ def test_mistakes_are_told():
         TimeSeries("s", [], [0.0], [1.0], interpolation="cubic")
     model = dd.Model("shape")
     model.add(TimeSeries("s", [X], [0.0, 1.0], VALUES[:, :, 0]))
-    with pytest.raises(ModelError, match=r"values has shape \[4, 5\], its times and axes make \[2, 5\]"):
+    with pytest.raises(
+        ModelError, match=r"values has shape \[4, 5\], its times and axes have \[2, 5\] samples"
+    ):
         dd.Session(model)

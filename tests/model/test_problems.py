@@ -261,7 +261,7 @@ def test_weights_of_another_shape_name_both() -> None:
     u = model.add(dd.Field("u", [X]))
     u >> Weights([[1.0, 2.0]], [Y], name="w")
     (problem,) = model.check()
-    assert "weights has shape [1, 2]; target and source samples make [11, 11]" in problem.what
+    assert "weights has shape [1, 2], target and source have [11, 11] samples" in problem.what
 
 
 def test_five_axes_are_too_many() -> None:

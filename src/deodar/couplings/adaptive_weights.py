@@ -11,9 +11,9 @@ from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes, Axis, cell, describe, shape
+from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.signs import Sign
-from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -79,11 +79,7 @@ class AdaptiveWeights(Coupling):
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         needed = shape(ins["input"]) + shape(self.axes)
-        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield (
-                f"start has shape {list(self.start.shape)}; source and target samples make {list(needed)}",
-                "Give weights of that shape",
-            )
+        yield from wrong_shape("start", self.start, needed, "source and target have")
         if self.apart and ins["pre"] != ins["input"]:
             yield f"its axes are not those that arrive at pre, {describe(ins['pre'])}"
 

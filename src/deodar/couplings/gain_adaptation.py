@@ -10,9 +10,9 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes, cell, shape
+from deodar.numerics.axes import Axes, cell, shape, wrong_shape
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -76,12 +76,7 @@ class GainAdaptation(Coupling):
         return {"output": (), "value": (), "gains": ins["input"]}
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        needed = shape(ins["input"])
-        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield (
-                f"start has shape {list(self.start.shape)}, the input has {list(needed)} samples",
-                "Give gains of that shape",
-            )
+        yield from wrong_shape("start", self.start, shape(ins["input"]), "the input has")
 
     def init(self, at: Setting) -> Arrays:
         return {

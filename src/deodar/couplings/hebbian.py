@@ -13,10 +13,10 @@ from jax import Array
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import plasticity
-from deodar.numerics.axes import Axes, Axis, cell, shape
+from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.patches import random_weights
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
 from deodar.registry import register
 
 MOST_PATCHES = 64
@@ -121,11 +121,7 @@ class Hebbian(Coupling):
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
-        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield (
-                f"start has shape {list(self.start.shape)}; target and source samples make {list(needed)}",
-                "Give weights of that shape",
-            )
+        yield from wrong_shape("start", self.start, needed, "target and source have")
 
     def init(self, at: Setting) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)

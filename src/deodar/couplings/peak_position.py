@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.axes import Axes, Axis, one_axis
 from deodar.numerics.centres import centre
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
@@ -57,18 +57,7 @@ class PeakPosition(Coupling):
         return arriving if self.axis is None else (self.axis,)
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
-        found = ins["input"]
-        if len(found) > 1:
-            names = " or ".join(axis.name for axis in found)
-            yield (
-                f"the source has {len(found)} axes, so the one that is read out has to be stated",
-                f"Set its axis: {names}",
-            )
-        elif not found:
-            yield (
-                "the source has no axis, so there is no position to read out",
-                "Connect a field over an axis",
-            )
+        yield from one_axis(ins["input"])
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": (), "strength": ()}

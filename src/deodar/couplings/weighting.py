@@ -11,7 +11,7 @@ from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
 from deodar.registry import register
@@ -55,12 +55,7 @@ class Weighting(Coupling):
         return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
-        if given != shape(self.axes):
-            yield (
-                f"weights has shape {list(given)}, its axes have {list(shape(self.axes))} samples",
-                "Give weights of that shape",
-            )
+        yield from wrong_shape("weights", self.weights, shape(self.axes))
 
     def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights)}

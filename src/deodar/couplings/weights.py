@@ -13,7 +13,7 @@ from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes, Axis, cell, shape
+from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.intervals import Interval, times, total
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
@@ -60,13 +60,8 @@ class Weights(Coupling):
         return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        given = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
         needed = shape(self.axes) + shape(ins["input"])
-        if given != needed:
-            yield (
-                f"weights has shape {list(given)}; target and source samples make {list(needed)}",
-                "Give weights of that shape",
-            )
+        yield from wrong_shape("weights", self.weights, needed, "target and source have")
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if isinstance(self.weights, FrozenArray) and not self.weights.data.any():

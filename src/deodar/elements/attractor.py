@@ -12,7 +12,7 @@ from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
-from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.axes import Axes, Axis, one_axis
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -79,15 +79,8 @@ class Attractor(Element):
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         found = ins["input"]
-        if len(found) > 1:
-            names = " or ".join(axis.name for axis in found)
-            yield (
-                f"the source has {len(found)} axes, so the axis of the input has to be stated",
-                f"Set its axis: {names}",
-            )
-        elif not found:
-            yield "the source has no axis, so there is no position to move to", "Connect a field over an axis"
-        elif found[0].periodic and (self.gain != 1.0 or self.offset != 0.0):
+        yield from one_axis(found)
+        if len(found) == 1 and found[0].periodic and (self.gain != 1.0 or self.offset != 0.0):
             yield f"gain and offset have no meaning on the periodic axis {found[0].name!r}"
 
     def init(self, at: Setting) -> Arrays:

@@ -10,8 +10,8 @@ import numpy as np
 from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.numerics.axes import Axes, Axis, shape
-from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
+from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -55,12 +55,7 @@ class Integrator(Element):
         return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        needed = shape(self.axes)
-        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield (
-                f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples",
-                "Give values of that shape",
-            )
+        yield from wrong_shape("start", self.start, shape(self.axes))
 
     def init(self, at: Setting) -> Arrays:
         return {"x": at.full(tuple(self.axes), self.initial) if self.start is None else at.array(self.start)}

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.intervals import ZERO, Interval, hull
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -88,12 +88,7 @@ class MemoryTrace(Element):
         return () if port == "gate" else tuple(self.axes)
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
-        needed = shape(self.axes)
-        if isinstance(self.start, FrozenArray) and self.start.shape != needed:
-            yield (
-                f"start has shape {list(self.start.shape)}, its axes have {list(needed)} samples",
-                "Give values of that shape",
-            )
+        yield from wrong_shape("start", self.start, shape(self.axes))
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from deodar.declarations import needed
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
-from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.intervals import ANY, Interval, times
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
@@ -53,12 +53,7 @@ class Pattern(Stimulus):
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
-        given = self.values.shape if isinstance(self.values, FrozenArray) else ()
-        if given != shape(self.axes):
-            yield (
-                f"values has shape {list(given)}, its axes have {list(shape(self.axes))} samples",
-                "Give values of that shape",
-            )
+        yield from wrong_shape("values", self.values, shape(self.axes))
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)

@@ -14,7 +14,7 @@ from deodar.declarations import needed
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import is_neutral
-from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import ANY, Interval, times
 from deodar.numerics.signs import Sign, product, sign_of
@@ -103,13 +103,8 @@ class TimeSeries(Stimulus):
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
-        given = self.values.shape if isinstance(self.values, FrozenArray) else ()
-        needed = (*(self.times.shape if isinstance(self.times, FrozenArray) else ()), *shape(self.axes))
-        if given != needed:
-            yield (
-                f"values has shape {list(given)}, its times and axes make {list(needed)}",
-                "Give values of that shape",
-            )
+        times = self.times.shape if isinstance(self.times, FrozenArray) else ()
+        yield from wrong_shape("values", self.values, times + shape(self.axes), "its times and axes have")
 
     def strength(self) -> Interval:
         values = self.values.data if isinstance(self.values, FrozenArray) else None

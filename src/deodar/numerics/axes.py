@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 
 from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
-from deodar.parameters import is_text, real, show
+from deodar.parameters import FrozenArray, is_text, real, show
 
 MOST_SAMPLES = 1_000_000
 """Most samples on one axis; more are probably a typo (a guess; a field this long would run at 0.01 of real
@@ -155,3 +155,33 @@ def cell(axes: Sequence[Axis]) -> float:
 def describe(axes: Sequence[Axis]) -> str:
     """Return the axes in one line, for messages: `[x 0..100, 101 samples]`."""
     return "[" + "; ".join(str(a) for a in axes) + "]"
+
+
+def one_axis(axes: Axes) -> Iterator[tuple[str, str]]:
+    """Yield the problem, and what to type, if a source does not have exactly one axis."""
+    if not axes:
+        yield "the source has no axis, so it has no positions", "Connect a field over an axis"
+    elif len(axes) > 1:
+        names = " or ".join(axis.name for axis in axes)
+        yield (
+            f"the source has {len(axes)} axes, so the axis of the input must be stated",
+            f"Set its axis: {names}",
+        )
+
+
+def wrong_shape(
+    name: str, value: Any, needed: tuple[int, ...], owner: str = "its axes have"
+) -> Iterator[tuple[str, str]]:
+    """Yield the problem, and what to type, if an array does not have the needed shape.
+
+    Args:
+        name: name of the parameter.
+        value: its value; without an array there is no problem.
+        needed: the number of samples along each dimension.
+        owner: whose samples these are, with the verb.
+    """
+    if isinstance(value, FrozenArray) and value.shape != needed:
+        yield (
+            f"{name} has shape {list(value.shape)}, {owner} {list(needed)} samples",
+            f"Give {name} the shape {list(needed)}",
+        )
