@@ -11,7 +11,7 @@ from jax import Array
 from deodar.element import Arrays, Convolution, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times, total
-from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.signs import Sign, together
 from deodar.parameters import Recompile
@@ -49,8 +49,7 @@ class Convolve(Coupling):
         return self.kernel
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
-        for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(ins["input"]))
+        yield from validate_kernels(self.kernel, ins["input"])
 
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]

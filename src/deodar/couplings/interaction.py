@@ -12,7 +12,7 @@ from jax import Array
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, cell
-from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.signs import Sign, together
 from deodar.parameters import Live, Recompile
@@ -57,8 +57,7 @@ class Interaction(Coupling):
         return {"output": ins["input"], "total": ()}
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
-        for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(ins["input"]))
+        yield from validate_kernels(self.kernel, ins["input"])
 
     def prepare(self, at: Setting) -> Any:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}

@@ -12,9 +12,9 @@ from jax import Array
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis
-from deodar.numerics.intervals import ANY, ZERO, Interval, hull
+from deodar.numerics.intervals import ANY, ZERO, Interval, hull, times
 from deodar.numerics.windows import Window, gate
-from deodar.parameters import Recompile
+from deodar.parameters import FrozenArray, Recompile
 
 NOTHING = 3.0
 """Widths beyond the end of an axis from which a Gaussian counts as absent (1 % of its height at the end)."""
@@ -119,3 +119,10 @@ class Stimulus(Element):
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
     ) -> Arrays:
         return {"output": self.pattern(at) * gate(self.windows, time, at.dtype)}
+
+
+def array_strength(values: Any, amplitude: float) -> Interval:
+    """Return the smallest and largest value of an array times an amplitude; without an array, any value."""
+    if not isinstance(values, FrozenArray) or not values.data.size:
+        return ANY
+    return times((amplitude, amplitude), (float(values.data.min()), float(values.data.max())))

@@ -18,7 +18,7 @@ from deodar.numerics import quadrature
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.intervals import Interval, hull, signed, times, total
-from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.signs import Sign, sign_of, together
@@ -112,8 +112,7 @@ class Field(Element):
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         if len(self.axes) > MOST_AXES:
             yield f"has {len(self.axes)} axes; a field has at most {MOST_AXES}"
-        for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(tuple(self.axes)))
+        yield from validate_kernels(self.kernel, tuple(self.axes))
         lengths = [float(v) for v in per_axis(self.noise_length, self.axes)]
         if any(lengths) and not all(lengths):
             yield "noise_length is 0 on one axis and not on another; give all of them or none"
@@ -166,10 +165,7 @@ class Field(Element):
         return {"activation": at.full(tuple(self.axes), self.resting_level)}
 
     def prepare(self, at: Setting) -> dict[str, list[Array]]:
-        if is_neutral(self.noise_length):
-            return {}
-        axes = tuple(self.axes)
-        return {"noise": noises.correlation(axes, per_axis(self.noise_length, axes), at.dtype)}
+        return noises.prepare(tuple(self.axes), self.noise_length, at.dtype)
 
     def output(
         self,

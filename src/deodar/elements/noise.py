@@ -70,10 +70,7 @@ class Noise(Element):
             yield "length is 0 on one axis and not on another; give all of them or none"
 
     def prepare(self, at: Setting) -> dict[str, list[Array]]:
-        if is_neutral(self.length):
-            return {}
-        axes = tuple(self.axes)
-        return {"noise": noises.correlation(axes, per_axis(self.length, axes), at.dtype)}
+        return noises.prepare(tuple(self.axes), self.length, at.dtype)
 
     def output(
         self,

@@ -10,9 +10,9 @@ import jax.numpy as jnp
 
 from deodar.declarations import needed
 from deodar.element import Setting
-from deodar.elements._stimulus import Stimulus
+from deodar.elements._stimulus import Stimulus, array_strength
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
-from deodar.numerics.intervals import ANY, Interval, times
+from deodar.numerics.intervals import Interval
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -64,10 +64,7 @@ class Pattern(Stimulus):
             )
 
     def strength(self) -> Interval:
-        values = self.values.data if isinstance(self.values, FrozenArray) else None
-        if values is None or not values.size:
-            return ANY
-        return times((self.amplitude, self.amplitude), (float(values.min()), float(values.max())))
+        return array_strength(self.values, self.amplitude)
 
     def pattern(self, at: Setting) -> Any:
         return self.amplitude * jnp.broadcast_to(at.array(self.values), shape(self.axes))

@@ -15,7 +15,7 @@ from deodar.numerics import interaction
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
-from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 from deodar.numerics.signs import Sign, sign_of, together
@@ -109,8 +109,7 @@ class SoftWinnerTakeAll(Element):
         return None if is_neutral(self.noise) else tuple(self.axes)
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
-        for i, kernel in enumerate(self.kernel):
-            yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(tuple(self.axes)))
+        yield from validate_kernels(self.kernel, tuple(self.axes))
 
     def init(self, at: Setting) -> Arrays:
         return {"rate": at.full(tuple(self.axes), 0.0), "inhibition": at.full((), 0.0)}

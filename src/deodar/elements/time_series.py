@@ -12,11 +12,11 @@ from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Setting, Time
-from deodar.elements._stimulus import Stimulus
+from deodar.elements._stimulus import Stimulus, array_strength
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
-from deodar.numerics.intervals import ANY, Interval, times
+from deodar.numerics.intervals import Interval
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
@@ -107,10 +107,7 @@ class TimeSeries(Stimulus):
         yield from wrong_shape("values", self.values, times + shape(self.axes), "its times and axes have")
 
     def strength(self) -> Interval:
-        values = self.values.data if isinstance(self.values, FrozenArray) else None
-        if values is None or not values.size:
-            return ANY
-        return times((self.amplitude, self.amplitude), (float(values.min()), float(values.max())))
+        return array_strength(self.values, self.amplitude)
 
     def steady(self) -> bool:
         return False

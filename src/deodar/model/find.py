@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from typing import Any
 
 from deodar.errors import ParameterError, UnknownName, did_you_mean
-from deodar.leaves import leaves
+from deodar.leaves import get, leaves
 from deodar.model.document import Document, Entry
 from deodar.model.paths import quote, readings
 from deodar.parameters import parameters
@@ -114,6 +115,14 @@ def target(doc: Document, path: str) -> Target:
         k.name for k in doc.knobs
     ]
     raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, everything))
+
+
+def value(doc: Document, path: str) -> Any:
+    """Return the value of the parameter at a path."""
+    found = target(doc, path)
+    if found.entry is None:
+        return next(k.value for k in doc.knobs if k.name == found.knob)
+    return get(found.entry.element, found.parameter)
 
 
 def number(doc: Document, ident: str, leaf: str) -> float:

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from deodar import renamed
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
-from deodar.leaves import get
 from deodar.model import edit, files, find, uses
 from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
@@ -199,10 +198,7 @@ class Model:
 
     def get(self, path: str) -> Any:
         """Return the value of a parameter."""
-        found = find.target(self.document, path)
-        if found.entry is None:
-            return next(k.value for k in self.document.knobs if k.name == found.knob)
-        return get(found.entry.element, found.parameter)
+        return find.value(self.document, path)
 
     def set_ticks(self, what: Handle | str, ticks: int) -> None:
         """Set the step of an element, in ticks of the model."""

@@ -18,10 +18,12 @@ import numpy as np
 from jax import Array, lax
 from jax.typing import DTypeLike
 
+from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.kernels.gaussian import profile
 from deodar.numerics.scalar import Scalar
+from deodar.parameters import PerAxis
 
 STREAM = 0x5EED
 """Second key word of every noise key; the first is the seed."""
@@ -88,6 +90,13 @@ def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> t
     a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
     radius, turn = _radius(a, dtype), _uniform(b)
     return (radius * _sine(turn, dtype)).reshape(shape), (radius * _cosine(turn, dtype)).reshape(shape)
+
+
+def prepare(axes: Axes, length: PerAxis, dtype: DTypeLike) -> dict[str, list[Array]]:
+    """Return the constants of noise with a correlation length, under `noise`; none for white noise."""
+    if is_neutral(length):
+        return {}
+    return {"noise": correlation(axes, per_axis(length, axes), dtype)}
 
 
 def correlation(axes: Axes, lengths: Sequence[Scalar], dtype: DTypeLike) -> list[Array]:

@@ -18,7 +18,7 @@ from deodar.compiler.plan import ways_of
 from deodar.compiler.program import Port
 from deodar.compiler.ways import widths
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName, WorldError
-from deodar.leaves import get, step_limits
+from deodar.leaves import step_limits
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -249,10 +249,7 @@ class Session:
 
     def get(self, path: str) -> Any:
         """Return the value of a parameter."""
-        found = find.target(self.document, path)
-        if found.entry is None:
-            return next(k.value for k in self.document.knobs if k.name == found.knob)
-        return get(found.entry.element, found.parameter)
+        return find.value(self.document, path)
 
     def set(self, path: str | Mapping[str, Any], value: Any = ...) -> str:
         """Change a parameter, or several at once, from the next step on; states stay.

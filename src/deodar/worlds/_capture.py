@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from deodar.errors import MissingExtra, WorldError
+from deodar.numerics.axes import Axes, Axis
 
 RATE = 5
 """OpenCV's number of the property for pictures per second (CAP_PROP_FPS)."""
@@ -167,6 +168,10 @@ class _Stream:
                     self.closing.wait(0.02)
         finally:
             self.opened.release()
+
+
+EXAMPLE_AXES: Axes = (Axis("x", 0, 15, 16), Axis("y", 0, 11, 12), Axis("channel", 0, 2, 3))
+"""Axes over which the example can be read, in the proportions of its pictures."""
 
 
 def example(moves: bool = True) -> Path:

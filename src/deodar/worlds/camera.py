@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from deodar.errors import WorldError
-from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.axes import Axes
 from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds import _capture
@@ -109,4 +109,4 @@ class Camera(World):
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:
-        return (Axis("x", 0, 15, 16), Axis("y", 0, 11, 12), Axis("channel", 0, 2, 3))
+        return _capture.EXAMPLE_AXES

@@ -99,3 +99,9 @@ class Kernel(Part):
                         " Project([]) and a Gain"
                     )
                     break
+
+
+def validate_kernels(kernels: Sequence[Kernel], axes: Axes) -> Iterator[str]:
+    """Yield the mismatches between the kernels of a parameter `kernel` and the axes."""
+    for i, kernel in enumerate(kernels):
+        yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(axes))
