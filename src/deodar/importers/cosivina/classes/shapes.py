@@ -117,13 +117,7 @@ def diagonal_sum(b: SourceElement) -> Piece:
     came, dims = b.of((side, side)), b.dims()
     amplitude = b.values.number("amplitude", 0)
     if None in came:
-        return Piece(
-            [Gain(amplitude, name=b.label)],
-            [[Inlet(b.label, came)]],
-            {"output": Outlet(b.label, dims)},
-            needs=1,
-            why="Gain",
-        )
+        return _gain(b, amplitude, came, dims)
     name = b.named("sum")
     elements: list[Element] = [Gain(amplitude, name=b.label), DiagonalSum(axes(dims), name=name)]
     inlets = [[Inlet(name, came, whole=True)]]
@@ -142,13 +136,7 @@ def diagonal_expansion(b: SourceElement) -> Piece:
     came, dims = b.of(b.values.size("inputSize")), b.dims()
     amplitude = _unused_amplitude(b)
     if None in dims:
-        return Piece(
-            [Gain(amplitude, name=b.label)],
-            [[Inlet(b.label, came)]],
-            {"output": Outlet(b.label, dims)},
-            needs=1,
-            why="Gain",
-        )
+        return _gain(b, amplitude, came, dims)
     name = b.named("scaled")
     elements: list[Element] = [DiagonalExpansion(axes(dims), name=b.label), Gain(amplitude, name=name)]
     inlets = [[Inlet(name, came, whole=True)]]
@@ -215,6 +203,17 @@ def shift_input(b: SourceElement) -> Piece:
 
 def _count(axis: Axis | None) -> int:
     return 1 if axis is None else axis.samples
+
+
+def _gain(b: SourceElement, amplitude: float, came: Dims, dims: Dims) -> Piece:
+    """Return a gain alone, for a diagonal of one sample."""
+    return Piece(
+        [Gain(amplitude, name=b.label)],
+        [[Inlet(b.label, came)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Gain",
+    )
 
 
 def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
