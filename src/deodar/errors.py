@@ -197,6 +197,11 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     return f"There is: {shown}"
 
 
+def first_line(error: BaseException) -> str:
+    """Return the first line of the message of an error that deodar did not raise."""
+    return (str(error).strip() or "no message").splitlines()[0]
+
+
 def show(value: Any) -> str:
     """Return any value as one short line, for messages."""
     if isinstance(value, type):

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from deodar import __version__
+from deodar.errors import first_line
 
 GROUPS = {
     "kinds": "elements, couplings, kernels and sigmoids, by the name of their class",
@@ -108,5 +109,4 @@ def _load(plugin: Plugin) -> tuple[Any, str]:
     try:
         return plugin.entry.load(), ""
     except (Exception, SystemExit) as error:  # a module may raise any exception
-        first = (str(error).strip() or "no message").splitlines()[0]
-        return None, f"raises {type(error).__name__} when it is imported: {first}"
+        return None, f"raises {type(error).__name__} when it is imported: {first_line(error)}"

@@ -15,7 +15,8 @@ from tests.house.source import MODULES, SRC, imported, module, tree
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
-        "errors plugins docstring declarations",
+        "errors",
+        "plugins docstring declarations",
         "registry extensions renamed part_type family codec",
         "parameters",
         "leaves",

@@ -16,7 +16,7 @@ from types import ModuleType
 from typing import NoReturn
 
 from deodar import __version__, plugins
-from deodar.errors import DeodarError, UnknownName, did_you_mean
+from deodar.errors import DeodarError, UnknownName, did_you_mean, first_line
 from deodar.plugins import Plugin
 
 
@@ -119,8 +119,7 @@ def _import(name: str) -> None:
     except DeodarError:
         raise
     except Exception as error:  # a module may raise any exception
-        first = (str(error).strip() or "no message").splitlines()[0]
         raise UnknownName(
-            f"the module {name!r} cannot be imported ({type(error).__name__}: {first})",
+            f"the module {name!r} cannot be imported ({type(error).__name__}: {first_line(error)})",
             fix="It is named without .py and found in the working folder",
         ) from None

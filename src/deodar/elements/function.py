@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.errors import DeodarError, ModelError, UnknownName
+from deodar.errors import DeodarError, ModelError, UnknownName, first_line
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import Live, Recompile, show
 from deodar.registry import register
@@ -98,9 +98,8 @@ class Function(Element):
         except DeodarError:
             raise
         except Exception as error:
-            first = (str(error).strip() or "no message").splitlines()[0]
             raise ModelError(
-                f"the function {self.function} raised {type(error).__name__}: {first}",
+                f"the function {self.function} raised {type(error).__name__}: {first_line(error)}",
                 where=self.name,
                 fix=(
                     "It is called as function(state, inputs, time, **values), traced by JAX, and returns the"
@@ -127,9 +126,9 @@ class Function(Element):
             for step in path.split("."):
                 found = getattr(found, step)
         except Exception as error:  # importing runs the module, which may raise any exception
-            first = (str(error).strip() or "no message").splitlines()[0]
             raise UnknownName(
-                f"the function {self.function!r} cannot be found ({type(error).__name__}: {first})",
+                f"the function {self.function!r} cannot be found ({type(error).__name__}:"
+                f" {first_line(error)})",
                 where=self.name,
                 fix="It is written module:name, and the module must be importable",
             ) from error
