@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import shlex
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -160,6 +160,3 @@ def shown(path: Path) -> str:
 def paragraph(parts: Sequence[str]) -> str:
     """Join sentences, each with a full stop."""
     return " ".join(p if p.endswith((".", "!", "?", ":")) else f"{p}." for p in parts if p)
-
-
-Printer = Callable[[str], None]

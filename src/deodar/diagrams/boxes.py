@@ -67,11 +67,6 @@ class SizedItem:
     loops: tuple[Loop, ...]
     box: ItemSize
 
-    @property
-    def loops_height(self) -> float:
-        """Space that the loops and their text need above."""
-        return LOOP + SMALL_LINE * max(len(loop.captions) for loop in self.loops) if self.loops else 0.0
-
 
 def prepare(
     item: Item, inputs: Sequence[str], outputs: Sequence[str], loops: Sequence[Loop], most: int

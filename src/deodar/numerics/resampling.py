@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
@@ -12,7 +10,6 @@ from jax.typing import DTypeLike
 from deodar.numerics.axes import Axis
 from deodar.numerics.scalar import Scalar
 
-Interpolation = Literal["linear", "nearest"]
 INTERPOLATIONS = ("linear", "nearest")
 REDUCTIONS = ("integral", "sum", "mean", "max", "min")
 
