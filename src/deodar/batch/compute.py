@@ -136,7 +136,7 @@ def compute(
         found = [program.port(i, port) for i, port in ports]
         store = _Store(program, found, filled, count)
         settings = {name: getattr(request, name) for name in PROVENANCE}
-        about = provenance(model, doc, run, **settings, **asked, batch=cut.batch)
+        about = provenance(doc, run, **settings, **asked, batch=cut.batch)
         try:
             with bar(steps, progress) as shown:
 

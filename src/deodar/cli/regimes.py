@@ -166,7 +166,7 @@ def _table(found: Regimes) -> str:
         if found.suppression is not None:
             rows.append(("", f"or by a localised input below {_bracket(found, 'suppression')}"))
     if found.boosts:
-        rows.append(("boost on a pre-shape", "; ".join(_boosted(found, b) for b in found.boosts)))
+        rows.append(("boost on a pre-shape", "; ".join(_boosted(b) for b in found.boosts)))
     if found.selection is not None:
         s = found.selection
         stronger = (
@@ -218,7 +218,7 @@ def _peak(found: Regimes, peak: Peak) -> str:
     )
 
 
-def _boosted(found: Regimes, b: Boosted) -> str:
+def _boosted(b: Boosted) -> str:
     share = f"input {b.preshape:.3g}: "
     if b.boost is None:
         return share + "none makes a peak"

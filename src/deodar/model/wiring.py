@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 
-from deodar.element import Element
 from deodar.errors import Problem
 from deodar.model.document import Document
 from deodar.model.resolve import Node
@@ -96,11 +95,6 @@ class Wiring:
 def warning(node: Node, what: str, fix: str) -> Problem:
     """Return a warning about one element."""
     return Problem(node.path, what, fix, "warning")
-
-
-def overrides(element: Element, method: str) -> bool:
-    """Return whether the element's class overrides a method of the contract."""
-    return getattr(type(element), method) is not getattr(Element, method)
 
 
 def _known(found: dict[str, dict[str, Interval] | None], source: str, port: str) -> Interval:

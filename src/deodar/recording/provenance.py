@@ -11,13 +11,12 @@ from typing import Any
 from deodar.compiler.device import cores
 from deodar.model import files
 from deodar.model.document import Document
-from deodar.model.model import Model
 
 KEY = "deodar"
 """Name of the attribute of a record that holds its provenance, as JSON text."""
 
 
-def provenance(model: Model, doc: Document, run: Any, **settings: Any) -> dict[str, Any]:
+def provenance(doc: Document, run: Any, **settings: Any) -> dict[str, Any]:
     """Return everything that is needed to repeat a run, and everything that determines its bits."""
     data, arrays = files.to_data(doc)
     packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
