@@ -38,9 +38,8 @@ def measure(seconds: float) -> dict[str, Meter]:
     part = seconds / 6
     out = {"real time": one.run_live(round(1000 * seconds))}
     out["slow motion, a tenth"] = one.run_live(round(100 * part), speed=0.1)
-    fast = max(
-        one.run_live(20_000, speed=None).factor for _ in range(5)
-    )  # the fastest: others were disturbed
+    # the fastest: others were disturbed
+    fast = max(one.run_live(20_000, speed=None).factor for _ in range(5))
     speed = OVERLOAD * fast
     duration = round(1000 * part * fast)
     out["overload, the step stays"] = one.run_live(duration, speed=speed)

@@ -116,9 +116,8 @@ def amari() -> float:
     a peak meet.
     """
     widths = np.linspace(0.01, 60, 600_000)
-    excitation = 9.0 * np.array(
-        [math.erf(w / (5 * math.sqrt(2))) for w in widths[::10]]
-    )  # the kernel's integral over 0..w
+    # the kernel's integral over 0..w
+    excitation = 9.0 * np.array([math.erf(w / (5 * math.sqrt(2))) for w in widths[::10]])
     return float(5 - np.max(excitation - 0.3 * widths[::10]))
 
 

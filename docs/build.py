@@ -42,8 +42,9 @@ def site() -> int:
     """The site, by zensical."""
     environment = {
         **os.environ,
+        # the folder of mathml.py
         "PYTHONPATH": os.pathsep.join(filter(None, [str(pages.DOCS), os.environ.get("PYTHONPATH")])),
-    }  # for mathml.py
+    }
     return subprocess.run(
         [sys.executable, "-m", "zensical", "build", "--clean", "--strict"],
         cwd=pages.ROOT,

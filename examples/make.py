@@ -74,9 +74,8 @@ def selection() -> dd.Model:
 def working_memory() -> dd.Model:
     """A peak that outlives its input."""
     model = dd.Model("working memory")
-    u = model.add(
-        field("u", 18, 0.3, noise=0.2, quadrature="cell")
-    )  # as points its edges are narrower than a sample: it would not drift
+    # as points its edges are narrower than a sample: it would not drift
+    u = model.add(field("u", 18, 0.3, noise=0.2, quadrature="cell"))
     model.add(dd.GaussianStimulus("cue", [X], center=35, sigma=5, amplitude=6, windows=[(100, 300)])) >> u
     model.describe(
         notes=(

@@ -57,9 +57,8 @@ def experiment(trials: int = 100) -> dd.Experiment:
             dd.Factor("distance", {f"{d} deg": p for d, p in places.items()}),
             dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude"),
         ],
-        measures=[
-            dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)
-        ],  # at detection only one sample is above 0
+        # half the resting level, because at detection only one sample is above 0
+        measures=[dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)],
     )
 
 

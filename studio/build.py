@@ -196,9 +196,8 @@ def publish(made: Path, static: Path, stamp: str) -> None:
     for old in [
         p for p in static.rglob("*") if p.is_file() and p.relative_to(static) not in {*files, Path(STAMP)}
     ]:
-        with contextlib.suppress(
-            OSError
-        ):  # a server that just reads it, on Windows: it goes with the next build
+        # a server that just reads it, on Windows: it goes with the next build
+        with contextlib.suppress(OSError):
             old.unlink()
 
 

@@ -185,9 +185,8 @@ def foreign(content: bytes) -> Any:
         try:
             data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False, object_pairs_hook=collect)
         except UnicodeDecodeError:
-            data = json.loads(
-                content.decode("latin-1"), strict=False, object_pairs_hook=collect
-            )  # older versions of MATLAB wrote the system's encoding
+            # older versions of MATLAB wrote the system's encoding
+            data = json.loads(content.decode("latin-1"), strict=False, object_pairs_hook=collect)
     except json.JSONDecodeError as error:
         raise _not_json(error) from None
     except RecursionError:

@@ -89,9 +89,8 @@ class Time:
         dtype = self.step.high.dtype
         with exact():
             now, digits = self.wide, jnp.finfo(dtype)
-            high = lax.reduce_precision(
-                now, digits.nexp, digits.nmant
-            )  # the compiler would remove a cast there and back as redundant
+            # the compiler would remove a cast there and back as redundant
+            high = lax.reduce_precision(now, digits.nexp, digits.nmant)
             return Exact(high.astype(dtype), (now - high).astype(dtype))
 
     def since(self, moment: Exact | Array | float) -> Array:

@@ -162,9 +162,8 @@ class Part(metaclass=PartType):
                 )
                 continue
             try:
-                if not _same(
-                    stored := normal(p, given), given
-                ):  # an unchanged object is kept, so that changes can be detected by identity
+                # an unchanged object is kept, so that changes can be detected by identity
+                if not _same(stored := normal(p, given), given):
                     object.__setattr__(self, p.name, stored)
             except ValueError as error:
                 problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))

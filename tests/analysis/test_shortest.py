@@ -31,9 +31,8 @@ def test_a_path_keeps_its_distance():
 
 def test_no_way_is_none():
     assert shortest_path(arena_grid([(10, 0, 12, 20)], BORDER, least=1.0), (5, 5), (20, 5)) is None
-    assert (
-        shortest_path(arena_grid([(10, 0, 12, 15)], BORDER, least=3.0), (5, 5), (20, 5)) is None
-    )  # the gap of 5 is too narrow
+    # the gap of 5 is too narrow
+    assert shortest_path(arena_grid([(10, 0, 12, 15)], BORDER, least=3.0), (5, 5), (20, 5)) is None
 
 
 def test_a_start_without_clearance_begins_at_the_nearest_free_cell():

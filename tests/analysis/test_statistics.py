@@ -96,9 +96,8 @@ def test_an_inequality_can_fail_on_its_own_side():
 
 
 def test_the_interval_of_a_difference_of_shares_is_the_published_one():
-    value, (low, high) = statistics.share_difference(
-        (56, 70), (48, 80)
-    )  # Newcombe (1998), table II, method 10, example (a)
+    # Newcombe (1998), table II, method 10, example (a)
+    value, (low, high) = statistics.share_difference((56, 70), (48, 80))
     assert value == pytest.approx(0.2) and (low, high) == (
         pytest.approx(0.0524, abs=1e-4),
         pytest.approx(0.3339, abs=1e-4),

@@ -72,9 +72,8 @@ def test_the_same_results_whatever_the_split() -> None:
                 split,
                 path,
             )
-        assert np.array_equal(other["xi.output"], whole["xi.output"]), (
-            split
-        )  # the same noise, to the last bit
+        # the same noise, to the last bit
+        assert np.array_equal(other["xi.output"], whole["xi.output"]), split
     assert np.abs(whole["u.activation"][0] - whole["u.activation"][1]).max() > 0.1
     assert not children()
 
@@ -120,10 +119,8 @@ print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
 
 
 def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
-    model, before = (
-        small(),
-        signal.getsignal(signal.SIGINT),
-    )  # a shell that starts the tests behind it ignores the signal
+    # a shell that starts the tests behind it ignores the signal
+    model, before = small(), signal.getsignal(signal.SIGINT)
 
     def press() -> None:
         seen.wait()
@@ -134,9 +131,8 @@ def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
     steps, most = 20_000, 400
 
     def told(done: int) -> None:
-        if (
-            done >= steps
-        ):  # at least two of the pieces are more than half way, so the first of them soon complete
+        # at least two of the pieces are more than half way, so the first of them soon complete
+        if done >= steps:
             seen.set()
 
     with pytest.raises(dd.errors.Interrupted, match="pieces of the batch were complete") as caught:

@@ -70,9 +70,8 @@ def test_a_delay_made_longer_while_it_runs():
     s.step(100)
     assert s.read("line.output") == pytest.approx(95)
     s.set("line.delay", 20.0)
-    assert s.read("line.output") == pytest.approx(
-        80
-    )  # 50 slots hold more than the five steps that were needed
+    # 50 slots hold more than the five steps that were needed
+    assert s.read("line.output") == pytest.approx(80)
     s.set("line.delay", 200.0)
     oldest = float(s.read("line.output"))
     s.step(250)

@@ -16,9 +16,8 @@ def test_each_diagonal_is_added_up():
     model = dd.Model("diagonals")
     model.add(Pattern("in", [X, Y], VALUES)) >> DiagonalSum([dd.Axis("z", 10, 20, 6)], name="out")
     found = dd.simulate(model, 1, every=1, record=["out.output"], precision="float64")["out.output"].values[0]
-    wanted = [
-        2.0 * sum(VALUES[i, k - i] for i in range(4) if 0 <= k - i < 3) for k in range(6)
-    ]  # 2: the step of y
+    # 2: the step of y
+    wanted = [2.0 * sum(VALUES[i, k - i] for i in range(4) if 0 <= k - i < 3) for k in range(6)]
     assert np.allclose(found, wanted)
 
 

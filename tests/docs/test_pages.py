@@ -29,9 +29,8 @@ DRAWN_ELSEWHERE = {
 
 @pytest.mark.parametrize("page", pages.pages(), ids=lambda p: p.stem)
 def test_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        registry, "_kinds", dict(registry.kinds())
-    )  # a page that shows how to add a kind adds one
+    # a page that shows how to add a kind adds one
+    monkeypatch.setattr(registry, "_kinds", dict(registry.kinds()))
     with pages.quiet():
         import matplotlib.pyplot as plt
 

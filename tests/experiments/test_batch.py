@@ -106,9 +106,8 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
     model = decider()
     model.add(dd.Field("v", [dd.Axis("x", 0, 500, 501)], tau=10, global_inhibition=0.1, noise=1.0))
     measures = [Measure("strongest", "v.activation", "max"), Measure("mean", "v.activation", "mean")]
-    experiment = Experiment(
-        "decide", model, 1e6, 8, [DECIDED], measures=measures, every=5
-    )  # with much left, so that a narrower batch pays
+    # with much left, so that a narrower batch pays
+    experiment = Experiment("decide", model, 1e6, 8, [DECIDED], measures=measures, every=5)
     whole = experiment.run(tmp_path / "whole")
     assert sizes(model) == [1, 2, 4] and len(set(whole["duration"].values.tolist())) > 4
 

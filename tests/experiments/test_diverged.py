@@ -171,10 +171,8 @@ def test_those_that_diverged_leave_the_batch(monkeypatch: pytest.MonkeyPatch) ->
         made = model()
         made.programs = {}
         some = run_batch(made, 80, range(6), ["v.activation"], values=values)
-    assert sorted(p.batch.size for p in made.programs.values()) == [
-        3,
-        6,
-    ]  # of which one has diverged and fills it up
+    # of which one has diverged and fills it up
+    assert sorted(p.batch.size for p in made.programs.values()) == [3, 6]
     good = run_batch(
         model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]}
     )

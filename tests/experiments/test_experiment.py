@@ -101,9 +101,8 @@ def test_a_batch_gives_the_rows_of_single_trials():
     experiment = choice()
     together = experiment.run()
     assert experiment.setup().batched and len(experiment.setup().pieces()) == 1
-    alone = dc.replace(
-        experiment, actions=[Set(149, "u.tau", 10.0)]
-    )  # what is done changes nothing, but not in a batch
+    # what is done changes nothing, but not in a batch
+    alone = dc.replace(experiment, actions=[Set(149, "u.tau", 10.0)])
     assert not alone.setup().batched
     single = alone.run()
     for name in ("outcome", "strength", "place"):

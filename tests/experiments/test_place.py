@@ -111,9 +111,8 @@ def experiment(**changes):
 
 def test_a_batch_and_single_trials_measure_the_same_position_across_the_border():
     together = experiment().run()["place"].values
-    single = (
-        experiment(actions=[Set(60, "u.tau", 10.0)]).run()["place"].values
-    )  # an action makes the trials run one by one
+    # an action makes the trials run one by one
+    single = experiment(actions=[Set(60, "u.tau", 10.0)]).run()["place"].values
     np.testing.assert_allclose(together, single, atol=1e-9)
     assert (
         np.abs(together[:, 0] - 9.3).max() < 1 and np.abs((together[:, 1] - 178 + 180) % 360 - 180).max() < 10

@@ -75,9 +75,8 @@ def test_a_thing_that_comes_stops_the_robot_and_one_that_goes_lets_it_on():
     assert through.outcome == "reached" and (np.diff(through.values["pose"][:, 0]) < 1e-3).sum() > 50
     away = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
     assert away.duration == through.duration - 100
-    assert (
-        run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"
-    )  # the box was put away after each trial
+    # the box was put away after each trial
+    assert run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"
 
 
 def test_a_goal_that_moves_is_put_back_after_the_trial():
@@ -174,9 +173,8 @@ def test_actions_change_any_world_that_has_their_methods():
         "actions": [Place(2, "plate", (0, 0), (1, 1)), Remove(4, "cup"), Remove(6, "plate")],
         "watch": ["things"],
     }
-    for _ in range(
-        2
-    ):  # the second trial finds what the first one found; at the time of an action the sample is taken first
+    # the second trial finds what the first one found; at the time of an action the sample is taken first
+    for _ in range(2):
         assert run_trial(decider(), 8, world, **given).values["things"].tolist() == [
             1,
             1,

@@ -160,9 +160,8 @@ def test_traces_hold_time_and_value_and_begin_anew_with_a_reset(driven: Driven) 
         Wish((driven.u, "activation"), "at", (50.0,))
     ]
     driven.do(lambda: engine.show([], wishes))
-    driven.until(
-        lambda: all(wish in engine.traces and engine.traces[wish].count for wish in wishes)
-    )  # the program that samples is there
+    # the program that samples is there
+    driven.until(lambda: all(wish in engine.traces and engine.traces[wish].count for wish in wishes))
     driven.do(lambda: engine.step(200))
     driven.until(lambda: engine.shot.tick == 200)
     samples = {w: engine.traces[w].since(0) for w in wishes}

@@ -77,9 +77,8 @@ def test_the_mean_over_a_range(g):
     single = np.asarray(jax.jit(g.mean)(*ends.T.astype(np.float32)))
     assert single.dtype == np.float32
     scale = np.abs(ends).max(1) * getattr(g, "beta", 1.0)
-    rounded = 1e-5 + 2e-7 * np.minimum(
-        scale, 1 / np.maximum(np.abs(ends[:, 1] - ends[:, 0]), 1e-12) + 30
-    )  # activation has 7 digits
+    # activation has 7 digits
+    rounded = 1e-5 + 2e-7 * np.minimum(scale, 1 / np.maximum(np.abs(ends[:, 1] - ends[:, 0]), 1e-12) + 30)
     np.testing.assert_array_less(np.abs(single - exact), rounded + 1e-12)
     with jax.enable_x64(True):
         double = np.asarray(jax.jit(g.mean)(*ends.T))

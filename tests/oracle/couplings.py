@@ -127,8 +127,7 @@ def _members(fine, coarse):
     out = []
     for place in y:
         inside = [i for i, xi in enumerate(x) if -0.5 <= round((xi - place) / step, 12) < 0.5]
-        nearest = max(
-            range(len(x)), key=lambda i: (-round(abs(x[i] - place), 12), i)
-        )  # the upper of two equally near
+        # the upper of two equally near
+        nearest = max(range(len(x)), key=lambda i: (-round(abs(x[i] - place), 12), i))
         out.append(inside or [nearest])
     return out

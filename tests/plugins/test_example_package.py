@@ -61,9 +61,8 @@ def test_check_and_run_know_the_kind_and_the_world(
     ]
     assert main(["run", str(file), *given]) == 0, capsys.readouterr().err
     record = dd.load_record(out)
-    np.testing.assert_allclose(
-        record["change.output"].values[50], (1 - 1 / 50) ** 50, rtol=1e-4
-    )  # Euler's z after 50 steps of 1 ms
+    # Euler's z after 50 steps of 1 ms
+    np.testing.assert_allclose(record["change.output"].values[50], (1 - 1 / 50) ** 50, rtol=1e-4)
     assert record["eye.output"].values[[50, 150]].tolist() == [0.0, 10.0]
 
 

@@ -67,9 +67,8 @@ class Page:
         self.clocks = 0
         self._request = 0
         self._answers: dict[int, dict[str, Any]] = {}
-        self._late = (
-            False  # whether the clock does not know yet of what was told: one ends all that is told at once
-        )
+        # whether the clock does not know yet of what was told: one ends all that is told at once
+        self._late = False
         self._news = asyncio.Event()
 
     async def listen(self) -> None:

@@ -570,9 +570,8 @@ def test_unsaved_edits_survive_a_crash(root: Path, own_state: Path) -> None:
     with studio(root, root / "selection.json") as address:
         play(address, first)
     note = next((own_state / "unsaved").glob("*.note"))
-    note.write_text(
-        json.dumps(json.loads(note.read_text()) | {"process": [0, 0]})
-    )  # the process that kept them is gone
+    # the process that kept them is gone
+    note.write_text(json.dumps(json.loads(note.read_text()) | {"process": [0, 0]}))
 
     async def second(p: Page) -> None:
         kept = p.said["gallery"]["recoveries"]

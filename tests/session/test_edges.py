@@ -95,9 +95,8 @@ def test_a_value_that_means_off_is_another_program_not_a_limit() -> None:
 
 def test_an_attractor_never_overshoots() -> None:
     model = two()
-    model.add(
-        Attractor("phi", x, tau=1.0)
-    )  # the integral of the input is far above 1, so that the step is longer than the relaxation time
+    # the integral of the input is far above 1, so that the step is longer than the relaxation time
+    model.add(Attractor("phi", x, tau=1.0))
     model["s"] >> model["phi"]
     phi = dd.simulate(model, 20, record=["phi.output"])["phi.output"].values
     assert phi[0] == 0 and np.allclose(phi[1:], 10, atol=1e-3)

@@ -265,9 +265,8 @@ def test_a_duration_of_a_month_ends_in_its_step(kind: str, precision: str) -> No
     session = dd.Session(LASTING[kind](), precision=precision)
     session.step(5)
     then = session.snapshot()
-    session.restore(
-        dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5))
-    )  # what counts steps in its state misses the days between
+    # what counts steps in its state misses the days between
+    session.restore(dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5)))
     seen: list[float] = []
     for _ in range(12):
         seen.append(float(np.ravel(session.read("example.output"))[0]))

@@ -80,9 +80,8 @@ def test_files_that_are_no_film(tmp_path: Path) -> None:
 def test_a_camera_gives_its_newest_picture_and_never_waits(film: Path) -> None:
     camera = Camera(str(film), patience=60.0)
     camera.reset(0)
-    while (
-        abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0
-    ):  # a film as a camera is read as fast as it goes, to its last picture
+    # a film as a camera is read as fast as it goes, to its last picture
+    while abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0:
         time.sleep(0.01)
     camera.sense("picture", FINE, 0.0)  # no picture will come after it, and this does not wait for one
     camera.close()

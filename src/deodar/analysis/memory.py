@@ -100,9 +100,8 @@ def forgetting(
         accuracy: width of the final bracket relative to the value.
         limit: longest settling, in time constants.
     """
-    highest = (
-        isolated.threshold - isolated.field.resting_level
-    )  # with this boost a field without interaction is active everywhere
+    # with this boost a field without interaction is active everywhere
+    highest = isolated.threshold - isolated.field.resting_level
     for boost in np.linspace(0.0, max(highest, 0.0), BOOSTS, endpoint=False):
         isolated.reset(boost=boost)
         isolated.settle(limit=limit)

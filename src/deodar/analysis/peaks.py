@@ -212,9 +212,8 @@ def _centre(axis: Axis, points: np.ndarray, weights: np.ndarray, top: float) -> 
         return float(np.average(points, weights=weights))
     turn = 2 * math.pi / axis.range
     mean = np.average(np.exp(1j * turn * (points - axis.lower)), weights=weights)
-    middle = (
-        axis.lower + float(np.angle(mean)) / turn if abs(mean) > 1e-9 else top
-    )  # a region over the whole period has no defined middle
+    # a region over the whole period has no defined middle
+    middle = axis.lower + float(np.angle(mean)) / turn if abs(mean) > 1e-9 else top
     away = points - middle
     away = away - axis.range * np.round(away / axis.range)
     centre = middle + float(np.average(away, weights=weights)) if abs(mean) > 1e-9 else top

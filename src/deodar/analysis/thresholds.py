@@ -213,9 +213,8 @@ def bisect(
     """Find the input inside a bracket at which the field changes; `changed` is called after settling."""
     before, after, state = bracket.before, bracket.after, bracket.state
     fine = tolerance(isolated, accuracy)
-    least = (
-        0.01 * isolated.scale
-    )  # for smaller values the accuracy is relative to the scale, as a threshold may be 0
+    # for smaller values the accuracy is relative to the scale, as a threshold may be 0
+    least = 0.01 * isolated.scale
     isolated.restore(state)
     last = isolated.activation()
     settled: tuple[SessionSnapshot, np.ndarray] | None = None
@@ -230,9 +229,8 @@ def bisect(
             before, state, last = trial, isolated.snapshot(), isolated.activation()
     moved = float(np.max(np.abs(settled[1] - last)))
     most = max(float(np.max(np.abs(last))), float(np.max(np.abs(settled[1]))))
-    untold = (
-        UNTOLD * (fine + _stuck(isolated, most)) + isolated.scale * (math.pi / limit) ** 2
-    )  # the passage takes about pi / sqrt(distance) time constants
+    # the passage takes about pi / sqrt(distance) time constants
+    untold = UNTOLD * (fine + _stuck(isolated, most)) + isolated.scale * (math.pi / limit) ** 2
     interval = (min(before, after) - untold, max(before, after) + untold)
     return Transition(
         (before + after) / 2, before, after, interval, moved > JUMP * abs(after - before), settled[0]

@@ -208,9 +208,8 @@ def spa(arena: Arena, noise: str = "low", place_factor: float | None = None) -> 
         _action(model, name, compass, [avoid, alarm], wheels)
     for name in DIRECTIONS:
         _compete(model, name)
-    model.add(
-        Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose")
-    )  # these two are only for records and figures
+    # these two are only for records and figures
+    model.add(Sensor("pose", [Axis("x, y, heading", 0, 2, 3)], sensor="pose"))
     model.add(Sensor("touching", sensor="touching"))
     return model
 

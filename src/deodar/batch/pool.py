@@ -72,9 +72,8 @@ class Pool:
         """Send a task to an idle worker; `wait` returns its result under the key."""
         process, pipe = self._idle.pop()
         self._busy[pipe] = process, key
-        with contextlib.suppress(
-            BrokenPipeError, ConnectionResetError
-        ):  # `wait` reports a worker that has died
+        # `wait` reports a worker that has died
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
             pipe.send((function, arguments))
 
     def wait(self, seconds: float) -> list[tuple[Any, Any]]:
@@ -123,9 +122,8 @@ def _quiet(main: bool) -> Generator[None]:
     mine = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, signal.SIG_IGN) if mine else None
     if not main:
-        sys.modules["__main__"] = types.ModuleType(
-            "__main__"
-        )  # a process that starts looks here for what to import
+        # a process that starts looks here for what to import
+        sys.modules["__main__"] = types.ModuleType("__main__")
     try:
         yield
     finally:

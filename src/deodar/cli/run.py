@@ -285,9 +285,8 @@ class _Place:
         try:
             return out, folder.write(data, doc, out, self.format, self.force), ""
         except (OutputError, OutputExists, RecordError) as error:
-            format, first = (
-                (self.format, []) if isinstance(error, OutputError) else ("zarr", [out.parent])
-            )  # the disk has space, but not enough for this record
+            # the disk has space, but not enough for this record
+            format, first = (self.format, []) if isinstance(error, OutputError) else ("zarr", [out.parent])
             second = _rescue.rescue(
                 error, lambda parent: self._elsewhere(data, doc, parent, format), first, ask
             )

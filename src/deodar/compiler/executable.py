@@ -295,9 +295,8 @@ class Executable:
         if self.batch.trials == 1:
             one = _alone(one)
         elif self.batch.trials is not None:
-            one = jax.vmap(
-                one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials
-            )  # also for models without state and noise
+            # also for models without state and noise
+            one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials)
         if self.batch.points is None:
             return one({**values, "swept": ()}, constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
@@ -322,11 +321,8 @@ class Executable:
                 tree, [a.reshape(s) for a, s in zip(jax.tree.leaves(flat), shapes, strict=True)]
             )
 
-        def flat(
-            state: ProgramState,
-        ) -> (
-            ProgramState
-        ):  # between steps arrays have one axis: loops over a short last axis cost up to three times as much
+        # between steps arrays have one axis: loops over a short last axis cost up to three times as much
+        def flat(state: ProgramState) -> ProgramState:
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
         def steps(n: Array, tick: Array, state: ProgramState) -> tuple[Array, ProgramState]:
@@ -336,9 +332,8 @@ class Executable:
 
             def two(_: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
                 tick, state = carry
-                for drawn in program.draw(
-                    chunk.keys, tick
-                ):  # noise comes in pairs: for an even tick and the odd one after it
+                # noise comes in pairs: for an even tick and the odd one after it
+                for drawn in program.draw(chunk.keys, tick):
                     state = flat(program.step(chunk, full(state), drawn, tick))
                     tick = tick + jnp.uint32(1)
                 return tick, state
@@ -351,9 +346,8 @@ class Executable:
                 jnp.stack([(n - lead) // 2, jnp.zeros_like(n)]),
             )
 
-            def phase(
-                p: Array, carry: tuple[Array, ProgramState]
-            ) -> tuple[Array, ProgramState]:  # up to an even tick, pairs, what is left
+            # up to an even tick, pairs, what is left
+            def phase(p: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
                 return lax.fori_loop(0, doubles[p], two, lax.fori_loop(0, singles[p], one, carry))
 
             return lax.fori_loop(0, 2, phase, (tick, state))

@@ -153,9 +153,8 @@ class Plan:
                 if (g, port) in done:
                     continue
                 done.add((g, port))
-                for read in self.reads.get(
-                    (g, port), ()
-                ):  # a port that it passes on may be one that it has not got now
+                # a port that it passes on may be one that it has not got now
+                for read in self.reads.get((g, port), ()):
                     source = read.source[0]
                     want.add(source)
                     todo.append(

@@ -96,10 +96,8 @@ class RewardGate(Coupling):
                 wide(self.duration),
                 time.wide - wide(Exact(state["onset"], state["onset_low"])),
             )
-            lasts, bounded = (
-                passed < duration - 0.5 * time.wide_dt,
-                duration > 0,
-            )  # half a step of tolerance, so that rounding moves no edge
+            # half a step of tolerance, so that rounding moves no edge
+            lasts, bounded = passed < duration - 0.5 * time.wide_dt, duration > 0
         is_open = jnp.where(bounded, self._onset(state, reward) | lasts, reward > self.threshold)
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 

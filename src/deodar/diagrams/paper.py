@@ -75,9 +75,8 @@ def content(scene: Drawing, format: str, width: float | None = None) -> bytes:
     about: Any = {"CreationDate": None} if format == "pdf" else {}
     out = io.BytesIO()
     with matplotlib.rc_context({"pdf.fonttype": 42}), warnings.catch_warnings():
-        warnings.filterwarnings(
-            "ignore", message="Glyph .* missing"
-        )  # a name in a script that the font lacks
+        # a name in a script that the font lacks
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
         figure(scene, width).savefig(out, format=format, metadata=about)
     return out.getvalue()
 

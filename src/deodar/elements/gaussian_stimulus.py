@@ -92,9 +92,8 @@ class GaussianStimulus(Stimulus):
                 length = axis.step * axis.samples
                 distance = distance - length * jnp.round(distance / length)
             factor = jnp.exp(-0.5 * (distance / sigma) ** 2)
-            if (
-                self.normalized
-            ):  # a Gaussian between two samples and far narrower than their distance stays zero
+            # a Gaussian between two samples and far narrower than their distance stays zero
+            if self.normalized:
                 whole = jnp.sum(factor) * axis.step
                 factor = factor / jnp.where(whole > 0, whole, 1.0)
             y = y[..., None] * factor

@@ -85,9 +85,8 @@ class Observations:
             new = reached.any(axis=1) & np.isnan(self.found[k, at])
             hits[k, new] = reached.argmax(axis=1)[new]
         ends = np.full(len(rows), n)
-        for k in reversed(
-            range(len(self.events))
-        ):  # of several at one time the first in the list is the outcome
+        # of several at one time the first in the list is the outcome
+        for k in reversed(range(len(self.events))):
             if self.events[k].ends:
                 self._end(rows, running & (hits[k] < n) & (hits[k] <= ends), self.events[k].name)
                 ends = np.minimum(ends, hits[k])

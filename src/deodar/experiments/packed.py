@@ -47,8 +47,7 @@ def work(handed: PackedExperiment, trials: Sequence[int], records: Path | None) 
     return _opened(handed).rows(trials, records)
 
 
-@functools.lru_cache(
-    maxsize=1
-)  # the next piece of the same experiment finds the compiled programs that a model keeps
+# the next piece of the same experiment finds the compiled programs that a model keeps
+@functools.lru_cache(maxsize=1)
 def _opened(handed: PackedExperiment) -> Setup:
     return handed.open()

@@ -205,9 +205,8 @@ class _Eye:
             entry, port = view.place(session.document)
             self.ports[view] = entry.id, port
         self.places = list(dict.fromkeys(self.ports.values()))
-        if (
-            session.world is not None and not self.places
-        ):  # reading a port that is connected to the world brings the world up to date
+        # reading a port that is connected to the world brings the world up to date
+        if session.world is not None and not self.places:
             tied = [e.id for e in session.document.entries if isinstance(e.element, (Motor, Sensor))]
             self.places = [(ident, "output") for ident in tied[:1]]
         self.look: Look = look(session.program, self.places)

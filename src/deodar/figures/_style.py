@@ -143,9 +143,8 @@ TIGHT: dict[str, Any] = {**RC, "axes.xmargin": 0.0, "text.parse_math": False}
 def style() -> Generator[None]:
     """Apply the style inside a block; the user's settings are restored after it."""
     with matplotlib.rc_context(cast(Any, TIGHT)), warnings.catch_warnings():
-        warnings.filterwarnings(
-            "ignore", message="Glyph .* missing"
-        )  # characters that the font lacks are drawn as boxes, without a warning
+        # characters that the font lacks are drawn as boxes, without a warning
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
         yield
 
 

@@ -328,10 +328,8 @@ class Engine:
         now = time.perf_counter()
         if not (self._stale and self._wanted) or now - self._shown < FRAME:
             return
-        self._stale, self._wanted = (
-            False,
-            False,
-        )  # before the shot is published, because its readers may request the next one at once
+        # before the shot is published, because its readers may request the next one at once
+        self._stale, self._wanted = False, False
         session, seen = self.session, self._look
         arrays: Mapping[PortKey, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:

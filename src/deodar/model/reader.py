@@ -68,9 +68,8 @@ class _Reader:
         axes = self.axes()
         doc = self.elements(doc, axes)
         doc = self.groups(doc)
-        if (
-            not self.problems
-        ):  # connections and links of elements that failed would only repeat their problems
+        # connections and links of elements that failed would only repeat their problems
+        if not self.problems:
             doc = self.uses(self.knobs(self.connections(doc)))
         needed = self.packages()
         if self.problems:

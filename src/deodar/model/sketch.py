@@ -95,9 +95,10 @@ class _Sketch:
         chained = self._chained()
         wires = [w for c in self.connections if c.source not in chained for w in [self._wire(c, chained)]]
         passed = {e for c in self.connections if c.source not in chained for e in self._follow(c, chained)[1]}
+        # rings of couplings alone
         wires += [
             self._wire(c, set()) for c in self.connections if c.source in chained and c.source not in passed
-        ]  # rings of couplings alone
+        ]
         items = [self._item(e, axes.get(e.id, {})) for e in self.doc.entries if e.id not in passed]
         by = {item.id: item for item in items}
         items = [
@@ -155,9 +156,8 @@ class _Sketch:
         source, target = self.by[first.source], self.by[last.target]
         form, numbers = form_of(source.element), form_of(target.element) == "coupling" and not on
         sign: Sign = "+"
-        if form == "coupling" or (
-            form == "source" and not numbers
-        ):  # an input of a coupling is a number, which inhibits no field
+        # an input of a coupling is a number, which inhibits no field
+        if form == "coupling" or (form == "source" and not numbers):
             sign = source.element.polarity()
         for ident in on:
             sign = product(sign, self.by[ident].element.polarity())

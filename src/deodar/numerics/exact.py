@@ -51,9 +51,8 @@ def split(value: Any, dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
     """Return the high and low part of a number or an array of the host."""
     wide = np.asarray(value, np.float64)
     high = wide.astype(dtype)
-    rest = np.where(
-        np.isfinite(high), wide - np.where(np.isfinite(high), high, 0.0), 0.0
-    )  # no low part for values that are infinite in this precision
+    # no low part for values that are infinite in this precision
+    rest = np.where(np.isfinite(high), wide - np.where(np.isfinite(high), high, 0.0), 0.0)
     return high, rest.astype(dtype)
 
 

@@ -116,9 +116,8 @@ def _square_root(axis: Axis, length: Scalar, dtype: DTypeLike) -> Array:
     wanted = profile(x[:, None] - x[None, :], length, period) / profile(jnp.zeros((), dtype), length, period)
     values, vectors = jnp.linalg.eigh(wanted)
     root = jnp.matmul(vectors * jnp.sqrt(jnp.maximum(values, 0.0)), vectors.T, precision="highest")
-    return root / jnp.sqrt(
-        jnp.sum(root * root, axis=1, keepdims=True)
-    )  # in single precision the variance is 1 to 1e-6
+    # in single precision the variance is 1 to 1e-6
+    return root / jnp.sqrt(jnp.sum(root * root, axis=1, keepdims=True))
 
 
 def over(axes: Axes, deviates: Array, filters: Sequence[Array] | None) -> Array:

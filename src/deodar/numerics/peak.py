@@ -81,9 +81,8 @@ def _region(mask: Array, axes: Axes, top: Array) -> Array:
         region = now[0]
         for d, axis in enumerate(axes):
             for side in (1, -1):
-                region = (
-                    region | _moved(region, d, axis, side)
-                ) & mask  # the next direction starts from the samples that this one adds
+                # the next direction starts from the samples that this one adds
+                region = (region | _moved(region, d, axis, side)) & mask
         return region, jnp.any(region != now[0])
 
     return jax.lax.while_loop(lambda now: now[1], grow, (start, jnp.any(start)))[0]

@@ -61,9 +61,8 @@ def after(value: Array, result: Array) -> Array:
 
     A step that reads weights and changes them would keep a second copy of them without this order.
     """
-    return jnp.where(
-        result.ravel()[0] > jnp.inf, jnp.zeros_like(value), value
-    )  # never true, but the compiler cannot infer that
+    # never true, but the compiler cannot infer that
+    return jnp.where(result.ravel()[0] > jnp.inf, jnp.zeros_like(value), value)
 
 
 def change(rule: str, weights: Array, pre: Array, post: Array, speed: Array, loss: Array) -> Array:

@@ -67,20 +67,16 @@ def cell_means(g: SigmoidFunction, u: Array, axes: Axes) -> Array:
 def _line(g: SigmoidFunction, u: Array, axes: Axes, d: int) -> Array:
     n = u.shape[d]
     wide = optimization_barrier(_padded(u, d, BESIDE, axes[d].periodic))
-    knots, middles = (
-        _weighted(wide, d, n + 2, AT_SAMPLES),
-        _weighted(wide, d, n + 1, BETWEEN),
-    )  # from sample -1, and from -1/2
-    at_knots, at_middles = jax.tree.map(
-        optimization_barrier, (g.ends(knots), g.ends(middles))
-    )  # one array each: an array that no operation reads is not computed
+    # from sample -1, and from -1/2
+    knots, middles = _weighted(wide, d, n + 2, AT_SAMPLES), _weighted(wide, d, n + 1, BETWEEN)
+    # one array each: an array that no operation reads is not computed
+    at_knots, at_middles = jax.tree.map(optimization_barrier, (g.ends(knots), g.ends(middles)))
     (first, at_first), (last, at_last) = (
         (_cut(knots, d, k, n + 1), _ends(at_knots, d, k, n + 1)) for k in (0, 1)
     )
     near, far = g.mean(first, middles, at_first, at_middles), g.mean(last, middles, at_last, at_middles)
-    left, right = optimization_barrier(
-        (0.375 * near + 0.125 * far, 0.125 * near + 0.375 * far)
-    )  # the contribution of an interval to either side
+    # the contribution of an interval to either side
+    left, right = optimization_barrier((0.375 * near + 0.125 * far, 0.125 * near + 0.375 * far))
     return _cut(left, d, 1, n) + _cut(right, d, 0, n)
 
 

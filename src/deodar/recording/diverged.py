@@ -62,6 +62,5 @@ def counted(data: xarray.Dataset) -> xarray.Dataset:
 
 
 def _name(data: xarray.Dataset) -> str:
-    return (
-        REASON if REASON not in data.sizes else f"{REASON}.reason"
-    )  # a swept document parameter may have that name
+    # a swept document parameter may have that name
+    return REASON if REASON not in data.sizes else f"{REASON}.reason"

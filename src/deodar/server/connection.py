@@ -139,9 +139,8 @@ class PageConnection:
                 self.page.news.clear()
                 if self._ready:
                     await self._say()
-                with contextlib.suppress(
-                    TimeoutError
-                ):  # `wait_for` of Python 3.11 loses a cancellation at the moment of an event
+                # `wait_for` of Python 3.11 loses a cancellation at the moment of an event
+                with contextlib.suppress(TimeoutError):
                     async with asyncio.timeout(IDLE):
                         await self.page.news.wait()
         except (WebSocketDisconnect, RuntimeError, OSError):
@@ -155,10 +154,8 @@ class PageConnection:
             for message in await self._news_of_state():
                 await self._text(message)
                 spoke = True
-            if (self._session, self._version) == (
-                hub.project.session,
-                hub.project.version,
-            ):  # an answer is never sent before its change
+            # an answer is never sent before its change
+            if (self._session, self._version) == (hub.project.session, hub.project.version):
                 break
         shot = engine.shot
         sent = shot.number != self._shot

@@ -123,9 +123,8 @@ class Workspace:
             files.save(doc, Path(private) / place.name)
             made = {path.name: path.read_bytes() for path in Path(private).iterdir()}
             old = _array_file(folder, place)
-            for name in sorted(
-                made, key=lambda name: name == place.name
-            ):  # the document last, because it refers to the other files
+            # the document last, because it refers to the other files
+            for name in sorted(made, key=lambda name: name == place.name):
                 folder.write(name, made[name])
             if old and old not in made:
                 folder.remove(old)

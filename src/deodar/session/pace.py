@@ -169,9 +169,8 @@ class Pace:
         A step grows at once and shrinks after half a second at the earliest. The period of the world is a
         whole number of steps, and the step is within the limit of every time constant.
         """
-        if (
-            session is not self._of or session.next_dt != self._asked
-        ):  # the step was set from outside: it is the planned one from now on
+        # the step was set from outside: it is the planned one from now on
+        if session is not self._of or session.next_dt != self._asked:
             self._of, self._planned, self._asked = session, session.next_dt, session.next_dt
         if self.longest is None or self.speed is None or not self._cost:
             wanted = 1

@@ -133,10 +133,9 @@ class Run:
         while due <= steps:
             gap, steady = due - done, self._until_sensing()
             most = min(self._chunk_steps(), steady)
-            # a record at the tick of a new reading belongs to the next chunk, which has that reading
-            if gap and (
-                gap > most or gap == steady
-            ):  # the record belongs to a later chunk: advance, and discard the record
+            # a record at the tick of a new reading belongs to the next chunk, which has that reading;
+            # if the record belongs to a later chunk: advance, and discard it
+            if gap and (gap > most or gap == steady):
                 head = min(gap, most)
                 self._chunk(chunk, {"head": head, "every": 0, "records": 1}, head)
                 done += head

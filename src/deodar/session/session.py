@@ -436,9 +436,8 @@ class Session:
 
     def _port(self, path: str | Handle) -> Port:
         path, program = path_of(path), self._run.program
-        if (
-            self._ports.get(path, (None,))[0] is not program
-        ):  # looked up once for each program: a renamed element has another path
+        # looked up once for each program: a renamed element has another path
+        if self._ports.get(path, (None,))[0] is not program:
             entry, name = find.shown(self.document, path)
             self._ports[path] = (program, program.port(entry.id, name))
         return self._ports[path][1]

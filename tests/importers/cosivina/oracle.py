@@ -279,9 +279,8 @@ class Sim:
                 w, pre, post = self.memory[label], np.ravel(x[0]), np.ravel(x[1])
                 rewarded = len(x) < 3 or x[2].item() > 0.9
                 if rewarded:
-                    change = (pre[:, None] - w) * post[
-                        None, :
-                    ]  # the default, which cosivina does not call instar
+                    # the default, which cosivina does not call instar
+                    change = (pre[:, None] - w) * post[None, :]
                     self.memory[label] = w + dt * p["learningRate"] * change
                 return {"output": (pre @ w).reshape(x[1].shape)}
             case "DiagonalSum":

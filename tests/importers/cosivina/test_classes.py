@@ -506,15 +506,8 @@ def test_every_class_of_cosivina_is_translated_or_says_what_is_missing(tmp_path)
     for kind in MISSING:
         assert verdicts[kind] == ("dropped", f"Placeholder: {MISSING[kind]}")
     lost = {kind for kind in CLASSES if verdicts[kind][0] != "carried"}
-    given = {
-        "CustomStimulus",
-        "TimedCustomStimulus",
-        "CustomStimulusSequence",
-        "WeightMatrix",
-        "History",
-    }  # patterns, weights, times must be
-    assert lost == given | {
-        "ScalarToGaussian",
-        "HebbianConnection",
-    }  # no peak on one sample; learning needs two inputs
+    # patterns, weights, times must be
+    given = {"CustomStimulus", "TimedCustomStimulus", "CustomStimulusSequence", "WeightMatrix", "History"}
+    # no peak on one sample; learning needs two inputs
+    assert lost == given | {"ScalarToGaussian", "HebbianConnection"}
     dd.simulate(done.model, 3, every=3)

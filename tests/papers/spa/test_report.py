@@ -57,11 +57,8 @@ def test_what_was_inferred_from_a_run_is_marked_and_not_required():
 
 def test_every_claim_says_where_its_target_comes_from():
     for c in said(lambda c, k: {}).values():
-        assert c.origin in (
-            "printed",
-            "ours",
-            "none",
-        ), c.name  # the figures of the paper were not at hand to be read
+        # the figures of the paper were not at hand to be read
+        assert c.origin in ("printed", "ours", "none"), c.name
         assert (c.origin == "none") == (c.target == "none"), c.name
 
 

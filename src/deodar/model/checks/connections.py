@@ -58,9 +58,8 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
             "nothing is connected to it, so it does nothing",
             f"Connect it: model.connect(..., {n.path!r}); or remove it",
         )
-    if (
-        not e.ports() and not e.external and not wiring.readers[n.id]
-    ):  # a model may have a sensor only to record it
+    # a model may have a sensor only to record it
+    if not e.ports() and not e.external and not wiring.readers[n.id]:
         yield warning(n, "nothing reads it", f"Connect it: model.connect({n.path!r}, ...); or remove it")
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
         yield warning(

@@ -83,9 +83,8 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
     excites = isinstance(kernel, MexicanHat) or kernel.amplitude > 0
     for width in kernel.widths():
         pairs = [(axis, float(s)) for axis, s in zip(axes, per_axis(width, axes), strict=True)]
-        if pairs and all(
-            s < NARROW * axis.step for axis, s in pairs
-        ):  # a kernel that is narrow on one of several axes may be intended: no blur along hue
+        # a kernel that is narrow on one of several axes may be intended: no blur along hue
+        if pairs and all(s < NARROW * axis.step for axis, s in pairs):
             axis, s = pairs[0]
             what = (
                 f"{where}: a sigma of {s:g} is narrower than the step {axis.step:g} of the axis"

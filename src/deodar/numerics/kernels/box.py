@@ -72,9 +72,8 @@ def _covered(lag: Array, width: Any, period: float | None, step: float) -> Array
     if period is None:
         return _overlap(lag, width, step)
     turns = jnp.floor(width / period)
-    lag = (
-        lag - jnp.mod(turns, 2) * period / 2
-    )  # after an odd number of turns the ends meet opposite the centre
+    # after an odd number of turns the ends meet opposite the centre
+    lag = lag - jnp.mod(turns, 2) * period / 2
     near = lag - period * jnp.round(lag / period)
     rest = width - turns * period
     return turns + sum(_overlap(near + k * period, rest, step) for k in (-1, 0, 1))

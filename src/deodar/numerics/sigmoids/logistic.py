@@ -91,9 +91,8 @@ class Logistic(SigmoidFunction):
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         d = vb - va
         near = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
-        q = (
-            1.0 + s
-        )  # near a = b: g + g (1 - g) d / 2, with the denominator q^2, so that both forms need one division
+        # near a = b: g + g (1 - g) d / 2, with the denominator q^2, so that both forms need one division
+        q = 1.0 + s
         series = jnp.where(va > 0, 1.0, s) * q + 0.5 * s * d
         return jnp.where(
             near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)

@@ -214,9 +214,8 @@ def watched(camera: Camera, hues: Sequence[float]) -> CueScene:
     began: list[float] = []
 
     def wait(done: int) -> None:
-        began.append(
-            time.monotonic() - done * PERIOD / 1000
-        )  # the first counts: before it, programs are compiled
+        # the first counts: before it, programs are compiled
+        began.append(time.monotonic() - done * PERIOD / 1000)
         time.sleep(max(0.0, began[0] + done * PERIOD / 1000 - time.monotonic()))
 
     try:

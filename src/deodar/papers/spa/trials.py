@@ -121,9 +121,8 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
         "opposed": round(float(both.mean()), 4),
     }
     row["behaviours"] = _order(intentions)
-    if (
-        c.obstacle
-    ):  # between leaving and arriving: at first it stands because it plans, in the end because it is there
+    # between leaving and arriving: at first it stands because it plans, in the end because it is there
+    if c.obstacle:
         begin = max(row["onset"], int(moved) if moved is not None else LIMIT)
         row["still"] = stillness(course.values[POSE][begin : row["arrival"]])
     if narrated:
@@ -136,9 +135,8 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
     return [row]
 
 
-@functools.lru_cache(
-    maxsize=1
-)  # the next run of the same condition finds the compiled programs that a model keeps
+# the next run of the same condition finds the compiled programs that a model keeps
+@functools.lru_cache(maxsize=1)
 def _bench(name: str, quick: bool) -> tuple[Arena, Model]:
     c = cases.conditions(quick)[name]
     arena = cases.world(c)

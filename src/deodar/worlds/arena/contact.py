@@ -137,9 +137,8 @@ def _into_disc(
     away = position - middles
     square = jnp.sum(step * step)
     approach = -jnp.sum(away * step, axis=-1)
-    across = (
-        away[..., 0] * step[1] - away[..., 1] * step[0]
-    )  # exact for near passes, unlike the difference of squares
+    # exact for near passes, unlike the difference of squares
+    across = away[..., 0] * step[1] - away[..., 1] * step[0]
     depth = square * radius * radius - across * across
     meets = (depth >= 0) & (approach > 0) & (square > 0)
     share = (approach - jnp.sqrt(jnp.where(meets, depth, 0.0))) / jnp.where(square > 0, square, 1.0)

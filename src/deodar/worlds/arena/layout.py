@@ -171,9 +171,8 @@ def _layout(data: Any, where: str) -> ArenaLayout:
     if names not in ("x,y", "x,z"):
         faults.say("plane", f"is {names!r}; it is x,y, or x,z (y up)")
         names = "x,y"
-    turned = (
-        names == "x,z"
-    )  # as in Webots: y is up, and heading 0 points along -z; so x is the file's -z, and y its -x
+    # as in Webots: y is up, and heading 0 points along -z; so x is the file's -z, and y its -x
+    turned = names == "x,z"
     border = _border(data, names.split(","), turned, scale, faults)
     things = tuple(_things(data, turned, scale, faults))
     start = _place(data, "start", turned, scale, faults)

@@ -146,9 +146,8 @@ def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
     ticks = np.round((times - start) / step)
     reached = (ticks >= 1) & (abs((times - start) / step - ticks) <= 1e-6)
     if reached.any() and ticks[reached].max() <= MOST_COUNTED:
-        counted = np.add.accumulate(
-            [start, *[step] * int(ticks[reached].max())]
-        )  # as cosivina counts, with the same rounding
+        # as cosivina counts, with the same rounding
+        counted = np.add.accumulate([start, *[step] * int(ticks[reached].max())])
         exact = np.isin(times, counted)
         missed = int((reached & ~exact).sum())
         if missed and b.bug(

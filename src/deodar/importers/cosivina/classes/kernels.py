@@ -130,9 +130,8 @@ def kernel_fft(b: SourceElement) -> Piece:
     why, verdict = "Interaction", "carried"
     kernels: list[Kernel] = []
     for amplitude, sigmas in ((up, wide), (-down, wider)):
-        narrow = (
-            not normalized and min(sigmas, default=1.0) < 1
-        )  # cosivina samples what the grid does not resolve; Gaussian keeps its integral
+        # cosivina samples what the grid does not resolve; Gaussian keeps its integral
+        narrow = not normalized and min(sigmas, default=1.0) < 1
         if all(circular) or not long or narrow:
             form = KernelForm(tuple(long), ends, normalized, WHOLE)
             kernels.append(form.gaussian(amplitude, sigmas[: len(long)]))

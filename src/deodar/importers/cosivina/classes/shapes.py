@@ -159,9 +159,8 @@ def shift_input(b: SourceElement) -> Piece:
     dims = b.dims()
     there = axes(dims)
     listed = b.values.matrix("shiftValue")
-    given = [0.0, 0.0, *(listed.reshape(-1) if listed is not None else ())][
-        -2:
-    ]  # a constructor that counts wrongly puts zeros in front
+    # a constructor that counts wrongly puts zeros in front
+    given = [0.0, 0.0, *(listed.reshape(-1) if listed is not None else ())][-2:]
     amounts = [float(np.round(v)) for v, a in zip(given, dims, strict=False) if a is not None]
     amplitude, circular = _unused_amplitude(b), b.values.flag("circular", False)
     fill = b.values.number("fillValue", 0)
