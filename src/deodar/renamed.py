@@ -73,6 +73,7 @@ RENAMED = {
     "deodar.architectures.cascade.recorded": "dd.architectures.cascade_paths",
     "deodar.architectures.serial_order.end": "dd.architectures.lesson_end",
     "deodar.architectures.serial_order.production": "dd.architectures.production_start",
+    "deodar.demos": "dd.papers",
     "deodar.experiments.results.load": "dd.load_results",
     "deodar.experiments.run.run": "dd.run_trial",
     "deodar.figures.path.animate": "dd.animate_path",
@@ -85,6 +86,7 @@ RENAMED = {
     "deodar.importers.presets.apply": "dd.apply_preset",
     "deodar.recording.files.load": "dd.load_record",
     "deodar.recording.files.save": "dd.save_record",
+    "deodar.runtime": "deodar.session, deodar.batch and deodar.live",
     "deodar.worlds.arena.Arena": "dd.Arena",
 }
 """The new name of each old name."""
@@ -140,6 +142,11 @@ def arguments(call: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         return checked
 
     return decorate
+
+
+def moved(module: str) -> ImportError:
+    """Make the error that a module raises when it is imported by its old name."""
+    return ImportError(fix(module), name=module)
 
 
 def left(module: str) -> Callable[[str], Any]:

@@ -10,14 +10,16 @@ import pytest
 from tests.house.source import MODULES, SRC, imported, module, tree
 
 # The floors of the house, from the ground up. Rooms of one floor do not see each other; a file sees its own
-# folder. `registry` stands below `parameters`, which looks kinds up in it; `recording` below `session`, whose
-# runs it labels; the root package resolves its names lazily and stands above all, like `__main__`.
+# folder. `demos` and `runtime` are old names that only raise errors. `registry` stands below `parameters`,
+# which looks kinds up in it; `recording` below `session`, whose runs it labels; the root package resolves its
+# names lazily and stands above all, like `__main__`.
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "errors",
         "plugins docstring declarations",
         "registry extensions renamed part_type family codec",
+        "demos runtime",
         "parameters",
         "leaves",
         "numerics",

@@ -5,8 +5,10 @@ names say.
 from __future__ import annotations
 
 import functools
+import importlib
 import inspect
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -204,10 +206,20 @@ def test_a_module_that_names_have_left_says_what_else_it_lacks() -> None:
 
 @pytest.mark.parametrize("new", sorted(set(renamed.RENAMED.values())))
 def test_a_new_name_exists(new: str) -> None:
-    """Where the new name is one of `dd`; calls and arguments are tested where they are."""
+    """Where the new name is one of `dd`, or modules; calls and arguments are tested where they are."""
+    if new.startswith("deodar."):
+        assert [importlib.import_module(name) for name in re.split(", | and ", new)]
+        return
     found = deodar
     for name in new.removeprefix("dd.").split("(")[0].split("."):
         found = getattr(found, name)
+
+
+@pytest.mark.parametrize("old", ["deodar.demos.spa", "deodar.runtime.session"])
+def test_a_module_of_an_old_package_states_the_new_one(old: str) -> None:
+    package = old.rpartition(".")[0]
+    with pytest.raises(ImportError, match=f"^{package} is now {renamed.RENAMED[package]}$"):
+        importlib.import_module(old)
 
 
 def test_the_changelog_holds_the_table_of_renamed_names() -> None:
