@@ -221,8 +221,8 @@ class Element(Part):
 
     def __rshift__(self, other: object) -> Any:
         raise ModelError(
-            f"{self.name or type(self).__name__} stands in no model yet, so nothing can be connected to it",
-            fix="Add it first: model.add(...); a chain begins with what was added: u >> dd.Gain(2) >> v",
+            f"{self.name or type(self).__name__} has not been added to a model, so it cannot be connected",
+            fix="Add it first: model.add(...); a chain begins with an added element: u >> dd.Gain(2) >> v",
         )
 
     # ------------------------------------------------------------------------------- on paper: axes and ports

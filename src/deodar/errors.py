@@ -194,7 +194,7 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     if not names:
         return ""
     shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
-    return f"There is: {shown}"
+    return f"Valid names: {shown}"
 
 
 def first_line(error: BaseException) -> str:

@@ -227,5 +227,5 @@ def _child(holder: Any, step: str, path: str) -> Any:
         }
         if step in named:
             return named[step]
-        raise UnknownName(f"{path}: there is no part {step!r}", fix=f"There are {len(items)}, counted from 0")
-    raise UnknownName(f"{path}: nothing lies inside {step!r}")
+        raise UnknownName(f"{path}: there is no part {step!r}", fix=f"Valid indices: 0 to {len(items) - 1}")
+    raise UnknownName(f"{path}: the value before {step!r} has no parts")

@@ -373,10 +373,10 @@ def _text(p: Parameter, value: Any) -> str:
     if not isinstance(value, str):
         raise ValueError(f"needs text, not {show(value)}")
     if not is_text(value):
-        raise ValueError(f"holds characters that cannot be written: {show(value)}")
+        raise ValueError(f"contains characters that UTF-8 cannot encode: {show(value)}")
     if p.choices and value not in p.choices:
         raise ValueError(
-            f"is {value!r}; it is one of {', '.join(p.choices)}. {did_you_mean(value, p.choices)}"
+            f"is {value!r}; expected one of {', '.join(p.choices)}. {did_you_mean(value, p.choices)}"
         )
     return value
 
@@ -437,10 +437,10 @@ def _named(value: Any, what: str) -> list[tuple[str, Any]]:
         isinstance(item, (tuple, list)) and len(typing.cast(Any, item)) == 2 and isinstance(item[0], str)
         for item in items
     ):
-        raise ValueError(f"needs names with {what}, not {show(value)}")
+        raise ValueError(f"needs a mapping from names to {what}, not {show(value)}")
     names = [k for k, _ in items]
     if len(set(names)) < len(names):
-        raise ValueError(f"holds the same name twice: {show(value)}")
+        raise ValueError(f"contains the same name twice: {show(value)}")
     return [(k, v) for k, v in items]
 
 

@@ -115,7 +115,7 @@ def take(plugin: Plugin) -> str:
     before = set(_kinds)
     cls, problem = plugin.load()
     if not problem and getattr(cls, "__name__", "") != plugin.name:
-        problem = f"names {plugin.entry.value} as {plugin.name!r}, which is no class of that name"
+        problem = f"names {plugin.entry.value} as {plugin.name!r}, which is not a class of that name"
     if problem:
         for extra in set(_kinds) - before:  # a module that raises may have registered some of its kinds
             del _kinds[extra]

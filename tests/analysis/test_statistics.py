@@ -111,5 +111,5 @@ def test_pairs_narrow_the_interval_of_a_ratio():
     near = base * draw.normal(1.0, 0.01, 80)
     loose, tight = statistics.ratio_interval(near, base), statistics.ratio_interval(near, base, paired=True)
     assert tight[1] - tight[0] < 0.5 * (loose[1] - loose[0]) and tight[0] < 1 < tight[1]
-    with pytest.raises(AnalysisError, match="as many on both sides"):
+    with pytest.raises(AnalysisError, match="the same number on both sides"):
         statistics.ratio_interval(near, base[:7], paired=True)

@@ -56,7 +56,8 @@ def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPa
 def test_one_that_is_not_there_is_an_error_that_says_which_are(name: str) -> None:
     for call in (lambda: dd.simulate(model(), 10, device=name), lambda: dd.Session(model(), device=name)):
         with pytest.raises(
-            dd.errors.DeviceError, match=r"there is: .*cpu:0" if isinstance(name, str) else "named by a text"
+            dd.errors.DeviceError,
+            match=r"valid names: .*cpu:0" if isinstance(name, str) else "named by a text",
         ):
             call()
 
@@ -65,7 +66,7 @@ def test_how_to_get_one_is_said_where_there_is_none(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(device, "_of", lambda kind: jax.devices("cpu") if kind == "cpu" else [])
     with pytest.raises(
         dd.errors.DeviceError,
-        match=r"there is no device 'gpu' here; there is: cpu:0\. .*pip install 'jax\[cuda12\]'",
+        match=r"this computer has no device 'gpu'; valid names: cpu:0\. .*pip install 'jax\[cuda12\]'",
     ):
         device.find("gpu")
 

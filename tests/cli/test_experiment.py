@@ -95,7 +95,7 @@ def test_after_a_stop_the_same_call_goes_on(file, capsys, tmp_path, monkeypatch)
 
     monkeypatch.setattr(jobs.Job, "run", stops)
     assert call("--out", "part", "--seed", "0") == 1
-    assert capsys.readouterr().err.endswith("Go on with: deodar experiment when.json --out part --seed 0\n")
+    assert capsys.readouterr().err.endswith("Resume with: deodar experiment when.json --out part --seed 0\n")
     assert load_results(tmp_path / "part").sizes["trial"] == 8
     monkeypatch.setattr(jobs.Job, "run", real)
     assert call("--out", "part") == 0
@@ -132,7 +132,7 @@ def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
     assert cli.main(["experiment", "wen.json"]) == 1
     assert "there is no such file. Did you mean 'when.json'?" in capsys.readouterr().err
     assert cli.main(["experiment", "when.model.json"]) == 1
-    assert "is no experiment" in capsys.readouterr().err
+    assert "is not an experiment" in capsys.readouterr().err
 
 
 def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
@@ -145,7 +145,7 @@ def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
         r"deodar experiment: 16 trials of at most 400 steps of dt = 1 take about \S+ \w+ on this machine",
         told,
     )
-    assert "nobody can be asked" in told and "--yes" in told
+    assert "cannot ask for confirmation" in told and "--yes" in told
     assert call("--out", "out", "--yes") == 0
     assert "16 trials of at most 400 steps" in capsys.readouterr().err
     assert call("--out", "out") == 0, "nothing is left to be run"
@@ -170,7 +170,7 @@ def test_a_disk_that_fills_keeps_what_is_done_and_says_how_to_go_on(file, capsys
     told = capsys.readouterr().err
     assert (
         "trials.csv: cannot be written: No space left on device" in told
-        and "Go on with: deodar experiment when.json --out out" in told
+        and "Resume with: deodar experiment when.json --out out" in told
     )
     assert (
         not (tmp_path / "out" / "trials.csv").exists() and load_results(tmp_path / "out").sizes["trial"] == 16

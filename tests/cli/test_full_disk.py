@@ -101,7 +101,7 @@ def test_a_person_is_asked_for_a_folder_until_one_can_be_written(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     assert main(RUN) == 1
     told = capsys.readouterr().err
-    assert told.count("Another folder") == 3 and "there is no folder" in told
+    assert told.count("Another folder") == 3 and "does not exist" in told
     assert (here.parent / "second" / "result-001" / "record.zarr").is_dir()
 
 

@@ -83,6 +83,6 @@ def test_a_device_is_named_and_one_that_is_not_there_refused(
     assert main(["run", "small.json", "--duration", "5", "--device", "cpu:0", "--out", "named"]) == 0
     assert about(files.load_record(here / "named"))["device"] == "cpu:0"
     assert main(["run", "small.json", "--duration", "5", "--device", "quantum"]) == 1
-    assert "there is no device 'quantum' here; there is: cpu:0" in capsys.readouterr().err
+    assert "this computer has no device 'quantum'; valid names: cpu:0" in capsys.readouterr().err
     assert main(["doctor", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["devices"]["cpu:0"] == "cpu"

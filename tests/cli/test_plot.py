@@ -108,6 +108,6 @@ def test_a_path_is_drawn_in_its_arena_and_as_a_film(here: Path, capsys: pytest.C
     )
     assert json.loads(capsys.readouterr().out)["gif"] == "drive.gif"
     assert main(["plot", "small.zarr", "--gif", "no.gif"]) == 1
-    assert "a film shows one variable" in capsys.readouterr().err
+    assert "a video shows one variable" in capsys.readouterr().err
     assert main(["plot", "small.zarr", "n.activation", "--gif", "no.gif"]) == 1
     assert "made without a world" in capsys.readouterr().err

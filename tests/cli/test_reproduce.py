@@ -88,7 +88,7 @@ def test_after_a_stop_the_same_call_goes_on_with_the_same_rows(toy, capsys, tmp_
     toy.stops = 4
     assert call("--out", "part") == 1
     told = capsys.readouterr().err
-    assert "4 runs are kept. Go on with: deodar reproduce toy --out part" in told
+    assert "4 runs are kept. Resume with: deodar reproduce toy --out part" in told
     assert not (tmp_path / "part" / "results.json").exists()
     toy.stops, toy.ran = None, []
     assert call("--out", "part") == 0 and toy.ran == [4, 5]
@@ -187,7 +187,7 @@ def test_runs_that_find_no_room_end_it_and_those_before_are_kept(toy, monkeypatc
     assert (
         "No space left on device" in told
         and "3 runs are kept" in told
-        and "Go on with: deodar reproduce toy --out part" in told
+        and "Resume with: deodar reproduce toy --out part" in told
     )
     room.extend([None] * 99)
     toy.ran = []

@@ -123,7 +123,7 @@ def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["small.json", "--duration", "5", "--sweep", "u.tau=a,b"], 2, "numbers"),
         (["small.json", "--duration", "5", "--world", "picture:none.jpg"], 1, "no such picture"),
         (["small.json", "--duration", "5", "--out", "small.json"], 1, "not a folder"),
-        (["small.json", "--duration", "5", "--out", "a/b"], 1, "no folder"),
+        (["small.json", "--duration", "5", "--out", "a/b"], 1, "does not exist"),
     ],
 )
 def test_bad_calls(
@@ -279,7 +279,7 @@ def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     call = ["run", "small.json", "--duration", "40", "--out", "out"]
     assert main(call) == 1 and not (here / "out").exists()
-    assert "nobody can be asked" in (told := capsys.readouterr().err) and "--yes" in told
+    assert "cannot ask for confirmation" in (told := capsys.readouterr().err) and "--yes" in told
     assert main([*call, "--yes"]) == 0 and (here / "out").is_dir()
     assert "steps of dt = 1 take about" in capsys.readouterr().err
 
@@ -310,7 +310,7 @@ def test_a_very_long_record_is_not_repeated_without_yes(
     capsys.readouterr()
     assert main(["run", "first", "--out", "second"]) == 1 and not (here / "second").exists()
     assert re.search(
-        "40 steps of dt = 1 take about .* nobody can be asked .* --yes",
+        "40 steps of dt = 1 take about .* cannot ask for confirmation .* --yes",
         capsys.readouterr().err.replace("\n", " "),
     )
     assert main(["run", "first", "--out", "second", "--yes"]) == 0

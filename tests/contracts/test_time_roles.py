@@ -108,11 +108,11 @@ def test_a_run_and_a_session_refuse_every_role() -> None:
     for element, said in (
         (
             Attractor("e", x, tau=0.5),
-            r"e: the step of 1 ms is longer than the time scale tau = 0\.5\. Take dt <= 0\.5",
+            r"e: the step of 1 ms is longer than the time scale tau = 0\.5\. Use dt <= 0\.5",
         ),
         (
             Hebbian([x], rate=4.0, name="e"),
-            r"e: the step of 1 ms is longer than 1/rate = 0\.25\. Take dt <= 0\.25, .* a smaller rate",
+            r"e: the step of 1 ms is longer than 1/rate = 0\.25\. Use dt <= 0\.25, .* a smaller rate",
         ),
     ):
         model = dd.Model("m")

@@ -243,5 +243,5 @@ def test_weights_of_another_shape_are_refused_with_both_shapes():
 
 
 def test_an_unknown_rule_names_the_others():
-    with pytest.raises(ParameterError, match=r"'instarr'; it is one of .*instar.*Did you mean 'instar'"):
+    with pytest.raises(ParameterError, match=r"'instarr'; expected one of .*instar.*Did you mean 'instar'"):
         Hebbian([Z], "instarr")

@@ -40,10 +40,8 @@ def test_an_angle_wraps_however_often_it_has_turned(turns: int) -> None:
 def test_it_takes_one_number_for_each_axis() -> None:
     model = dd.Model("misfit")
     model.add(Boost("one", [], 1.0)) >> model.add(SpaceCode([X, Y], name="code"))
-    refused(model.require, dd.errors.ModelError, "one axis with 2 samples", "Give it what it takes")
-    refused(
-        lambda: SpaceCode([], name="nowhere"), dd.errors.ParameterError, "a peak needs somewhere to stand"
-    )
+    refused(model.require, dd.errors.ModelError, "one axis with 2 samples", "Connect an input of that shape")
+    refused(lambda: SpaceCode([], name="nowhere"), dd.errors.ParameterError, "a peak needs at least one axis")
 
 
 @pytest.mark.parametrize("boundary", [None, ["periodic"], ["zero"]])

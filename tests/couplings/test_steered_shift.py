@@ -95,7 +95,7 @@ def test_it_follows_what_steers_in_every_step():
 def test_mistakes_are_told():
     with pytest.raises(ParameterError, match="along: is empty"):
         SteeredShift([])
-    with pytest.raises(ParameterError, match="holds a name twice"):
+    with pytest.raises(ParameterError, match="contains a name twice"):
         SteeredShift(["x", "x"])
     model, source = scene()
     source >> model.add(SteeredShift("phy", name="shift"))

@@ -70,5 +70,5 @@ def test_a_wide_architecture_becomes_narrow() -> None:
     whole, folded = dd.draw(model), dd.draw(model, depth=0)
     assert folded.size[0] < whole.size[0] / 3
     assert "8 elements" in folded.svg and "satisfaction" not in folded.svg
-    with pytest.raises(ModelError, match="depth is -1"):
+    with pytest.raises(ModelError, match="got -1"):
         dd.draw(model, depth=-1)

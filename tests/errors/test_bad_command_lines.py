@@ -20,7 +20,7 @@ GOOD, BAD = "good.json", "bad.json"
 CALLS: dict[str, tuple[list[str], int, tuple[str, ...]]] = {
     "no command": ([], 2, ("COMMAND", "deodar --help")),
     "a misspelt command": (["chek"], 2, ("there is no command 'chek'", "Did you mean 'check'?")),
-    "no such command": (["zzz"], 2, ("there is no command 'zzz'", "There is: ")),
+    "no such command": (["zzz"], 2, ("there is no command 'zzz'", "Valid names: ")),
     "a command that is nothing": ([""], 2, ("there is no command ''",)),
     "an unknown option": (["--verbos"], 2, ("deodar --help",)),
     "check: nothing": (["check"], 2, ("FILE", "Type: deodar check --help")),

@@ -216,11 +216,11 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     ),
     "a kernel as an element": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Gaussian"}}}',
-        ("u: a Gaussian cannot stand here, where an Element belongs",),
+        ("u: expected an Element, got a Gaussian",),
     ),
     "a world as an element": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Picture"}}}',
-        ("a Picture cannot stand here",),
+        ("got a Picture",),
     ),
     "an element without a kind": (
         b'{"deodar": 1, "elements": {"u": {"tau": 5}}}',
@@ -248,11 +248,11 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     ),
     "an element twice": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Field"}, "\\"u\\"": {"kind": "Field"}}}',
-        ("stands there twice",),
+        ("occurs twice, in two spellings",),
     ),
     "an element in an element": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Field"}, "u.v": {"kind": "Field"}}}',
-        ("elements.u.v: cannot stand inside",),
+        ("elements.u.v: lies inside an element",),
     ),
     "an element without a name": (b'{"deodar": 1, "elements": {"": {"kind": "Field"}}}', ("elements",)),
     "an open quotation mark": (

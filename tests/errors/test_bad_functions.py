@@ -162,7 +162,7 @@ FUNCTIONS: dict[str, tuple[Any, type[Exception], tuple[str, ...]]] = {
     "no function": (
         "tests.errors.test_bad_functions:NOT_A_FUNCTION",
         ModelError,
-        ("is 5, which is no function",),
+        ("is 5, which is not a function",),
     ),
     "no colon": ("math", UnknownName, ("cannot be found", "module:name")),
     "nothing named": ("", UnknownName, ("cannot be found",)),

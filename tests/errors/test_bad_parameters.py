@@ -155,7 +155,7 @@ CASES: dict[str, Case] = {
     "a name that is half a character": (
         lambda: dd.Field("\ud800", [X]),
         ParameterError,
-        ("Field.name", "cannot be written"),
+        ("Field.name", "UTF-8 cannot encode"),
     ),
     "windows": (lambda: Boost("b", windows=[5]), ParameterError, ("Boost.windows", "needs a Window, not 5")),
     "a window of nan": (lambda: Boost("b", windows=[(0, NAN)]), ParameterError, ("Window.stop", "finite")),
@@ -228,7 +228,7 @@ CASES: dict[str, Case] = {
     "numbers that are pairs of three": (
         lambda: Function("f", values=[("a", 1, 2)]),
         ParameterError,
-        ("Function.values", "names with numbers"),
+        ("Function.values", "a mapping from names to numbers"),
     ),
     "negative correlation length": (
         lambda: Noise("n", [X], length=-1),
@@ -287,11 +287,11 @@ CASES: dict[str, Case] = {
         ParameterError,
         ("time_unit is 'hours'", "1 = 64 ms"),
     ),
-    "model: a step": (lambda: dd.Model("m", dt=-1), ParameterError, ("dt is -1; it is a number above 0",)),
+    "model: a step": (lambda: dd.Model("m", dt=-1), ParameterError, ("dt is -1; expected a number above 0",)),
     "model: ticks": (
         lambda: dd.Model("m").add(dd.Field("u", [X]), ticks=0),
         ParameterError,
-        ("u: the step is 0 ticks; it is a whole number, 1 to",),
+        ("u: the step is 0 ticks; expected a whole number from 1 to",),
     ),
 }
 

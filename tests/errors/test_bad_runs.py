@@ -38,9 +38,9 @@ def model() -> dd.Model:
 Call = Callable[[dd.Model], Any]
 
 RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
-    "no model": (lambda m: dd.simulate("m", 5), ModelError, ("'m' is no model", "dd.load(file)")),
-    "no model, live": (lambda m: dd.Session(m.document), ModelError, ("is no model",)),
-    "dt 0": (lambda m: dd.simulate(m, 5, dt=0), TimeError, ("dt is 0; it is a number above 0, in ms",)),
+    "no model": (lambda m: dd.simulate("m", 5), ModelError, ("expected a model, got 'm'", "dd.load(file)")),
+    "no model, live": (lambda m: dd.Session(m.document), ModelError, ("expected a model",)),
+    "dt 0": (lambda m: dd.simulate(m, 5, dt=0), TimeError, ("dt is 0; expected a number above 0, in ms",)),
     "dt negative": (lambda m: dd.simulate(m, 5, dt=-1), TimeError, ("dt is -1",)),
     "dt nan": (lambda m: dd.simulate(m, 5, dt=NAN), TimeError, ("dt is nan",)),
     "dt infinite": (lambda m: dd.simulate(m, 5, dt=INF), TimeError, ("dt is inf",)),
@@ -50,7 +50,7 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
     "dt above tau": (
         lambda m: dd.simulate(m, 50, dt=25),
         TimeError,
-        ("u: ", "longer than the time constant tau = 20", "Take dt <= 20"),
+        ("u: ", "longer than the time constant tau = 20", "Use dt <= 20"),
     ),
     "dt above tau in a sweep": (
         lambda m: dd.simulate(m, 5, sweep={"u.tau": [20, 0.5]}),
@@ -60,12 +60,12 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
     "a duration between steps": (
         lambda m: dd.simulate(m, 5.5),
         TimeError,
-        ("the duration of 5.5 is not a multiple of dt = 1", "Take 5 or 6"),
+        ("the duration of 5.5 is not a multiple of dt = 1", "Use 5 or 6"),
     ),
     "a duration below 0": (
         lambda m: dd.simulate(m, -5),
         TimeError,
-        ("the duration is -5; it is a number, 0 or above",),
+        ("the duration is -5; expected a number, 0 or above",),
     ),
     "a duration of nan": (lambda m: dd.simulate(m, NAN), TimeError, ("the duration is nan",)),
     "a duration for ever": (lambda m: dd.simulate(m, INF), TimeError, ("the duration is inf",)),
@@ -79,9 +79,9 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
     "every between steps": (
         lambda m: dd.simulate(m, 5, every=1.5),
         TimeError,
-        ("every of 1.5 is not a multiple of dt = 1", "Take 1 or 2"),
+        ("every of 1.5 is not a multiple of dt = 1", "Use 1 or 2"),
     ),
-    "every 0": (lambda m: dd.simulate(m, 5, every=0), TimeError, ("every is 0; it is at least one step",)),
+    "every 0": (lambda m: dd.simulate(m, 5, every=0), TimeError, ("every is 0; expected at least one step",)),
     "every below 0": (lambda m: dd.simulate(m, 5, every=-1), TimeError, ("every is -1",)),
     "seed below 0": (lambda m: dd.simulate(m, 5, seed=-1), ParameterError, ("from 0 to 2^32 - 1, not -1",)),
     "seed too large": (
@@ -95,23 +95,27 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
     "precision": (
         lambda m: dd.simulate(m, 5, precision="float16"),
         ParameterError,
-        ("precision is 'float16'; it is float32 or float64",),
+        ("precision is 'float16'; expected float32 or float64",),
     ),
     "precision, live": (lambda m: dd.Session(m, precision="double"), ParameterError, ("float32 or float64",)),
     "trials 0": (
         lambda m: dd.simulate(m, 5, trials=0),
         ParameterError,
-        ("trials is 0; it is a number of trials, at least 1",),
+        ("trials is 0; expected a number of trials, at least 1",),
     ),
     "trials below 0": (lambda m: dd.simulate(m, 5, trials=-3), ParameterError, ("trials is -3",)),
     "trials true": (lambda m: dd.simulate(m, 5, trials=True), ParameterError, ("trials is True",)),
     "trials half": (lambda m: dd.simulate(m, 5, trials=2.5), ParameterError, ("trials is 2.5",)),
     "trials in words": (lambda m: dd.simulate(m, 5, trials="ten"), ParameterError, ("trials is 'ten'",)),
-    "trials of nothing": (lambda m: dd.simulate(m, 5, trials=[]), ParameterError, ("there is at least one",)),
+    "trials of nothing": (
+        lambda m: dd.simulate(m, 5, trials=[]),
+        ParameterError,
+        ("expected at least one trial",),
+    ),
     "a trial twice": (
         lambda m: dd.simulate(m, 5, trials=[1, 1]),
         ParameterError,
-        ("each trial is named once",),
+        ("each named once",),
     ),
     "a trial below 0": (lambda m: dd.simulate(m, 5, trials=[-1]), ParameterError, ("not -1",)),
     "trials beyond numbers": (
@@ -348,7 +352,7 @@ def test_what_does_not_fit_into_memory_is_refused_before_it_is_asked_for(name: s
         "this run needs about",
         "GiB",
         "most of it is u",
-        "Take fewer samples, fewer trials, or a larger `every`",
+        "Use fewer samples, fewer trials, or a larger `every`",
     )
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 400_000, (
         "nothing large was allocated (kilobytes)"
@@ -416,7 +420,7 @@ def test_a_step_of_a_slow_part_counts_whole() -> None:
         lambda: dd.simulate(model, 8, dt=2),
         TimeError,
         "u: the step of 8 ms is longer than the time constant tau = 5",
-        "Take dt <= 1.25",
+        "Use dt <= 1.25",
     )
 
 

@@ -33,12 +33,12 @@ def test_one_problem_is_no_list() -> None:
     ("name", "known", "hint"),
     [
         ("restng_level", ["tau", "resting_level"], "Did you mean 'resting_level'?"),
-        ("zzz", ["tau", "noise"], "There is: noise, tau"),
+        ("zzz", ["tau", "noise"], "Valid names: noise, tau"),
         ("zzz", [], ""),
         (
             "zzz",
             [f"name{i:02}" for i in range(30)],
-            "There is: " + ", ".join(f"name{i:02}" for i in range(12)) + ", ...",
+            "Valid names: " + ", ".join(f"name{i:02}" for i in range(12)) + ", ...",
         ),
     ],
 )

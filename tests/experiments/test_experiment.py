@@ -361,7 +361,7 @@ def test_very_many_steps_in_total_are_announced(monkeypatch):
         ({"conditions": [Appears("a", "v")]}, "conditions.a", "nothing is called 'v'"),
         ({"conditions": [Appears("a", "u", near=300, radius=2)]}, "conditions.a", "no sample lies within 2"),
         ({"conditions": [All("a", ["b"])]}, "a", "no event 'b'"),
-        ({"conditions": [All("a", ["b"]), All("b", ["a"])]}, "a", "is made of itself"),
+        ({"conditions": [All("a", ["b"]), All("b", ["a"])]}, "a", "depends on itself"),
         ({"conditions": [Reached("a", 500)]}, "conditions.a", "can never hold"),
         ({"measures": [Measure("m", "u.activation", when="nothing")]}, "m", "no event 'nothing'"),
         ({"actions": [Set(5, "u.tua", 3)]}, "actions.0", "has no parameter 'tua'"),
@@ -413,7 +413,7 @@ def test_all_problems_of_a_file_are_told_at_once(tmp_path):
     with pytest.raises(DocumentError, match="another version"):
         Experiment.load(file)
     file.write_text("{}")
-    with pytest.raises(DocumentError, match="is no experiment"):
+    with pytest.raises(DocumentError, match="is not an experiment"):
         Experiment.load(file)
     file.write_text(json.dumps({"experiment": 1, "name": "e", "model": "m.json"}))
     with pytest.raises(DocumentError, match="an Experiment needs 'limit'"):

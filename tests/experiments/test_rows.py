@@ -120,7 +120,7 @@ def test_what_holds_no_rows_is_refused_and_left_alone(tmp_path, text):
 
 
 def test_a_folder_that_is_not_there_is_named(tmp_path):
-    with pytest.raises(OutputError, match="there is no folder"):
+    with pytest.raises(OutputError, match=r"the folder .* does not exist"):
         Rows(tmp_path / "none" / "runs.jsonl", ABOUT)
 
 

@@ -132,7 +132,7 @@ def test_what_cannot_be_is_refused():
         run_trial(decider(), 10, actions=[Remove(3, "box")])
     with pytest.raises(ParameterError, match="name of two events"):
         run_trial(straight(), 10, room(), events=[GOAL, GOAL])
-    with pytest.raises(ParameterError, match="reduce: is 'uper'; it is one of max"):
+    with pytest.raises(ParameterError, match="reduce: is 'uper'; expected one of max"):
         Crosses("late", "u.activation", reduce="uper")
     with pytest.raises(ParameterError, match="sampled over axes that a model states"):
         run_trial(straight(), 10, room(), watch=["above"])

@@ -81,7 +81,7 @@ def test_the_threshold_is_always_part_of_the_colours() -> None:
 @pytest.mark.parametrize(
     ("kind", "options", "says"),
     [
-        (time_course, {"where": {"s.amplitude": 5.0}}, "There is: 4, 8"),
+        (time_course, {"where": {"s.amplitude": 5.0}}, "Valid values: 4, 8"),
         (time_course, {"places": [1000.0]}, "outside"),
         (snapshot, {"at": [999.0]}, "999"),
         (projection, {"axes": ["q"]}, "q"),

@@ -52,7 +52,7 @@ def test_a_new_event_is_read_written_and_in_the_schema(monkeypatch: pytest.Monke
     @events.EVENTS.register
     @dataclass(frozen=True)
     class Rings(events.Event):
-        name: Annotated[str, Recompile(meaning="what rows call it")]
+        name: Annotated[str, Recompile(meaning="name in the rows")]
 
     data = to_data(Rings("bell"))
     read = from_data(data, "conditions.bell", KINDS["conditions"], {"name": "bell"}, [])

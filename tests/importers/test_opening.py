@@ -28,7 +28,7 @@ def test_our_own_documents_need_no_importer(tmp_path):
     dd.save(model, tmp_path / "own.json")
     assert tool_of(tmp_path / "own.json") is None
     assert dd.load(tmp_path / "own.json").document == model.document
-    with pytest.raises(DocumentError, match=r"own\.json: is of no tool.*There is: cosivina"):
+    with pytest.raises(DocumentError, match=r"own\.json: is not a file of a tool.*Tools: cosivina"):
         read(tmp_path / "own.json")
 
 

@@ -181,8 +181,8 @@ def test_parts_of_one_element_are_given_to_another(model: dd.Model, u: Handle) -
         (lambda u: u.kernel.append(dd.Gaussian()), UnknownName, r"Write: u.kernel = \[\*u.kernel, part\]"),
         (lambda u: setattr(u.kernel, "sigma", 3), UnknownName, r"Write: u.kernel\[0\].sigma"),
         (lambda u: u.kernel.sigma, UnknownName, r"Write: u.kernel\[0\].sigma"),
-        (lambda u: delattr(u, "tau"), ParameterError, "cannot be taken away"),
-        (lambda u: delattr(u.kernel[0], "sigma"), ParameterError, "cannot be taken away"),
+        (lambda u: delattr(u, "tau"), ParameterError, "cannot be deleted"),
+        (lambda u: delattr(u.kernel[0], "sigma"), ParameterError, "cannot be deleted"),
     ],
 )
 def test_an_assignment_is_checked_like_any_change(

@@ -158,7 +158,7 @@ def test_a_template_that_lost_what_others_need_is_refused() -> None:
     changed.remove("b")
     before = model.document
     with pytest.raises(
-        ModelError, match=r"left\.b\.output -> out\.input: the template 'switch' has no 'b' any more"
+        ModelError, match=r"left\.b\.output -> out\.input: the template 'switch' no longer has 'b'"
     ) as caught:
         model.refresh(changed)
     assert len(caught.value.problems) >= 1 and model.document == before

@@ -47,7 +47,7 @@ BROKEN = [
         KIND.format(name="Even") + "Odd = Even",
         "Odd",
         (),
-        "names misnaming:Odd as 'Odd', which is no class of that name",
+        "names misnaming:Odd as 'Odd', which is not a class of that name",
     ),
 ]
 
@@ -215,7 +215,7 @@ def test_a_package_for_another_version_is_a_line_of_doctor_for_each_group(
         (
             "measures",
             MEASURE.format(name="Even") + "Odd = Even",
-            "names odd:Odd as 'Odd', which is no class of that name",
+            "names odd:Odd as 'Odd', which is not a class of that name",
         ),
         ("measures", "class Odd: pass", "names odd:Odd as 'Odd', which does not derive from dd.BaseMeasure"),
         ("figures", "ACROSS = True\ndef size(view): return 3, 2", "has no fill, paint"),

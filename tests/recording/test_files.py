@@ -140,7 +140,7 @@ def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Pat
         with pytest.raises(dd.errors.OutputExists):
             files.save_record(small, tmp_path / name, force=True)
     assert (tmp_path / "thesis.zarr" / "chapter.txt").read_text() == "do not lose me"
-    with pytest.raises(dd.errors.OutputError, match="no folder"):
+    with pytest.raises(dd.errors.OutputError, match="does not exist"):
         files.save_record(small, tmp_path / "missing" / "record.nc")
     with pytest.raises(dd.errors.RecordError, match="names no format"):
         files.save_record(small, tmp_path / "record.xyz")

@@ -168,7 +168,7 @@ def test_refused_values_change_nothing_and_say_where(root: Path) -> None:
         refused = await p.ask("set", element=u, parameter="kernel", value=[{"kind": "Gausian"}])
         assert "Gaussian" in refused["problems"][0]["fix"]
         refused = await p.ask("set", element=u, parameter="axes", value=["z"])
-        assert "There are: x" in refused["problems"][0]["fix"]
+        assert "Axes of the document: x" in refused["problems"][0]["fix"]
         assert p.document["elements"][0]["values"]["tau"] == 20 and p.document["undo"] == 0
 
     with studio(root, root / "selection.json") as address:

@@ -127,13 +127,13 @@ def test_a_list_of_kernels_keeps_its_arrays() -> None:
     ("parameter", "value", "says"),
     [
         ("kernel", 3, "needs a list"),
-        ("kernel", [{"kind": "Logistic"}], "cannot stand here"),
+        ("kernel", [{"kind": "Logistic"}], "got a Logistic"),
         ("kernel", [{"kind": "Gaussian", "sigma": -1}], "below"),
         ("axes", "x", "not among"),
         ("axes", [1], "not among"),
         ("sigmoid", {"kind": 4}, "kind"),
         ("nonsense", 1, "no parameter"),
-        ("resting_level.x", 1, "inside"),
+        ("resting_level.x", 1, "the value before 'x' has no parts"),
     ],
 )
 def test_wrong_values_say_what_is_wrong(parameter: str, value: Any, says: str) -> None:

@@ -153,7 +153,7 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
         await one.do("watch_world", on=True)
         assert one.said["scene"] == {"type": "scene", "scene": None}
         (problem,) = (await one.ask("move_thing", name="crate", x=1, y=1))["problems"]
-        assert "no world that is seen from above" in problem["what"] and "--world" in problem["fix"]
+        assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]
 
     with studio(root) as address:
         play(address, story)

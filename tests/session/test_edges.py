@@ -58,7 +58,7 @@ def test_a_snapshot_taken_with_noise_in_the_program_that_is_off_again() -> None:
 @pytest.mark.parametrize("wrong", [None, 3, {}])
 def test_what_is_no_snapshot(wrong: object) -> None:
     s = dd.Session(two())
-    with pytest.raises(dd.errors.ParameterError, match="no snapshot"):
+    with pytest.raises(dd.errors.ParameterError, match="expected a snapshot"):
         s.restore(wrong)  # type: ignore[arg-type]
 
 

@@ -91,7 +91,7 @@ def test_without_a_world_from_above_there_is_nothing_to_move() -> None:
     model.add(dd.Field("u", []))
     session = dd.Session(model)
     assert session.scene() is None
-    with pytest.raises(WorldError, match=r"no world that is seen from above.*--world arena:blocks"):
+    with pytest.raises(WorldError, match=r"no world with a view from above.*--world arena:blocks"):
         session.move("crate", (1, 1))
 
 

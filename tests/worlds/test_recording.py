@@ -101,12 +101,12 @@ def test_trials_read_their_own() -> None:
     x = Recording.example_axes("light")
     example.reset(0, [5, 0, 5])
     assert example.sense("light", x, 8.0)[:, 0].tolist() == [110, 10, 110]
-    with pytest.raises(WorldError, match=r"holds no trial 3\. There is: 0, 5"):
+    with pytest.raises(WorldError, match=r"holds no trial 3\. Valid trials: 0, 5"):
         example.reset(0, [3])
 
 
 def test_what_cannot_be_replayed(run: Any) -> None:
-    with pytest.raises(WorldError, match="ends at 640 ms, and the run goes on to 704 ms"):
+    with pytest.raises(WorldError, match="ends at 640 ms, and the run continues to 704 ms"):
         dd.simulate(
             driving(), 1280, record=["u.activation"], world=Recording(run.isel(time=slice(None, None, 4)))
         )
@@ -114,11 +114,12 @@ def test_what_cannot_be_replayed(run: Any) -> None:
         Recording(run[["u.activation"]].assign_attrs(run.attrs))
     with pytest.raises(WorldError, match="does not say what made it"):
         Recording(run[["eyes.output"]].assign_attrs({}).drop_attrs())
-    with pytest.raises(WorldError, match="is no record"):
+    with pytest.raises(WorldError, match="is not a record"):
         Recording(run["eyes.output"])
     model = dd.Model("other")
     model.add(Sensor("eye", Picture.example_axes("picture"), "picture"))
     with pytest.raises(
-        WorldError, match=r"no sensor 'picture'\. It has: infrared|no sensor 'picture'\. There is: infrared"
+        WorldError,
+        match=r"no sensor 'picture'\. It has: infrared|no sensor 'picture'\. Valid names: infrared",
     ):
         dd.Session(model, world=Recording(run))

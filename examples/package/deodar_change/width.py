@@ -17,13 +17,13 @@ class Width(dd.BaseMeasure):
     Attributes:
         name: name of its column in the results.
         of: path of a field.
-        when: the event at whose time it is taken; empty: when the trial ends.
+        when: the event at which it is measured; empty: when the trial ends.
         threshold: samples above it count.
     """
 
     name: Annotated[str, dd.Recompile(meaning="name of its column in the results")]
     of: Annotated[str, dd.Recompile(meaning="path of a field")]
-    when: Annotated[str, dd.Recompile(meaning="the event at whose time it is taken; empty: at the end")] = ""
+    when: Annotated[str, dd.Recompile(meaning="event at which it is measured; empty: at the end")] = ""
     threshold: Annotated[float, dd.Recompile("activation", meaning="samples above it count")] = 0.0
 
     def value(self, samples: np.ndarray, axes: dd.Axes | None) -> float | None:

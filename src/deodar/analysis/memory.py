@@ -57,7 +57,7 @@ def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: fl
         raise AnalysisError(
             f"an input of {amplitude:g} makes no peak",
             where=isolated.path,
-            fix="Take one above the detection threshold",
+            fix="Use one above the detection threshold",
         )
     isolated.put(input=0.0)
     settled = isolated.settle(limit=limit)

@@ -41,7 +41,7 @@ class Grid:
         """Return the free cell nearest to a position."""
         if not self.free.any():
             raise AnalysisError(
-                "there is no free cell on the grid", fix="Take less clearance, or a finer grid"
+                "there is no free cell on the grid", fix="Use less clearance, or a finer grid"
             )
         far = (self.x[:, None] - place[0]) ** 2 + (self.y[None, :] - place[1]) ** 2
         i, j = np.unravel_index(int(np.argmin(np.where(self.free, far, np.inf))), self.free.shape)

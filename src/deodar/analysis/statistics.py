@@ -31,7 +31,7 @@ def wilson(hits: float, n: int) -> Interval | None:
         Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
     """
     if not 0 <= hits <= n:
-        raise AnalysisError(f"{hits:g} of {n} is no share")
+        raise AnalysisError(f"{hits:g} of {n} is not a share")
     if n == 0:
         return None
     z = float(stats.norm.ppf(0.5 + LEVEL / 2))
@@ -74,7 +74,7 @@ def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | N
     if min(a.size, b.size) < 6:
         return None
     if paired and a.size != b.size:
-        raise AnalysisError(f"paired values are as many on both sides, not {a.size} and {b.size}")
+        raise AnalysisError(f"paired values need the same number on both sides, not {a.size} and {b.size}")
     draw = np.random.default_rng(0)
     of_a = draw.integers(a.size, size=(2000, a.size))
     of_b = of_a if paired else draw.integers(b.size, size=(2000, b.size))

@@ -70,7 +70,7 @@ def compute(
     steps = whole(request.duration, step, "the duration")
     gap = 1 if request.every is None else whole(request.every, step, "every")
     if request.every is not None and gap == 0:
-        raise TimeError("every is 0; it is at least one step")
+        raise TimeError("every is 0; expected at least one step")
     names, numbers = _trials(request.trials)
     points = Points(doc, sweep or {})
     for document in points.documents():
@@ -243,7 +243,7 @@ def require_workers(workers: Any) -> int:
     """Return the number of workers; raise if it is not a positive whole number."""
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
         raise ParameterError(
-            f"workers is {show(workers)}; it is a number of processes, at least 1",
+            f"workers is {show(workers)}; expected a number of processes, at least 1",
             fix="One for each core is best",
         )
     return int(workers)
@@ -278,7 +278,7 @@ def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str,
         fields = [(e.id, "activation") for e in doc.entries if isinstance(e.element, Field)]
         if not fields:
             raise ParameterError(
-                "the model has no field, so it must be said what to record",
+                "the model has no field, so the ports to record must be named",
                 fix="For example record=['left.output']",
             )
         return fields
@@ -314,9 +314,9 @@ def _trials(trials: int | Sequence[int] | None) -> tuple[Sequence[int] | None, S
         return range(int(trials)), range(int(trials))  # not a list: memory is checked later
     if isinstance(trials, (str, bool, int, np.integer)) or not np.iterable(trials):
         raise ParameterError(
-            f"trials is {show(trials)}; it is a number of trials, at least 1, or a list of trial numbers"
+            f"trials is {show(trials)}; expected a number of trials, at least 1, or a list of trial numbers"
         )
     numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
-        raise ParameterError(f"trials is {show(trials)}; each trial is named once, and there is at least one")
+        raise ParameterError(f"trials is {show(trials)}; expected at least one trial, each named once")
     return numbers, numbers

@@ -93,6 +93,6 @@ def _pickled(what: Any, name: str) -> bytes:
         return pickle.dumps(what)
     except Exception as error:  # a class may raise any exception
         raise WorkerError(
-            f"{name} cannot be handed to other processes ({type(error).__name__}: {error})",
+            f"{name} cannot be sent to other processes ({type(error).__name__}: {error})",
             fix="Run without workers",
         ) from None

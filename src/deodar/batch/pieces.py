@@ -106,7 +106,9 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
     if batch is not None and (
         isinstance(batch, bool) or not isinstance(batch, (int, np.integer)) or batch < 1
     ):
-        raise ParameterError(f"batch is {show(batch)}; it is a number of copies that run at once, at least 1")
+        raise ParameterError(
+            f"batch is {show(batch)}; expected a number of copies that run at once, at least 1"
+        )
     dimension = max(lengths, key=lambda name: lengths[name], default="")
     total = lengths.get(dimension, 1)
     rest = math.prod(lengths.values()) // total

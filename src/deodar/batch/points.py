@@ -81,5 +81,5 @@ def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequen
                 f"the value {declared.neutral:g} switches it off, which is another program and not the limit"
                 " of small values",
                 where=f"sweep of {path}",
-                fix="Run that value on its own",
+                fix="Run that value separately",
             )

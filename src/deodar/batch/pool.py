@@ -92,8 +92,8 @@ class Pool:
                 good, result = pickle.loads(pipe.recv_bytes())
             except (EOFError, OSError):
                 raise WorkerError(
-                    "a worker process has died; the system may have ended it because memory ran out",
-                    fix="Take fewer workers, or a smaller batch",
+                    "a worker process ended unexpectedly; the system may have stopped it for lack of memory",
+                    fix="Use fewer workers, or a smaller batch",
                 ) from None
             if not good:
                 raise result

@@ -93,7 +93,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         )
     except MemoryError:
         print(
-            f"deodar {args.command}: there is not enough memory for this. Take fewer samples or fewer trials",
+            f"deodar {args.command}: there is not enough memory for this. Use fewer samples or fewer trials",
             file=sys.stderr,
         )
     return 1

@@ -23,7 +23,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--live",
         action="store_true",
-        help="pace the run to the clock on the wall and print how well it kept to it; writes no record",
+        help="pace the run to the wall clock and print how well it kept to it; writes no record",
     )
     parser.add_argument(
         "--speed",
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
     if given:
         args.wrong(
             f"--{'live' if args.live else 'cost'} writes no record, so {_flags(given)} cannot be given; leave"
-            " the one or the other out"
+            " out one of them"
         )
     if not args.live:
         refuse_alone(args)

@@ -42,15 +42,15 @@ def confirm(
     if steps < LONG_STEPS:
         return
     says = f"{what} take about {duration(seconds())} on this machine"
-    fix = "Take a larger dt, a shorter time or fewer trials; --yes begins without asking"
+    fix = "Use a larger dt, a shorter time or fewer trials; --yes begins without asking"
     print(f"deodar {command}: {says}", file=sys.stderr)
     if args.yes:
         return
     if not sys.stdin.isatty() or not sys.stderr.isatty():
-        raise TimeError(f"{says}, and nobody can be asked whether that is meant", fix=fix)
+        raise TimeError(f"{says}, and without a terminal deodar cannot ask for confirmation", fix=fix)
     print("Begin? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
-        raise TimeError("not begun", fix=fix)
+        raise TimeError("the run was not confirmed", fix=fix)
 
 
 def seconds_a_step(run: Callable[[int], object]) -> float:

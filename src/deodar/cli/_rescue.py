@@ -39,7 +39,9 @@ def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Pa
             return write(folder)
         except DeodarError as again:
             tried.append(again)
-    lost = Problem("", "no place could take the result, so that it is lost", "Make room and run it again")
+    lost = Problem(
+        "", "the result could not be written anywhere, so it is lost", "Make room and run it again"
+    )
     raise OutputError([*(p for e in tried for p in e.problems), lost]) from None
 
 

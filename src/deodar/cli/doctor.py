@@ -14,9 +14,7 @@ from deodar import __version__, codec
 from deodar.cli import _sbom
 from deodar.errors import DocumentError
 
-HELP = (
-    "tell what is installed, which devices there are, where compiled programs are kept, and what is missing"
-)
+HELP = "list installed packages, devices, the cache of compiled programs, and what is missing"
 
 EXTRAS = {"docs": "zensical", "test": "pytest", "vision": "opencv-python-headless"}
 """For each extra a package whose presence shows that the extra is installed."""
@@ -36,7 +34,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--plans",
         action="store_true",
-        help="measure every way of convolving beside what it should cost (about a minute)",
+        help="measure every convolution strategy and compare it with its estimated cost (about a minute)",
     )
 
 
@@ -79,7 +77,7 @@ def _plans(as_json: bool) -> int:
         "predicted us",
         "measured us",
         "",
-        title="One step of the convolution; * is what is taken",
+        title="One step of the convolution; * marks the chosen strategy",
     )
     for m in found:
         table.add_row(
@@ -94,8 +92,8 @@ def _plans(as_json: bool) -> int:
     lost = [m.measured_us / min(o.measured_us for o in found if o.case == m.case) for m in found if m.chosen]
     right = sum(ratio <= 1.25 for ratio in lost)
     print(
-        f"What is taken is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst it"
-        f" takes {max(lost):.2f} times as long"
+        f"The chosen strategy is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst"
+        f" it takes {max(lost):.2f} times as long"
     )
     return 0
 
@@ -229,7 +227,7 @@ def _page(found: dict[str, Any]) -> str:
     if programs["folder"] is None:
         lines.append("programs   compiled programs are not kept (DEODAR_CACHE=off)")
     else:
-        state = "" if programs["writable"] else ", which cannot be written to: every start compiles anew"
+        state = "" if programs["writable"] else ", which cannot be written to: every start compiles again"
         lines.append(
             f"programs   {programs['count']} compiled programs, {programs['mib']} MiB, in"
             f" {programs['folder']}{state}"

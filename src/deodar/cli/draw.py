@@ -31,7 +31,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="draw N levels of groups open, each group below as one box (default: all)",
     )
-    parser.add_argument("--no-legend", action="store_true", help="leave out the line that explains the marks")
+    parser.add_argument("--no-legend", action="store_true", help="omit the legend")
     _options.add_force(parser)
     _options.add_json(parser)
 

@@ -61,7 +61,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     _long.add_yes(parser)
     _options.add_world(parser)
     parser.add_argument(
-        "--check", action="store_true", help="only say whether it could be run, and in which pieces"
+        "--check", action="store_true", help="only check whether it can be run, and in which batches"
     )
     _options.add_json(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
@@ -101,7 +101,7 @@ def run(args: argparse.Namespace) -> int:
         again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
         why = f"{stop}" if isinstance(stop, OutputError) else "stopped"
         print(
-            f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Go on with:"
+            f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Resume with:"
             f" {' '.join(again)}",
             file=sys.stderr,
         )

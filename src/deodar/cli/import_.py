@@ -37,7 +37,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--strict",
         action="store_true",
-        help="fail, and write nothing, if anything is not carried as it stands",
+        help="fail, and write nothing, if anything is approximated or dropped",
     )
     _options.add_json(parser)
     _options.add_force(parser)

@@ -10,7 +10,7 @@ from deodar.cli import _options
 from deodar.errors import DocumentError
 from deodar.model.output import claim
 
-HELP = "make one file of a document and its arrays, or take such a file apart"
+HELP = "pack a document and its arrays into one file, or unpack such a file"
 EPILOG = """\
 A package is a zip file with the document and its arrays. Every command that takes a document takes it as
 it is, and dd.load does; any zip tool unpacks it."""

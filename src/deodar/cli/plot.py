@@ -71,7 +71,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--gif",
         type=Path,
         metavar="FILE",
-        help="also write a film of one variable that is a path (x and y over time), in its arena",
+        help="also write a video of one variable that is a path (x and y over time), in its arena",
     )
     parser.add_argument(
         "--out",
@@ -140,7 +140,7 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
 
     if len(views) != 1:
         raise RecordError(
-            f"a film shows one variable, not {len(views)}",
+            f"a video shows one variable, not {len(views)}",
             where="--gif",
             fix="Name the one that holds x and y, for example pose.output",
         )

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from deodar.experiments.rows import Rows
     from deodar.papers._report import Report
 
-HELP = "run the experiments of a paper again, and check what it says"
+HELP = "run the experiments of a paper again, and check its claims"
 EPILOG = """\
-What is done is kept after each run: Ctrl-C, or a machine that goes down, loses nothing. The same call with
---out FOLDER goes on, with the same results as if nothing had happened. A folder that has only some of the
-conditions is extended by the others."""
+Results are written after each run: Ctrl-C or a power failure loses none. The same call with --out FOLDER
+resumes, with the same results as without the stop. A folder that has only some of the conditions is extended
+by the others."""
 
 ROWS = "runs.jsonl"
 RESULTS = "results.json"
@@ -47,14 +47,14 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         default=[],
         metavar="CONDITION",
-        help="only conditions whose names begin so, for example z/carrot",
+        help="only conditions whose names begin with this, for example z/carrot",
     )
     parser.add_argument(
         "--out",
         "-o",
         type=Path,
         metavar="DIR",
-        help="folder to write, or to go on with (default: PAPER-001, PAPER-002, ... here)",
+        help="folder to write, or to resume (default: PAPER-001, PAPER-002, ... here)",
     )
     parser.add_argument(
         "--workers",
@@ -83,13 +83,13 @@ def run(args: argparse.Namespace) -> int:
             carry_out(jobs, rows, bar.show, args.workers or None)
     except KeyboardInterrupt:
         print(
-            f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Go on with: {_again(args, out)}",
+            f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",
             file=sys.stderr,
         )
         return 1
     except OutputError as error:
         why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
-        print(f"deodar reproduce: {why} Go on with: {_again(args, out)}", file=sys.stderr)
+        print(f"deodar reproduce: {why} Resume with: {_again(args, out)}", file=sys.stderr)
         return 1
     settings = {
         "paper": args.paper,

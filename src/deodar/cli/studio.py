@@ -12,7 +12,7 @@ EPILOG = """\
 Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder
 (without FILE: below the working folder), and listens on this machine only; with --host it can be reached
 from others. The page needs the token in the printed address, also on this machine, which other users may
-share. A restart at the same port keeps the token; beyond this machine each start has another."""
+share. A restart at the same port keeps the token; with --host each start has a new one."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +37,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-token",
         action="store_true",
-        help="let everybody use the studio who can connect: every user of this machine, at least",
+        help="allow everyone who can connect to use the studio: at least every user of this machine",
     )
     _options.add_world(parser)
     _options.add_cores(parser)
@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     # an example is opened as a copy without a file
     root = Path.cwd() if file is None or examples.holds(file) else file.resolve().parent
     if not root.is_dir():
-        args.wrong(f"there is no folder {root}")
+        args.wrong(f"the folder {root} does not exist")
     if file is not None:
         opening.require(file)
     # start-up time: these bring JAX

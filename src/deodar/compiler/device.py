@@ -51,7 +51,7 @@ def find(name: str | None = None) -> Device:
     index = int(number) if number.isdecimal() else -1 if colon else 0
     if not 0 <= index < len(devices):
         raise DeviceError(
-            f"there is no device {wanted!r} here; there is: {', '.join(names())}",
+            f"this computer has no device {wanted!r}; valid names: {', '.join(names())}",
             fix="" if _of("gpu") else INSTALL,
         )
     return devices[index]

@@ -449,9 +449,9 @@ def executable(
     """
     batch, doc, place = batch or Batch(), doc or model.document, devices.find(device)
     if precision not in PRECISIONS:
-        raise ParameterError(f"precision is {precision!r}; it is float32 or float64")
+        raise ParameterError(f"precision is {precision!r}; expected float32 or float64")
     if accuracy not in ACCURACIES:
-        raise ParameterError(f"accuracy is {accuracy!r}; it is default or exact")
+        raise ParameterError(f"accuracy is {accuracy!r}; expected default or exact")
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
     lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)

@@ -105,5 +105,5 @@ def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None
         raise ParameterError(
             f"is {value:g}, beyond what {precision} can hold",
             where=f"{entry.path if entry else leaf[0]}.{leaf[1]}",
-            fix="Take precision='float64'",
+            fix="Use precision='float64'",
         )

@@ -59,7 +59,7 @@ class AdaptiveWeights(Coupling):
     rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.1
     initial: Annotated[float, Live(meaning="all weights at the start")] = 0.0
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
-    apart: Annotated[bool, Recompile(meaning="whether learning looks at a port of its own")] = False
+    apart: Annotated[bool, Recompile(meaning="whether learning reads a port of its own")] = False
     start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, source samples first")] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")

@@ -38,7 +38,7 @@ class Delay(Element):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the register")] = ()
-    initial: Annotated[float, Live(meaning="what it shows in the first step")] = 0.0
+    initial: Annotated[float, Live(meaning="output in the first step")] = 0.0
 
     stateful: ClassVar[bool] = True
 

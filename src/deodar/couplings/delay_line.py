@@ -54,8 +54,8 @@ class DelayLine(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
     delay: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="how long")] = 100.0
-    slots: Annotated[int, Recompile(lower=1, upper=100_000, meaning="how many moments it keeps")] = 100
-    initial: Annotated[float, Live(meaning="what it shows before anything has arrived")] = 0.0
+    slots: Annotated[int, Recompile(lower=1, upper=100_000, meaning="number of stored moments")] = 100
+    initial: Annotated[float, Live(meaning="output before anything has arrived")] = 0.0
 
     stateful: ClassVar[bool] = True
 

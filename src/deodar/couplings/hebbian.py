@@ -92,7 +92,7 @@ class Hebbian(Coupling):
         float, Live("1/time", role="rate", lower=0, meaning="speed at which weights in use fade")
     ] = 0.0
     saturation: Annotated[float, Live(lower=0, meaning="upper bound of weights that change; 0: none")] = 0.0
-    threshold: Annotated[float, Live(lower=0, meaning="what input and post must exceed to count")] = 0.5
+    threshold: Annotated[float, Live(lower=0, meaning="value that input and post must exceed to count")] = 0.5
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
     initial: Annotated[float, Live(meaning="weights at the start, or the largest of them")] = 0.0
     random: Annotated[bool, Recompile(meaning="whether weights at the start are random")] = False

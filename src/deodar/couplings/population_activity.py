@@ -68,7 +68,7 @@ class PopulationActivity(Coupling):
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
-            yield "axes", "is empty; neurons are tuned to something"
+            yield "axes", "is empty; tuning needs at least one axis"
         given = self.tuning.shape if isinstance(self.tuning, FrozenArray) else ()
         if given[1:] != shape(self.axes) or not given:
             yield (

@@ -89,7 +89,7 @@ class Project(Coupling):
                     f" alone, and is uniform along {', '.join(here)}"
                 ),
                 (
-                    "Rename the axis that is meant (rename={...}), or take Weights; for one number for all"
+                    "Rename the axis that is meant (rename={...}), or use Weights; for one number for all"
                     " places write Project([])"
                 ),
             )

@@ -55,7 +55,7 @@ class RateCode(Coupling):
         1416-1419.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = needed("[x]")
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the peak")] = needed("[x]")
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the output")] = 1.0
     offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an output of 0")] = 0.0
     least: Annotated[
@@ -67,9 +67,9 @@ class RateCode(Coupling):
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
-            yield "axes", "is empty; a peak needs somewhere to stand"
+            yield "axes", "is empty; a peak needs at least one axis"
         if 0.0 in (self.gain if isinstance(self.gain, tuple) else (self.gain,)):
-            yield "gain", "is 0: then every number has the same place, and no place tells which"
+            yield "gain", "is 0: then every number has the same position, so a position encodes none"
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)

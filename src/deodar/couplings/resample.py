@@ -39,7 +39,7 @@ class Resample(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.3.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="the grid wanted")] = ()
+    axes: Annotated[Sequence[Axis], Recompile(meaning="the new grid")] = ()
     interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS, meaning="between samples")] = (
         "linear"
     )
@@ -67,14 +67,14 @@ class Resample(Coupling):
                 yield (
                     (
                         f"the axis {a.name!r} is in {a.unit!r} at the source and in {b.unit!r} here, and"
-                        " numbers are taken as they are, not converted"
+                        " values are not converted"
                     ),
                     "Give both axes one unit",
                 )
             if not a.periodic and (b.lower > a.upper or b.upper < a.lower):
                 what = (
                     f"its axis {b.name!r} ({b.lower:g}..{b.upper:g}) and the source's"
-                    f" ({a.lower:g}..{a.upper:g}) share nothing, so it gives 0"
+                    f" ({a.lower:g}..{a.upper:g}) do not overlap, so its output is 0"
                 )
                 yield what, "Give both axes bounds that overlap"
 

@@ -53,7 +53,7 @@ class RewardGate(Coupling):
         after a reward that is shorter.
     """
 
-    threshold: Annotated[float, Live(lower=0, meaning="what the reward must exceed")] = 0.5
+    threshold: Annotated[float, Live(lower=0, meaning="value that the reward must exceed")] = 0.5
     duration: Annotated[
         float,
         Live(

@@ -50,7 +50,7 @@ class Shift(Coupling):
                     f"its amount {float(amount):g} is longer than the axis {a.name!r} ({a.range:g}), so"
                     " everything is shifted out and it gives 0"
                 )
-                yield what, f"Take an amount below {a.range:g}, or a periodic axis"
+                yield what, f"Use an amount below {a.range:g}, or a periodic axis"
 
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]

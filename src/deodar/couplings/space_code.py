@@ -52,7 +52,7 @@ class SpaceCode(Coupling):
         code); Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), figure 4 (place and head direction).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where the peak stands")] = needed("[x]")
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the peak")] = needed("[x]")
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
     gain: Annotated[PerAxis, Live(meaning="axis units per unit of the input")] = 1.0
@@ -80,7 +80,7 @@ class SpaceCode(Coupling):
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
-            yield "axes", "is empty; a peak needs somewhere to stand"
+            yield "axes", "is empty; a peak needs at least one axis"
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
@@ -93,7 +93,7 @@ class SpaceCode(Coupling):
             takes = "one number" if wanted == 1 else f"one axis with {wanted} samples"
             yield (
                 f"takes {takes}, one for each of its axes; its input has {list(arriving)} samples",
-                "Give it what it takes",
+                "Connect an input of that shape",
             )
 
     def output(

@@ -46,8 +46,8 @@ class SteeredShift(Coupling):
     """
 
     along: Annotated[Sequence[str], Recompile(meaning="names of the axes along which it shifts")] = ("x",)
-    gain: Annotated[float, Live(meaning="axis units per unit of what steers")] = 1.0
-    offset: Annotated[float, Live("axis", meaning="how far it shifts where what steers is 0")] = 0.0
+    gain: Annotated[float, Live(meaning="axis units per unit of the steering input")] = 1.0
+    offset: Annotated[float, Live("axis", meaning="shift where the steering input is 0")] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "by")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "by")}
@@ -56,7 +56,7 @@ class SteeredShift(Coupling):
         if not self.along:
             yield "along", "is empty; name at least one axis of the input"
         if len(set(self.along)) < len(self.along):
-            yield "along", f"holds a name twice: {', '.join(self.along)}"
+            yield "along", f"contains a name twice: {', '.join(self.along)}"
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "by" and len(self.along) == 1 else arriving
@@ -66,14 +66,14 @@ class SteeredShift(Coupling):
         for name in self.along:
             if name not in known:
                 yield (
-                    f"shifts along {name!r}, which is no axis of its input",
+                    f"shifts along {name!r}, and its input has no such axis",
                     did_you_mean(name, known) or "Give it an input that has this axis",
                 )
         if len(self.along) > 1 and arriving != (len(self.along),):
             takes = f"one axis with {len(self.along)} samples, one for each of {', '.join(self.along)}"
             yield (
-                f"takes at its port `by` {takes}; what comes has {list(arriving)} samples",
-                "Give it that, or put one SteeredShift behind the other",
+                f"takes {takes} at its port `by`; its input has {list(arriving)} samples",
+                "Connect such an input, or use several SteeredShifts in series",
             )
 
     def output(

@@ -88,9 +88,9 @@ class Stimulus(Element):
                 yield (
                     (
                         f"its center {c:g} lies outside the axis {axis.name!r}"
-                        f" ({axis.lower:g}..{axis.upper:g}), so nothing of it arrives"
+                        f" ({axis.lower:g}..{axis.upper:g}), so its output is nearly 0"
                     ),
-                    f"Take a center between {axis.lower:g} and {axis.upper:g}; it is in units of the axis",
+                    f"Use a center between {axis.lower:g} and {axis.upper:g}; it is in units of the axis",
                 )
             elif s < (0.5 if width == "sigma" else 1) * axis.step:
                 yield (
@@ -98,7 +98,7 @@ class Stimulus(Element):
                         f"its {width} {s:g} is smaller than the step {axis.step:g} of the axis {axis.name!r}:"
                         " how strong it is depends on where it lies"
                     ),
-                    f"Take a {width} of {axis.step:g} or more, or more samples",
+                    f"Use a {width} of {axis.step:g} or more, or more samples",
                 )
             elif width == "sigma" and s > axis.range:
                 yield (
@@ -106,7 +106,7 @@ class Stimulus(Element):
                         f"its sigma {s:g} is larger than the axis {axis.name!r} ({axis.range:g}), so it is"
                         " nearly the same everywhere"
                     ),
-                    f"Take a sigma far below {axis.range:g}, or a Boost",
+                    f"Use a sigma far below {axis.range:g}, or a Boost",
                 )
 
     def steady(self) -> bool:

@@ -123,9 +123,9 @@ class Field(Element):
                 yield (
                     (
                         f"its noise_length {float(length):g} is below the step {axis.step:g} of the axis"
-                        f" {axis.name!r}: the noise is white all the same"
+                        f" {axis.name!r}: the noise is white"
                     ),
-                    f"Take {axis.step:g} or more, or 0 for white noise",
+                    f"Use {axis.step:g} or more, or 0 for white noise",
                 )
             elif float(length) > axis.range:
                 yield (
@@ -133,7 +133,7 @@ class Field(Element):
                         f"its noise_length {float(length):g} is longer than the axis {axis.name!r}"
                         f" ({axis.range:g}): the noise is the same everywhere"
                     ),
-                    f"Take a length far below {axis.range:g}",
+                    f"Use a length far below {axis.range:g}",
                 )
 
     def bounds(

@@ -55,7 +55,7 @@ class Function(Element):
     )
     ports_in: Annotated[Sequence[str], Recompile(meaning="names of the input ports")] = ("input",)
     initial: Annotated[float, Live(meaning="state at the start")] = 0.0
-    values: Annotated[Mapping[str, float], Live(meaning="numbers handed to the function")] = ()  # type: ignore[assignment]
+    values: Annotated[Mapping[str, float], Live(meaning="numbers passed to the function")] = ()  # type: ignore[assignment]
 
     stateful: ClassVar[bool] = True
 
@@ -65,14 +65,14 @@ class Function(Element):
             if not name.isidentifier() or name == "output":
                 yield (
                     "ports_in",
-                    f"holds {name!r}; ports are called like variables of Python, and not 'output'",
+                    f"contains {name!r}; the name of a port is a Python identifier other than 'output'",
                 )
         if len(set(names)) < len(names):
-            yield "ports_in", f"holds a name twice: {', '.join(names)}"
+            yield "ports_in", f"contains a name twice: {', '.join(names)}"
         values: Any = self.values
         for name, _ in values:
             if not name.isidentifier():
-                yield "values", f"holds {name!r}; the function takes them by keyword"
+                yield "values", f"contains {name!r}, which cannot be the name of a keyword argument"
 
     def ports(self) -> tuple[str, ...]:
         return tuple(self.ports_in)
@@ -133,5 +133,5 @@ class Function(Element):
                 fix="It is written module:name, and the module must be importable",
             ) from error
         if not callable(found):
-            raise ModelError(f"{self.function!r} is {show(found)}, which is no function", where=self.name)
+            raise ModelError(f"{self.function!r} is {show(found)}, which is not a function", where=self.name)
         return found

@@ -47,15 +47,13 @@ class History(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
-    slots: Annotated[Axis, Recompile(meaning="the moments that are kept")] = needed("slot")
+    slots: Annotated[Axis, Recompile(meaning="axis of the stored moments")] = needed("slot")
     interval: Annotated[
         float,
-        Live(
-            "time", role="duration", exact=True, lower=1e-6, meaning="time between two moments that are kept"
-        ),
+        Live("time", role="duration", exact=True, lower=1e-6, meaning="time between two stored moments"),
     ] = 1.0
     empty: Annotated[
-        str, Recompile(choices=EMPTY, meaning="what slots show that no moment has reached yet")
+        str, Recompile(choices=EMPTY, meaning="output of slots that no moment has reached yet")
     ] = "zero"
 
     stateful: ClassVar[bool] = True

@@ -58,12 +58,14 @@ class MovingGaussian(Stimulus):
     center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without waypoints")] = 0.0
     sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
     amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
-    velocity: Annotated[PerAxis, Live("axis/time", role="speed", exact=True, meaning="how fast it moves")] = (
-        0.0
-    )
+    velocity: Annotated[
+        PerAxis, Live("axis/time", role="speed", exact=True, meaning="speed of the motion")
+    ] = 0.0
     waypoints: Annotated[
         ArrayLike | None,
-        Rebuild("axis", exact=True, meaning="moments and the places at them; none: it follows no waypoints"),
+        Rebuild(
+            "axis", exact=True, meaning="times and the positions at them; none: it moves with its velocity"
+        ),
     ] = None
 
     def polarity(self) -> Sign:

@@ -38,7 +38,7 @@ class Placeholder(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of its ports")] = ()
-    missing: Annotated[str, Recompile(meaning="what should stand here")] = ""
+    missing: Annotated[str, Recompile(meaning="name of the missing element")] = ""
 
     # stateful with a constant state, so that it may close a loop, as the missing element might
     stateful: ClassVar[bool] = True

@@ -53,7 +53,7 @@ class SampledHistory(Element):
     times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray(
         [1.0, 5.0, 10.0]
     )
-    empty: Annotated[str, Recompile(choices=EMPTY, meaning="what slots show before their moment")] = "zero"
+    empty: Annotated[str, Recompile(choices=EMPTY, meaning="output of slots before their moment")] = "zero"
 
     stateful: ClassVar[bool] = True
 

@@ -70,7 +70,7 @@ class SoftWinnerTakeAll(Element):
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where the units stand")] = ()
+    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the units")] = ()
     tau: Annotated[
         float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the excitatory units")
     ] = 20.0

@@ -75,9 +75,7 @@ class TimeSeries(Stimulus):
         ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")
     ] = FrozenArray([[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]])
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
-    interpolation: Annotated[str, Recompile(choices=WAYS, meaning="what stands between two moments")] = (
-        "linear"
-    )
+    interpolation: Annotated[str, Recompile(choices=WAYS, meaning="values between two moments")] = "linear"
     period: Annotated[
         float,
         Live(
@@ -87,7 +85,7 @@ class TimeSeries(Stimulus):
             lower=0,
             neutral=0.0,
             off=True,
-            meaning="when it begins again; 0: never",
+            meaning="period of repetition; 0: none",
         ),
     ] = 0.0
 

@@ -19,7 +19,7 @@ AT = Recompile(
     "time",
     role="moment",
     lower=0.0,
-    meaning="document time at which it is done; with `when` the time after that event",
+    meaning="document time of the action; with `when` the time after that event",
 )
 WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own")
 
@@ -158,7 +158,7 @@ class Set(Action):
 
     at: Annotated[float, AT]
     path: Annotated[str, Recompile(meaning="the parameter")]
-    value: Annotated[object, Recompile(meaning="what the parameter takes")]
+    value: Annotated[object, Recompile(meaning="new value of the parameter")]
     when: Annotated[str, WHEN] = ""
 
     def paths(self) -> Iterator[str]:
@@ -221,7 +221,7 @@ class Push(Action):
 
     at: Annotated[float, AT]
     element: Annotated[str, Recompile(meaning="path of the field or node")]
-    amount: Annotated[float, Recompile("activation", meaning="what is added to its input")]
+    amount: Annotated[float, Recompile("activation", meaning="value added to its input")]
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="for how long")]
     when: Annotated[str, WHEN] = ""
 
@@ -248,7 +248,7 @@ class Record(Action):
     """
 
     at: Annotated[float, AT]
-    on: Annotated[bool, Recompile(meaning="whether what is recorded is kept from then on")] = True
+    on: Annotated[bool, Recompile(meaning="whether recording is on from then on")] = True
     when: Annotated[str, WHEN] = ""
 
     def apply(self, running: RunningTrial) -> None:
@@ -268,7 +268,7 @@ class Snapshot(Action):
     """
 
     at: Annotated[float, AT]
-    label: Annotated[str, Recompile(meaning="what the record calls it")]
+    label: Annotated[str, Recompile(meaning="name in the record")]
     of: Annotated[Sequence[str], Recompile(meaning="paths of the ports")]
     when: Annotated[str, WHEN] = ""
 
@@ -317,12 +317,12 @@ class End(Action):
     """
 
     at: Annotated[float, AT]
-    outcome: Annotated[str, Recompile(meaning="what the row says")]
+    outcome: Annotated[str, Recompile(meaning="outcome in the row")]
     when: Annotated[str, WHEN] = ""
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.outcome:
-            yield "outcome", "is empty, which is what a trial that runs has"
+            yield "outcome", "is empty, which is the outcome of a trial that has not ended"
 
     def apply(self, running: RunningTrial) -> None:
         running.outcome = self.outcome
@@ -367,6 +367,6 @@ def changed(action: Action, world: World | None) -> World:
             kind = type(world).__name__
             raise WorldError(
                 f"the action {name} {what.format(method)}, which the world {kind} does not have",
-                fix="Take a world that has it, such as dd.Arena",
+                fix="Use a world that has it, such as dd.Arena",
             )
     return world

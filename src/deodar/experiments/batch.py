@@ -101,10 +101,10 @@ def run_batch(
     step = doc.step if dt is None else dt
     steps, gap = whole(limit, step, "the limit"), 1 if every is None else whole(every, step, "every")
     if gap == 0:
-        raise TimeError("every is 0; it is at least one step")
+        raise TimeError("every is 0; expected at least one step")
     numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
-        raise ParameterError(f"trials are numbers, each of them once, not {list(trials)}")
+        raise ParameterError(f"expected trial numbers, each of them once, not {list(trials)}")
     observed = Observations(events, measures, len(numbers))
     views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
     watched = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
@@ -116,7 +116,7 @@ def run_batch(
     if world is not None and values:
         raise WorldError(
             "trials in a world have the same parameters in one batch",
-            fix="Run those of each value on their own",
+            fix="Run the trials of each value separately",
         )
     read, at = with_readers(doc, views)
     places = {view: at.get(view) or _place(doc, view) for view in views}

@@ -87,7 +87,7 @@ def _times(
         if at - t0 > limit:
             raise ParameterError(
                 f"{what}: it is due at {at:g}, and a trial ends after {limit:g} at the latest",
-                fix="Take a longer limit",
+                fix="Use a longer limit",
             )
 
     attempt("limit", lambda: whole(limit, dt, "the limit"))
@@ -113,7 +113,7 @@ def _times(
 
 def _positive(steps: int) -> None:
     if steps == 0:
-        raise ParameterError("is 0; it is at least one step")
+        raise ParameterError("is 0; expected at least one step")
 
 
 def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
@@ -147,7 +147,7 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
     if world is not None and view.of in world.sensors:
         if view.near or view.reduce == PLACE:
             raise ParameterError(
-                f"{view.of} is a sensor of the world, whose samples have no places",
+                f"{view.of} is a sensor of the world, whose samples have no positions",
                 fix="Name the port of a Sensor that reads it",
             )
         return
@@ -155,7 +155,7 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
     axes = next(n for n in resolve(model.document)[0] if n.id == entry.id).axes(port)
     mask(axes, view.near, view.radius)
     if view.reduce == PLACE and not axes:
-        raise ParameterError(f"{view.of} is one number, which stands nowhere", fix="Take reduce='max'")
+        raise ParameterError(f"{view.of} is one number and has no position", fix="Use reduce='max'")
     sigmoid = getattr(entry.element, "sigmoid", None)
     if (
         view.reduce == PLACE

@@ -43,29 +43,27 @@ OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 class Design(Part):
     """An experiment as data; `Experiment` documents its parameters and runs it."""
 
-    name: Annotated[str, Recompile(meaning="what it is called")]
+    name: Annotated[str, Recompile(meaning="name of the experiment")]
     model: Annotated[object, Recompile(meaning="the model, or the path of its document")]
     limit: Annotated[
-        float, Recompile("time", role="duration", lower=0.0, meaning="after which a trial ends at the latest")
+        float, Recompile("time", role="duration", lower=0.0, meaning="longest duration of a trial")
     ]
     trials: Annotated[int, Recompile(lower=1, meaning="of each combination of levels")] = 1
-    conditions: Annotated[Sequence[Event], Recompile(meaning="what may happen")] = ()
-    actions: Annotated[Sequence[Action], Recompile(meaning="what is done to each trial, and when")] = ()
-    factors: Annotated[Sequence[Factor], Recompile(meaning="what trials differ in")] = ()
-    measures: Annotated[Sequence[BaseMeasure], Recompile(meaning="what is measured of each trial")] = ()
+    conditions: Annotated[Sequence[Event], Recompile(meaning="events to detect")] = ()
+    actions: Annotated[Sequence[Action], Recompile(meaning="changes during each trial, and when")] = ()
+    factors: Annotated[Sequence[Factor], Recompile(meaning="what differs between trials")] = ()
+    measures: Annotated[Sequence[BaseMeasure], Recompile(meaning="measurements of each trial")] = ()
     design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(
         default="crossed", kw_only=True
     )
-    seed: Annotated[
-        int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise, and of what is drawn")
-    ] = dc.field(default=0, kw_only=True)
-    every: Annotated[
-        float | None, Recompile("time", role="duration", meaning="between looks; none: each step")
-    ] = dc.field(default=None, kw_only=True)
-    record: Annotated[Sequence[str], Recompile(meaning="ports of which a record is kept")] = dc.field(
-        default=(), kw_only=True
+    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise and random draws")] = (
+        dc.field(default=0, kw_only=True)
     )
-    world: Annotated[object, Recompile(meaning="what sensors read and motors move")] = dc.field(
+    every: Annotated[
+        float | None, Recompile("time", role="duration", meaning="time between samples; none: each step")
+    ] = dc.field(default=None, kw_only=True)
+    record: Annotated[Sequence[str], Recompile(meaning="recorded ports")] = dc.field(default=(), kw_only=True)
+    world: Annotated[object, Recompile(meaning="world that sensors read and motors move")] = dc.field(
         default=None, kw_only=True
     )
     dt: Annotated[
@@ -93,7 +91,7 @@ class Design(Part):
                     if names.count(name) > 1
                     else "is a column of every table"
                     if name
-                    else "is no name"
+                    else "is not a name"
                 )
                 yield "conditions, factors and measures", f"{name!r} {what}; give each a name of its own"
 
@@ -136,7 +134,7 @@ class Design(Part):
             DocumentError: the data do not describe an experiment; every problem is listed.
         """
         if not isinstance(data, dict) or "experiment" not in data:
-            raise DocumentError("is no experiment: it has no key 'experiment'")
+            raise DocumentError("is not an experiment: it has no key 'experiment'")
         given = _migrated(cast("dict[str, Any]", data), folder, read)
         if given.pop("experiment") != VERSION:
             what = f"is an experiment of another version; this deodar reads versions 1 to {VERSION}"

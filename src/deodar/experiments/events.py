@@ -88,11 +88,13 @@ class Crosses(Event):
         ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     of: Annotated[str, Recompile(meaning="path of the port, or name of a sensor of the world")]
     level: Annotated[float, Recompile(meaning="the value")] = 0.0
-    side: Annotated[str, Recompile(choices=tuple(COMPARES), meaning="on which side of the value")] = "above"
-    reduce: Annotated[str, Recompile(choices=tuple(REDUCES), meaning="what is compared of an array")] = "max"
+    side: Annotated[str, Recompile(choices=tuple(COMPARES), meaning="side of the value")] = "above"
+    reduce: Annotated[
+        str, Recompile(choices=tuple(REDUCES), meaning="number that an array is reduced to")
+    ] = "max"
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
@@ -115,7 +117,7 @@ class Reached(Event):
         ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     at: Annotated[float, Recompile("time", role="moment", lower=0.0, meaning="the document time")]
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
@@ -138,12 +140,12 @@ class Appears(Event):
         ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     field: Annotated[str, Recompile(meaning="path of the field")]
     threshold: Annotated[float, Recompile("activation", meaning="of the activation")] = 0.0
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: anywhere")] = None
     radius: Annotated[
-        float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")
+        float, Recompile("axis", lower=0.0, meaning="radius around that place, along every axis")
     ] = 0.0
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
@@ -161,7 +163,7 @@ class Appears(Event):
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
-            yield "radius", "is 0, and a place alone holds no sample; say how far around it"
+            yield "radius", "is 0, and a place alone contains no sample; state a radius"
 
     def holds(self, looks: Looks) -> np.ndarray:
         return looks.seen[self.views[0]] > self.threshold
@@ -203,7 +205,7 @@ class Within(Event):
         ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
     of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
     goal: Annotated[str, Recompile(meaning="sensor or port whose first two values are the goal")] = "goal"
@@ -232,7 +234,7 @@ class Leaves(Event):
         ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
     of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
@@ -259,7 +261,7 @@ class All(Event):
         ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     of: Annotated[Sequence[str], Recompile(meaning="names of other events")]
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
@@ -270,7 +272,7 @@ class All(Event):
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.of:
-            yield "of", "names no events, so there is nothing that could hold"
+            yield "of", "names no events"
 
     def holds(self, looks: Looks) -> np.ndarray:
         return np.logical_and.reduce([looks.holds[name] for name in self.of])

@@ -29,7 +29,7 @@ class Factor(Part):
             name parameters themselves.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     levels: Annotated[
         object,
         Recompile(meaning="values of one parameter, or for each level its name and the values of parameters"),

@@ -66,13 +66,15 @@ class Measure(BaseMeasure):
         threshold: samples above it belong to the peak, for `place`; 0 fits an activation, 0.5 an output.
     """
 
-    name: Annotated[str, Recompile(meaning="what rows call it")]
+    name: Annotated[str, Recompile(meaning="name in the rows")]
     of: Annotated[str, Recompile(meaning="path of a port, or name of a sensor of the world")]
-    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of an array")] = "max"
-    when: Annotated[str, Recompile(meaning="the event at whose time it is taken; empty: at the end")] = ""
+    reduce: Annotated[
+        str, Recompile(choices=(*REDUCES, PLACE), meaning="number that an array is reduced to")
+    ] = "max"
+    when: Annotated[str, Recompile(meaning="event at which it is measured; empty: at the end")] = ""
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: all samples")] = None
     radius: Annotated[
-        float, Recompile("axis", lower=0.0, meaning="how far around that place, along every axis")
+        float, Recompile("axis", lower=0.0, meaning="radius around that place, along every axis")
     ] = 0.0
     threshold: Annotated[
         float, Recompile("activation", meaning="samples above it belong to the peak, for place")
@@ -92,7 +94,7 @@ class Measure(BaseMeasure):
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
-            yield "radius", "is 0, and a place alone holds no sample; say how far around it"
+            yield "radius", "is 0, and a place alone contains no sample; state a radius"
         if self.reduce != PLACE and self.threshold:
             yield "threshold", f"is {self.threshold:g}, and only reduce='place' has a threshold"
 
@@ -109,7 +111,7 @@ def _problem(plugin: Plugin, found: object) -> str:
     """Return the problem of an object that a package names as a measure."""
     named = f"names {plugin.entry.value} as {plugin.name!r}, which "
     if not isinstance(found, type) or found.__name__ != plugin.name:
-        return f"{named}is no class of that name"
+        return f"{named}is not a class of that name"
     return "" if issubclass(found, BaseMeasure) else f"{named}does not derive from dd.BaseMeasure"
 
 

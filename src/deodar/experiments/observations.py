@@ -177,7 +177,7 @@ def _order(events: Sequence[Event]) -> list[int]:
         ready = [e for e in left if all(other in done for other in e.others)]
         if not ready:
             raise ParameterError(
-                "is made of itself, so it could never be judged",
+                "depends on itself",
                 where=left[0].name,
                 fix="Leave its own name out of those it names",
             )

@@ -33,7 +33,7 @@ class PackedExperiment:
         Raises:
             WorkerError: a part of it cannot be sent to another process.
         """
-        plain = setup.experiment.to_data() | {"model": "as handed over"}
+        plain = setup.experiment.to_data() | {"model": "packed"}
         return cls(codec.line(plain), packed.PackedModel.of(setup.model, setup.world))
 
     def open(self) -> Setup:

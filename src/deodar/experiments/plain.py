@@ -124,5 +124,5 @@ def _plain(value: Any, where: str) -> Any:
     raise ParameterError(
         f"{show(value)} cannot be written in a file",
         where=where,
-        fix="Take a number, text, true or false, or a list of these",
+        fix="Use a number, text, true or false, or a list of these",
     )

@@ -95,9 +95,9 @@ class Rows:
                 number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)
             ):
                 raise RecordError(
-                    f"line {number} is no row",
+                    f"line {number} is not a row",
                     where=str(self.path),
-                    fix="Take that line out, and the trial is run again",
+                    fix="Remove that line; the trial is then run again",
                 )
             lines.append(found)
         if whole < len(content):

@@ -87,7 +87,7 @@ def run_trial(
         1 if every is None else whole(every, session.dt, "every"),
     )
     if gap == 0:
-        raise TimeError("every is 0; it is at least one step")
+        raise TimeError("every is 0; expected at least one step")
     running = RunningTrial(session, pushes, any(isinstance(a, Reset) for a in actions))
     running.recording = not any(isinstance(a, Record) and a.on for a in actions)
     waiting = _schedule(running, actions)
@@ -155,7 +155,7 @@ def _require_events(actions: Sequence[Action], names: Sequence[str], model: Mode
         targets(action, model.document)
         if action.when and action.when not in names:
             raise UnknownName(
-                f"an action waits for the event {action.when!r}, which is not there",
+                f"an action waits for the event {action.when!r}, which the experiment does not have",
                 fix=did_you_mean(action.when, names),
             )
 

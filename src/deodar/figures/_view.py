@@ -60,7 +60,7 @@ class View:
             numbers = v[TRIAL].values.tolist() if TRIAL in v.dims else [0]
             if self.trial not in numbers:
                 shown = f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"{numbers[0]} only"
-                raise RecordError(f"has no trial {self.trial}", where=self.name, fix=f"There is: {shown}")
+                raise RecordError(f"has no trial {self.trial}", where=self.name, fix=f"Valid trials: {shown}")
         for axis in self.axes or ():
             if axis not in self.space:
                 raise RecordError(
@@ -138,7 +138,7 @@ class View:
                 raise RecordError(
                     f"was not run at {path} = {value:g}",
                     where=self.name,
-                    fix=f"There is: {', '.join(f'{k:g}' for k in known[:12])}",
+                    fix=f"Valid values: {', '.join(f'{k:g}' for k in known[:12])}",
                 )
             v = v.sel({path: value}, method="nearest")
         return v

@@ -100,8 +100,8 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         tool = tool_of(path)
         if tool is None:
             raise DocumentError(
-                "is of no tool that can be imported",
-                fix=f"There is: {', '.join(tools())}. Our own documents need no import",
+                "is not a file of a tool that deodar imports",
+                fix=f"Tools: {', '.join(tools())}. Documents of deodar need no import",
             )
         size = path.stat().st_size
         if size > MOST_BYTES:

@@ -79,7 +79,7 @@ class ImportReport:
         """
         out = [f"Imported from {self.file} ({self.tool}): {self.summary()}."]
         if self.losses:
-            out += ["", "Not carried as it stands:", *(f"- {line}" for line in self.losses)]
+            out += ["", "Not carried exactly:", *(f"- {line}" for line in self.losses)]
         if self.bugs:
             out += ["", f"Known errors of {self.tool} met:", *(f"- {bug}" for bug in self.bugs)]
         elements = [line for line in self.lines if line.part == "element"]

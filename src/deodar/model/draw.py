@@ -34,7 +34,7 @@ def draw(model: Model, legend: bool = True, depth: int | None = None) -> Diagram
         raise ModelError(f"expected a Model, got {show(model)}", fix="Give a model: dd.draw(model)")
     if depth is not None and depth < 0:
         raise ModelError(
-            f"depth is {show(depth)}; it counts levels of groups, from 0",
+            f"expected depth as a number of group levels, 0 or more, got {show(depth)}",
             fix="Write depth=0 to draw every group as one box",
         )
     return Diagram(model.document, legend, depth)

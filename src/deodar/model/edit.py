@@ -57,7 +57,7 @@ def add_all(
     for element, group, every in elements:
         if not isinstance(element, Element):
             raise ModelError(
-                f"{element!r} is no element",
+                f"{element!r} is not an element",
                 fix="Add a field, a stimulus or a coupling: model.add(dd.Field('u', [x]))",
             )
         require_ticks(every, element.name)
@@ -216,7 +216,7 @@ def connect(
         raise ModelError(f"{target.path} has no input port", where=f"{source.path} -> {target.path}")
     source_port, target_port = source_port or outs[0], target_port or ins[0]
     if source_port not in outs:
-        what = "is an input port" if source_port in source.element.ports() else "is not there"
+        what = "is an input port" if source_port in source.element.ports() else "does not exist"
         raise UnknownName(
             f"the output port {source_port!r} of {source.path} {what}", fix=did_you_mean(source_port, outs)
         )
@@ -226,7 +226,7 @@ def connect(
         )
     if reads not in READS:
         raise ParameterError(
-            f"reads is {reads!r}; it is one of previous, current, delayed",
+            f"reads is {reads!r}; expected previous, current or delayed",
             where=f"{source.path} -> {target.path}",
         )
     new = Connection(source.id, source_port, target.id, target_port, reads)
@@ -310,7 +310,7 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
         given = {path: value}
     for key in given:
         if not isinstance(key, str):
-            raise ParameterError(f"{show(key)} is no path", fix="Write it as text: 'u.tau'")
+            raise ParameterError(f"expected a path, got {show(key)}", fix="Write it as text: 'u.tau'")
     return {key: given[key].__value__() if isinstance(given[key], Reference) else given[key] for key in given}
 
 
@@ -337,7 +337,8 @@ def knob(doc: Document, name: str, value: float) -> Document:
         ):
             what = "an element" if name == path else f"a parameter of {path}"
             raise ModelError(
-                f"a document parameter cannot be called {name!r}: {what} is", fix="Give it another name"
+                f"a document parameter cannot be called {name!r}: {what} has this name",
+                fix="Give it another name",
             )
     links = next((k.links for k in doc.knobs if k.name == name), ())
     for ident, leaf in links:
@@ -360,7 +361,7 @@ def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
         names = [k.name for k in doc.knobs]
         raise UnknownName(
             f"there is no document parameter {name!r}",
-            fix=did_you_mean(name, names) or "Make it: model.parameter(name, value)",
+            fix=did_you_mean(name, names) or "Create it: model.parameter(name, value)",
         )
     find.number(doc, ident, leaf)
     if (ident, leaf) in doc.links():
@@ -391,14 +392,14 @@ def describe(doc: Document, **values: Any) -> Document:
     if not isinstance(unit, str) or not TIME_UNIT.match(unit):
         raise ParameterError(
             f"time_unit is {show(unit)}",
-            fix="Write us, ms, s, min, abstract, or for steps of your own: '1 = 64 ms'",
+            fix="Write us, ms, s, min, abstract, or for a custom unit: '1 = 64 ms'",
         )
     dt = values.get("dt", doc.dt)
     if dt is not None and not 0 < (real(dt) or 0) < math.inf:
-        raise ParameterError(f"dt is {show(dt)}; it is a number above 0")
+        raise ParameterError(f"dt is {show(dt)}; expected a number above 0")
     t0 = real(values.get("t0", 0.0))
     if t0 is None or not math.isfinite(t0):
-        raise ParameterError(f"t0 is {show(values['t0'])}; it is a finite number")
+        raise ParameterError(f"t0 is {show(values['t0'])}; expected a finite number")
     for key in ("dt", "t0"):
         if values.get(key) is not None:
             values[key] = real(values[key])
@@ -511,7 +512,7 @@ def _vacant(
     for k in range(1, len(names)):
         if names[:k] in taken:
             raise ModelError(
-                f"{display(names[:k])!r} is an element, so nothing can stand inside it as in a group"
+                f"{display(names[:k])!r} is an element, not a group, so it cannot contain elements"
             )
     if doc.knobs and display(names) in [k.name for k in doc.knobs]:
         raise ModelError(
@@ -536,7 +537,7 @@ def require_ticks(every: Any, where: str) -> None:
     """Raise unless `every` is a valid step of an element in ticks."""
     if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= MOST_TICKS:
         raise ParameterError(
-            f"the step is {show(every)} ticks; it is a whole number, 1 to {MOST_TICKS}", where=where
+            f"the step is {show(every)} ticks; expected a whole number from 1 to {MOST_TICKS}", where=where
         )
 
 

@@ -103,7 +103,7 @@ class Handle:
         self.model.commit(edit.put(self.model.document, self.id, name, value))
 
     def __delattr__(self, name: str) -> None:
-        raise ParameterError(f"{name} cannot be taken away from an element", fix="Assign another value")
+        raise ParameterError(f"{name} cannot be deleted from an element", fix="Assign another value")
 
     def _require(self, entry: Entry, name: str) -> None:
         known = [p.name for p in parameters(type(entry.element))]

@@ -26,5 +26,5 @@ def too_long(where: str, element: Element, dt: float, every: int, unit: str) -> 
             yield Problem(
                 where,
                 what,
-                f"Take dt <= {limit.longest / every:g}, better a tenth of it, or a {other} {limit.path}",
+                f"Use dt <= {limit.longest / every:g}, better a tenth of it, or a {other} {limit.path}",
             )

@@ -366,7 +366,7 @@ def path_of(what: Any) -> str:
         return f"{what.path}.{quote(what.port)}" if what.port else what.path
     if not isinstance(what, str):
         raise ParameterError(
-            f"{show(what)} is no path",
+            f"{show(what)} is not a path",
             fix="Write it as text: 'u.activation'; or take a handle: u['activation']",
         )
     return what

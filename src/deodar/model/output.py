@@ -56,7 +56,7 @@ def claim(path: str | Path, force: bool = False) -> Path:
             )
     parent = path.parent
     if not parent.is_dir():
-        raise OutputError(f"there is no folder {str(parent)!r} to write into", where=str(path))
+        raise OutputError(f"the folder {str(parent)!r} does not exist", where=str(path))
     if not os.access(parent, os.W_OK):
         raise OutputError(f"the folder {str(parent)!r} cannot be written to", where=str(path))
     return path

@@ -56,7 +56,7 @@ class PartHandle(Reference):
         self._model.commit(edit.put(self._model.document, self._id, f"{self._leaf}.{name}", value))
 
     def __delattr__(self, name: str) -> None:
-        raise ParameterError(f"{name} cannot be taken away from a part", fix="Assign another value")
+        raise ParameterError(f"{name} cannot be deleted from a part", fix="Assign another value")
 
     def _require(self, part: Part, name: str) -> None:
         if name not in _names(part):

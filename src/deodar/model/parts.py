@@ -126,15 +126,13 @@ def _from_json(
         cls = registry.kind(data["kind"])
     except UnknownName as error:
         own = (
-            "If it is one of your own, import its module first (on the command line: deodar --import MODULE"
+            "For a kind of your own, import its module first (on the command line: deodar --import MODULE"
             " ...)"
         )
         problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
         return None
     if not issubclass(cls, base):
-        problems.append(
-            Problem(where, f"{an(cls.__name__)} cannot stand here, where {an(base.__name__)} belongs")
-        )
+        problems.append(Problem(where, f"expected {an(base.__name__)}, got {an(cls.__name__)}"))
         return None
     known = {p.name: p for p in parameters(cls)}
     values: dict[str, Any] = dict(given)
@@ -190,7 +188,7 @@ def _value(
                     Problem(
                         where,
                         f"{show(value)} is not among the document's axes",
-                        f"There are: {', '.join(axes) or 'none'}",
+                        f"Axes of the document: {', '.join(axes) or 'none'}",
                     )
                 )
                 return None
@@ -283,7 +281,7 @@ def value_from_json(
             raise ParameterError(
                 f"{show(data)} is not among the document's axes",
                 where=where,
-                fix=f"There are: {', '.join(axes) or 'none'}",
+                fix=f"Axes of the document: {', '.join(axes) or 'none'}",
             )
         value = [axes[k] for k in keys] if p.form == "axes" else axes[keys[0]]
     elif p.form == "parts" and whole:

@@ -43,9 +43,7 @@ def split(path: str) -> PathNames:
             except ValueError:
                 raise UnknownName(f"the path {path!r} opens a quotation mark and never closes it") from None
             if end < len(path) and path[end] != ".":
-                raise UnknownName(
-                    f"in the path {path!r} something stands between a quoted name and the next dot"
-                )
+                raise UnknownName(f"the path {path!r} has text between a quoted name and the next dot")
         else:
             end = path.find(".", at)
             end = len(path) if end < 0 else end

@@ -61,7 +61,7 @@ class _Reader:
         self.data = migrate(self.data)
         for key in self.data:
             if key not in KEYS:
-                self.problem(key, "is no key of a document", did_you_mean(key, KEYS))
+                self.problem(key, "is not a key of a document", did_you_mean(key, KEYS))
         if "elements" not in self.data:
             self.problem("elements", "is missing", 'A document without elements holds "elements": {}')
         doc = self.general(Document(self.text("name", "model"), foreign=True))
@@ -205,7 +205,7 @@ class _Reader:
                 or len(ident) != 8
                 or any(c not in "0123456789abcdef" for c in ident)
             ):
-                self.problem(f"{where}.id", f"is {show(ident)}; it is eight hexadecimal digits")
+                self.problem(f"{where}.id", f"is {show(ident)}; expected eight hexadecimal digits")
                 continue
             if ident in ids:
                 self.problem(f"{where}.id", f"{ident} belongs to another element too")
@@ -223,10 +223,10 @@ class _Reader:
             if len(paths) < len(entries)
             else ()
         ):
-            self.problem(f"elements.{e.path}", "stands there twice, written in two ways")
+            self.problem(f"elements.{e.path}", "occurs twice, in two spellings")
         for e in entries:
             if any(e.names[:k] in paths for k in range(1, len(e.names))) or any(not n for n in e.names):
-                self.problem(f"elements.{e.path}", "cannot stand inside an element as in a group")
+                self.problem(f"elements.{e.path}", "lies inside an element; only groups contain elements")
         return dc.replace(doc, entries=tuple(entries), groups=_groups(e.group for e in entries))
 
     def groups(self, doc: Document) -> Document:
@@ -321,7 +321,7 @@ def _connected(doc: Document, row: Mapping[str, str]) -> Document:
     target, target_port = find.port(doc, row["target"], "")
     reads = row.get("reads", "")
     if reads not in READS:
-        raise DocumentError(f"reads is {show(reads)}; it is one of previous, current, delayed")
+        raise DocumentError(f"reads is {show(reads)}; expected previous, current or delayed")
     return edit.connect(doc, source, source_port, target, target_port, reads)
 
 

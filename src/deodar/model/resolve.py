@@ -238,7 +238,7 @@ class _Resolver:
             self.problem(
                 node.id,
                 f"{source.path} has no output port {c.source_port!r}",
-                f"There is: {', '.join(source.outs)}",
+                f"Output ports: {', '.join(source.outs)}",
             )
             return None
         if c.reads == "delayed":

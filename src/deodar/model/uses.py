@@ -112,7 +112,7 @@ def _require_ends(doc: Document, use: Use, template: Document) -> None:
                     problems.append(
                         Problem(
                             show(c),
-                            f"the template {use.template!r} has no {display(missing)!r} any more",
+                            f"the template {use.template!r} no longer has {display(missing)!r}",
                             "Disconnect them first",
                         )
                     )

@@ -84,8 +84,8 @@ class Axis:
             problems.append(Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}"))
         elif farthest > FARTHEST or self.range < max(farthest, 1 / FARTHEST) * FINEST:
             what = (
-                f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not tell its places"
-                " apart"
+                f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not distinguish"
+                " its samples"
             )
             problems.append(Problem(where, what, "Choose another unit, or an origin nearer to the values"))
         if isinstance(self.samples, bool) or not isinstance(self.samples, (int, np.integer)):
@@ -93,7 +93,7 @@ class Axis:
         elif not (1 if self.periodic else 2) <= self.samples <= MOST_SAMPLES:
             least = "1" if self.periodic else "2"
             problems.append(
-                Problem(where, f"samples is {show(self.samples)}; it is {least} to {MOST_SAMPLES}")
+                Problem(where, f"samples is {show(self.samples)}; expected {least} to {MOST_SAMPLES}")
             )
         else:
             object.__setattr__(self, "samples", int(self.samples))

@@ -41,7 +41,7 @@ class Window(Part):
         FOR_EVER
     )
 
-    short: ClassVar[str] = "a pair stands for it: windows=[(100, 400)]"
+    short: ClassVar[str] = "also written as a pair: windows=[(100, 400)]"
 
     @classmethod
     def accept(cls, value: Any) -> Any:

@@ -89,7 +89,7 @@ def claim(path: Path, format: str, force: bool = False) -> None:
             output.claim(table.beside(path), force)
         return
     if force and path.is_dir() and not path.is_symlink() and not is_zarr(path):
-        raise OutputExists("exists and is no record", where=str(path), fix="Choose another name")
+        raise OutputExists("exists and is not a record", where=str(path), fix="Choose another name")
     places.claim_folder(path, force)
 
 
@@ -115,7 +115,9 @@ def load_record(path: str | Path) -> xarray.Dataset:
             f"cannot be read as a record, it may be damaged ({type(error).__name__}: {text})", where=str(path)
         ) from None
     if KEY not in data.attrs and portable.KEY not in data.attrs:
-        raise RecordError("is no record of deodar: nothing in it says what made it", where=str(path))
+        raise RecordError(
+            "is not a record of deodar: it does not state the model that made it", where=str(path)
+        )
     try:
         return portable.unpack(data)
     except RecordError as error:
@@ -162,7 +164,7 @@ def locate(path: Path) -> tuple[Path, str]:
     if start == b"\x89HDF\r\n\x1a\n":
         raise RecordError("is a NetCDF 4 (HDF5) file; deodar writes and reads NetCDF 3 and Zarr")
     raise RecordError(
-        "is no record", fix="A record is a .zarr folder, a .nc file, or a folder that deodar run wrote"
+        "is not a record", fix="A record is a .zarr folder, a .nc file, or a folder that deodar run wrote"
     )
 
 

@@ -34,7 +34,7 @@ def require_parent(path: Path) -> None:
     """Refuse a path whose parent folder is missing or cannot be written."""
     parent = path.parent
     if not parent.is_dir():
-        raise OutputError(f"there is no folder {str(parent)!r} to write into", where=str(path))
+        raise OutputError(f"the folder {str(parent)!r} does not exist", where=str(path))
     if not os.access(parent, os.W_OK | os.X_OK):
         raise OutputError(f"the folder {str(parent)!r} cannot be written to", where=str(path))
 
@@ -52,7 +52,7 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
             old = beside / "old"
             path.rename(old)
         if path.exists():
-            raise OutputExists("has come to exist meanwhile", where=str(path), fix="Choose another name")
+            raise OutputExists("was created meanwhile", where=str(path), fix="Choose another name")
         try:
             inner.rename(path)
             output.sync_folder(path.parent)

@@ -226,7 +226,7 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
         raise WorldError(
             f"the record was made with the world {_shown(described)}, and this file now holds something else",
             fix=(
-                "Give the file that it was made with, or this one to compare all the same: --world"
+                "Give the file that it was made with, or this one to compare nevertheless: --world"
                 f" {kind.lower()}:{described.get('file', 'FILE')}"
             ),
         )

@@ -115,6 +115,6 @@ def bind(host: str, port: int | None) -> socket.socket:
                 why = getattr(error, "strerror", None) or str(error)
                 raise OutputError(
                     f"cannot listen at {host} on port {number}: {why}",
-                    fix="Take another one: --port 0 finds a free one",
+                    fix="Use another one: --port 0 finds a free one",
                 ) from None
     raise OutputError(f"no free port at {host}", fix="Name one: --port N")

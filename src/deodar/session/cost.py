@@ -165,7 +165,7 @@ def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
     """
     given = real(seconds)
     if given is None or not 0 < given < math.inf:
-        raise TimeError(f"the time for measuring is {show(seconds)}; it is a number of seconds above 0")
+        raise TimeError(f"the time for measuring is {show(seconds)}; expected a number of seconds above 0")
     plan, used = at.program.plan, _read_ports(at)
     buffers = _buffers(at, used)
     groups = [

@@ -153,9 +153,9 @@ class Exchange:
         for motor, command in zip(self.motors.values(), found, strict=True):
             if not np.isfinite(command).all():
                 raise NotFinite(
-                    f"the motor {motor.motor!r} was told {show(command.ravel()[0])}",
+                    f"the motor {motor.motor!r} received {show(command.ravel()[0])}",
                     [motor.name],
-                    fix="Look for what drives it",
+                    fix="Check the elements that drive it",
                 )
             commands[motor.motor] = command.reshape(-1, *shape(tuple(motor.axes)))
         self._told = commands
@@ -235,7 +235,9 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
             it over other axes; or two elements drive one motor.
     """
     if world is not None and not isinstance(world, World):
-        raise WorldError(f"{show(world)} is no world", fix="For a picture: world=dd.Picture('photo.jpg')")
+        raise WorldError(
+            f"expected a world, got {show(world)}", fix="For a picture: world=dd.Picture('photo.jpg')"
+        )
     sensors: dict[str, Sensor] = {}
     motors: dict[str, Motor] = {}
     driven: dict[str, str] = {}
@@ -259,7 +261,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
                 raise WorldError(
                     f"drives the motor {name!r}, which {driven[name]} drives",
                     where=e.path,
-                    fix="Connect both to one Motor: it adds up",
+                    fix="Connect both to one Motor, which adds its inputs",
                 )
             driven[name] = e.path
             if world is not None:

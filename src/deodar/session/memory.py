@@ -61,7 +61,7 @@ def require(
         raise TooLarge(
             f"this run needs about {need / 2**30:,.1f} GiB and {free / 2**30:,.1f} GiB are free; most of it"
             f" is {largest.path} ({axes or 'no axes'})",
-            fix="Take fewer samples, fewer trials, "
+            fix="Use fewer samples, fewer trials, "
             + ("fewer workers, " if workers > 1 else "")
             + "or a larger `every`",
         )

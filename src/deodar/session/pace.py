@@ -276,7 +276,7 @@ def require_longest(session: Paced, longest: object) -> float | None:
     given = real(longest)
     if given is None or given < session.next_dt:
         raise TimeError(
-            f"the longest step is {show(longest)}; it is a number, and not below the planned step of"
+            f"the longest step is {show(longest)}; expected a number, not below the planned step of"
             f" {session.next_dt:g}",
             fix="Leave it out to keep the step",
         )

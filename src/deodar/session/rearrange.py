@@ -46,6 +46,6 @@ def remove(world: World, scene: Scene, name: str) -> tuple[str, Any]:
         WorldError: it is a mark, or cannot be moved.
     """
     if not isinstance(scene.thing(name), SceneBox):
-        raise WorldError("is a mark; it can be moved, not taken away", where=name)
+        raise WorldError("is a mark; it can be moved, not removed", where=name)
     world.remove(name)
     return f"world.remove {name}", None

@@ -429,7 +429,7 @@ class Run:
                 f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined in"
                 f" step {clock.tick} (time {clock.time:g} {self.doc.time_unit})",
                 names,
-                fix="Look for what drives its motors",
+                fix="Check the elements that drive its motors",
                 step=clock.tick,
             )
 
@@ -456,7 +456,7 @@ def require_step(doc: Document, dt: float) -> None:
     With such a step the Euler method would be inaccurate or diverge.
     """
     if not 0 < (real(dt) or 0) < math.inf:
-        raise TimeError(f"dt is {show(dt)}; it is a number above 0, in {doc.time_unit}")
+        raise TimeError(f"dt is {show(dt)}; expected a number above 0, in {doc.time_unit}")
     if abs(doc.t0) / dt > MOST_STEPS:
         raise TimeError(
             f"time {doc.t0:g} {doc.time_unit} is {abs(doc.t0) / dt:.3g} steps of dt = {dt:g} from time 0;"
@@ -473,7 +473,7 @@ def require_duration(duration: Any, what: str) -> float:
     """Return a duration as a float; raise TimeError unless it is finite and 0 or above."""
     given = real(duration)
     if given is None or not 0 <= given < math.inf:
-        raise TimeError(f"{what} is {show(duration)}; it is a number, 0 or above")
+        raise TimeError(f"{what} is {show(duration)}; expected a number, 0 or above")
     return given
 
 
@@ -488,7 +488,7 @@ def whole(duration: Any, dt: float, what: str) -> int:
     if abs(n - round(n)) > 1e-6 + 1e-14 * n:
         near = [k * dt for k in (int(n), int(n) + 1)]
         raise TimeError(
-            f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Take {near[0]:g} or {near[1]:g}"
+            f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Use {near[0]:g} or {near[1]:g}"
         )
     return round(n)
 

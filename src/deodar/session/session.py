@@ -292,7 +292,9 @@ class Session:
     def restore(self, snapshot: SessionSnapshot) -> None:
         """Restore a snapshot of this session or of another session of the same model."""
         if not isinstance(snapshot, SessionSnapshot):
-            raise ParameterError(f"{show(snapshot)} is no snapshot", fix="Take one with session.snapshot()")
+            raise ParameterError(
+                f"expected a snapshot, got {show(snapshot)}", fix="Take one with session.snapshot()"
+            )
         if snapshot.precision != self._precision:
             raise ParameterError(
                 f"the snapshot was taken in {snapshot.precision}, this session runs in {self._precision}"
@@ -353,7 +355,7 @@ class Session:
         scene = self.scene()
         if self.world is None or scene is None:
             raise WorldError(
-                "there is no world that is seen from above",
+                "the session has no world with a view from above",
                 fix="Give one: --world arena:blocks, or world=Arena('blocks')",
             )
         return self.world, scene
@@ -480,7 +482,8 @@ def require_model(model: Any) -> Model:
     """Return the model; raise ModelError if it is something else."""
     if not isinstance(model, Model):
         raise ModelError(
-            f"{show(model)} is no model", fix="Build one with dd.Model(name), or read one with dd.load(file)"
+            f"expected a model, got {show(model)}",
+            fix="Build one with dd.Model(name), or read one with dd.load(file)",
         )
     return model
 

@@ -198,4 +198,4 @@ def _hint(name: str, known: Mapping[str, Signal], what: str) -> str:
     if not known:
         return f"It has no {what}"
     near = did_you_mean(name, known)
-    return near if near.startswith("There is") else f"{near} There is: {', '.join(sorted(known))}"
+    return near if near.startswith("Valid names") else f"{near} Valid names: {', '.join(sorted(known))}"

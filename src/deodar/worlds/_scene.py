@@ -119,7 +119,7 @@ class Scene:
         )
         for other, radius in (*((b, b.radius) for b in self.bodies), *((m, 0.0) for m in self.marks)):
             if other.name != name and here.gap(*other.center) < max(radius - slack, slack):
-                raise WorldError(f"at {at} it would stand on {other.name!r}", where=name)
+                raise WorldError(f"at {at} it would cover {other.name!r}", where=name)
 
 
 def pair(what: str, given: Any) -> tuple[float, float]:

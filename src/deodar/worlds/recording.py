@@ -47,7 +47,7 @@ class Recording(World):
     def __init__(self, record: xarray.Dataset, file: str = "") -> None:
         if not isinstance(record, xarray.Dataset) or "time" not in record.dims:
             raise WorldError(
-                "is no record of a run",
+                "is not a record of a run",
                 where=file,
                 fix="Give what simulate returned, or name a record: --world recording:run.zarr",
             )
@@ -101,7 +101,9 @@ class Recording(World):
             if missing:
                 shown = ", ".join(map(str, self.numbers[:8])) + (", ..." if len(self.numbers) > 8 else "")
                 raise WorldError(
-                    f"holds no trial {missing[0]}", where=self.file or "the record", fix=f"There is: {shown}"
+                    f"holds no trial {missing[0]}",
+                    where=self.file or "the record",
+                    fix=f"Valid trials: {shown}",
                 )
             self._copies = [self.numbers.index(t) for t in trials]
 
@@ -110,7 +112,7 @@ class Recording(World):
         gap = self.period or 1.0
         if time >= self.times[-1] + gap * (1 - NEAR):
             raise WorldError(
-                f"ends at {self.times[-1]:g} ms, and the run goes on to {time:g} ms",
+                f"ends at {self.times[-1]:g} ms, and the run continues to {time:g} ms",
                 where=self.file or "the record",
             )
         k = max(0, int(np.searchsorted(self.times, time + gap * NEAR, side="right")) - 1)

@@ -315,7 +315,7 @@ GAP = {
             dict(layout={"arena": {"x": [0, 0.05], "y": [0, 0.05]}}),
             "the e-puck fits nowhere: it is 0.074 m wide",
         ),
-        (dict(unit="ft"), "unit is 'ft'; it is one of m, cm, mm"),
+        (dict(unit="ft"), "unit is 'ft'; expected one of m, cm, mm"),
         (dict(contact="slied"), "Did you mean 'slide'"),
         (dict(period=0), "period is 0; it is a finite number, above 0"),
         (dict(reflection=0), "reflection is 0"),
@@ -364,7 +364,7 @@ def begun_as(world: Arena) -> Arena:
 def test_a_motor_that_is_told_no_number_is_named() -> None:
     model = dd.Model("broken", dt=64)
     model.add(Boost("huge", [], 1e38)) >> dd.Gain(1e10) >> model.add(Motor("wheel", [], "left"))
-    with pytest.raises(dd.errors.NotFinite, match="motor 'left' was told"):
+    with pytest.raises(dd.errors.NotFinite, match="motor 'left' received"):
         dd.Session(model, world=Arena("blocks")).step(2)
 
 

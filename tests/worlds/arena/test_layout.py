@@ -105,7 +105,7 @@ def test_what_it_says_of_itself_is_read_as_the_same() -> None:
         ({"arena": {"x": [0, 2]}}, "arena: "),
         ({"arena": {"x": [2, 0], "y": [0, 1]}}, "arena.x: .*the lower end comes first"),
         ({"arena": None}, "arena: "),
-        ({"unit": "ft"}, "unit: is 'ft'; it is one of m, cm, mm"),
+        ({"unit": "ft"}, "unit: is 'ft'; expected one of m, cm, mm"),
         ({"plane": "y,z"}, "plane: is 'y,z'"),
         ({"heading": "north"}, "heading: is 'north'; it is an angle in rad"),
         ({"start": [1]}, "start: "),

@@ -51,7 +51,7 @@ def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
     if silent and not n.reads["input"] and wiring.driven:
         what = (
             f"nothing is connected to it, and its resting level {h:g} lies below its threshold {threshold:g}:"
-            " it stays silent for ever"
+            " it is never active"
         )
         yield warning(n, what, f"Connect an input: model.connect(..., {n.path!r}); or remove it")
     elif silent and n.id in wiring.driven and high <= 0 and low < 0:
@@ -83,14 +83,14 @@ def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
         yield warning(
             n,
             what,
-            f"Take a resting_level below {threshold - low:g}; resting levels are usually negative (-5)",
+            f"Use a resting_level below {threshold - low:g}; resting levels are usually negative (-5)",
         )
     if h < threshold and isinstance(e.sigmoid, Logistic) and rest > AT_REST:
         what = (
             f"gives an output of {rest:.2g} at rest: with beta = {e.sigmoid.beta:g} its sigmoid is too flat"
             f" for a resting level of {h:g}"
         )
-        yield warning(n, what, f"Take beta of {4 / (threshold - h):.2g} or more, or a lower resting_level")
+        yield warning(n, what, f"Use beta of {4 / (threshold - h):.2g} or more, or a lower resting_level")
     if isinstance(e, Field):
         white = not any(
             v for v in (e.noise_length if isinstance(e.noise_length, tuple) else (e.noise_length,))
@@ -98,10 +98,10 @@ def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
         deviation = e.noise / math.sqrt(2 * e.tau * (cell(tuple(e.axes)) if white else 1.0))
         if 0 < threshold - h < deviation:
             what = (
-                "its noise brings it over its threshold by itself: activation has a standard deviation of"
+                "its noise alone brings it above its threshold: activation has a standard deviation of"
                 f" {deviation:.2g}, and its resting level lies {threshold - h:g} below the threshold"
             )
-            yield warning(n, what, f"Take noise below {e.noise * (threshold - h) / deviation / 4:.2g}")
+            yield warning(n, what, f"Use noise below {e.noise * (threshold - h) / deviation / 4:.2g}")
 
 
 def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
@@ -117,13 +117,13 @@ def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
         yield warning(
             n,
             f"learns nothing: its threshold is {e.threshold:g}, and what arrives is at most {most:g}",
-            "Take a threshold of 0.5",
+            "Use a threshold of 0.5",
         )
     if isinstance(e, Threshold) and most <= e.level:
         yield warning(
             n,
             f"its input never exceeds its level {e.level:g}: it is at most {most:g}",
-            f"Take a level below {most:g}",
+            f"Use a level below {most:g}",
         )
     if isinstance(e, (PeakPosition, RateCode)):
         axes = n.ins["input"] if isinstance(e, PeakPosition) else tuple(e.axes)
@@ -136,6 +136,6 @@ def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
             yield warning(
                 n,
                 what,
-                "Take least far below the integral of one peak (its width times its height), such as"
+                "Use least far below the integral of one peak (its width times its height), such as"
                 f" {whole / 100:.2g}",
             )

@@ -52,7 +52,7 @@ def _axis(n: Node, a: Axis) -> Iterator[Problem]:
     elif whole and not a.periodic and math.isclose(a.range, whole, rel_tol=1e-4):
         what = (
             f"the axis {a.name!r} is a whole circle ({a.range:g} {a.unit}), but its ends do not meet: kernels"
-            " take them for far apart"
+            " treat its ends as far apart"
         )
         yield warning(n, what, f"Write periodic=True and samples={a.samples - 1}")
 

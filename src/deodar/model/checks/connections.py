@@ -34,13 +34,14 @@ def check(wiring: Wiring) -> Iterator[Problem]:
     for n in wiring.declared:
         if isinstance(n.element, Motor) and (first := motors.setdefault(n.element.motor, n)) is not n:
             what = (
-                f"tells the motor {n.element.motor!r}, which {first.path} tells as well: only one of them can"
+                f"commands the motor {n.element.motor!r}, which {first.path} commands too: a motor takes one"
+                " command"
             )
             yield warning(n, what, "Name another motor, or connect both signals to one element")
-    for knob in wiring.doc.knobs:
-        if not knob.links and wiring.driven:
-            fix = f"Link it: model.link('element.parameter', {knob.name!r}); or remove it"
-            yield Problem(knob.name, "the document parameter drives nothing", fix, "warning")
+    for shared in wiring.doc.knobs:
+        if not shared.links and wiring.driven:
+            fix = f"Link it: model.link('element.parameter', {shared.name!r}); or remove it"
+            yield Problem(shared.name, "the document parameter drives nothing", fix, "warning")
 
 
 def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
@@ -64,8 +65,8 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
         yield warning(
             n,
-            f"stands in for {e.missing or 'what is missing'} and gives 0 to what reads it",
-            "Put an element in its place that does it",
+            f"is a placeholder for {e.missing or 'a missing element'}: its output is 0",
+            "Replace it with an element that computes this",
         )
 
 

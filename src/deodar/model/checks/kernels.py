@@ -51,9 +51,9 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
             if not axis.periodic and abs(by) > axis.range:
                 what = (
                     f"{where}: the shift {by:g} is longer than the axis {axis.name!r} ({axis.range:g}), so it"
-                    " acts on no place"
+                    " has no effect"
                 )
-                yield warning(n, what, f"Take a shift below {axis.range:g}")
+                yield warning(n, what, f"Use a shift below {axis.range:g}")
         return
     if isinstance(kernel, MexicanHat):
         if kernel.inhibition < 0 or kernel.excitation < 0:
@@ -74,8 +74,8 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
         )
         if kernel.inhibition > 0 and axes and all(float(b) <= float(a) for a, b in pairs):
             what = (
-                f"{where}: sigma_inhibition is not larger than sigma_excitation, so neighbours inhibit and"
-                " places further off excite"
+                f"{where}: sigma_inhibition is not larger than sigma_excitation, so near positions inhibit"
+                " and distant ones excite"
             )
             yield warning(n, what, "Make sigma_inhibition the larger one")
     if not isinstance(kernel, (Gaussian, MexicanHat)):
@@ -88,12 +88,12 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
             axis, s = pairs[0]
             what = (
                 f"{where}: a sigma of {s:g} is narrower than the step {axis.step:g} of the axis"
-                f" {axis.name!r}: no place reaches its neighbours"
+                f" {axis.name!r}: no sample reaches its neighbours"
             )
             yield warning(
                 n,
                 what,
-                f"Take a sigma of {axis.step:g} or more, or more samples; widths are in units of the axis",
+                f"Use a sigma of {axis.step:g} or more, or more samples; widths are in units of the axis",
             )
             return
         for axis, s in pairs if excites else ():
@@ -102,5 +102,5 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
                     f"{where}: a sigma of {s:g} is wider than the axis {axis.name!r} ({axis.range:g}), so the"
                     " kernel is the same everywhere"
                 )
-                yield warning(n, what, f"Take a sigma far below {axis.range:g}")
+                yield warning(n, what, f"Use a sigma far below {axis.range:g}")
                 return

@@ -98,7 +98,7 @@ def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     what = (
         "a peak in it spreads over the whole field: half of its kernel's integral"
         f" ({sum(b for _, b in parts) / 2:.3g}) exceeds the resting level {e.resting_level:g}, and nothing"
-        " inhibits what lies further off"
+        " inhibits distant positions"
     )
     yield warning(
         n,

@@ -66,7 +66,7 @@ def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
         if not isinstance(w, Window) or w.stop <= w.start:
             continue
         if w.stop <= wiring.doc.t0:
-            what = f"windows.{k} ends at {w.stop:g}: it is over before the run begins at {wiring.doc.t0:g}"
+            what = f"windows.{k} ends at {w.stop:g}, before the run begins at {wiring.doc.t0:g}"
             yield warning(
                 n, what, f"Windows are times on the document's clock: begin at {wiring.doc.t0:g} or later"
             )
@@ -87,8 +87,8 @@ def _learning(n: Node) -> Iterator[Problem]:
         yield warning(n, what, "Give it a rate, such as 0.01, or weights: start=...")
     if isinstance(e, Hebbian) and 0 < e.saturation < e.initial and e.start is None:
         what = (
-            f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first thing"
-            " learned makes them smaller"
+            f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first"
+            " learning step makes them smaller"
         )
         yield warning(n, what, f"Write initial={e.saturation:g} or less, or a larger saturation")
 
@@ -126,12 +126,12 @@ def _series(n: Node, step: float) -> Iterator[Problem]:
                 and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0))
             ):
                 what = (
-                    f"begins at {c:g}, beyond the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its"
+                    f"begins at {c:g}, outside the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its"
                     f" velocity {v:g} never brings it there"
                 )
                 yield warning(
                     n,
                     what,
-                    f"Take a center between {axis.lower:g} and {axis.upper:g}, or another sign of the"
+                    f"Use a center between {axis.lower:g} and {axis.upper:g}, or another sign of the"
                     " velocity",
                 )

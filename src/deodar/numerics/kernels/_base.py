@@ -94,7 +94,7 @@ class Kernel(Part):
                 if abs(v) > WIDEST * axis.range:
                     yield (
                         f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r}"
-                        f" ({axis.range:g}): a kernel so wide is one number at all places. Give at most"
+                        f" ({axis.range:g}): a kernel this wide is constant. Give at most"
                         f" {WIDEST * axis.range:g}; for an input that is the same everywhere take a"
                         " Project([]) and a Gain"
                     )

@@ -140,7 +140,7 @@ class Arena(PureWorld):
     ) -> None:
         self.layout = load(layout)
         if unit not in UNITS:
-            raise WorldError(f"unit is {show(unit)}; it is one of {', '.join(UNITS)}")
+            raise WorldError(f"unit is {show(unit)}; expected one of {', '.join(UNITS)}")
         if contact not in CONTACTS:
             raise WorldError(f"contact is {show(contact)}", fix=did_you_mean(str(contact), CONTACTS))
         self.unit, self.scale, self.vehicle, self.contact = unit, UNITS[unit], vehicle, contact

@@ -52,7 +52,7 @@ class Furniture:
             raise WorldError(
                 f"the arena is full: {SPARE} things besides those of its file",
                 where=thing.name,
-                fix="Take one away with remove(name)",
+                fix="Remove one with remove(name)",
             )
         k = names.index(thing.name if thing.name in names else None)
         self.things[k], self.windows[k] = thing, times

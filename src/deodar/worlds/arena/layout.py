@@ -165,7 +165,7 @@ def _layout(data: Any, where: str) -> ArenaLayout:
             faults.say("", f"says {key!r}, which is not known", f"Did you mean {near[0]!r}?")
     scale = UNITS.get(data.get("unit", "m"), 0.0) if isinstance(data.get("unit", "m"), str) else 0.0
     if not scale:
-        faults.say("unit", f"is {show(data.get('unit'))}; it is one of {', '.join(UNITS)}")
+        faults.say("unit", f"is {show(data.get('unit'))}; expected one of {', '.join(UNITS)}")
         scale = 1.0
     names = str(data.get("plane", "x,y")).split(" ")[0]
     if names not in ("x,y", "x,z"):
